@@ -1,0 +1,47 @@
+# Compile options shared by every target, and the function that makes one library of one folder.
+
+add_library(towbench_options INTERFACE)
+target_include_directories(towbench_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_compile_options(towbench_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wnon-virtual-dtor
+  -Wold-style-cast -Woverloaded-virtual -Wundef -Werror
+  # Same bits on every machine and build type: no fused multiply-add, no reassociation.
+  -ffp-contract=off -fno-fast-math)
+if(TOWBENCH_SANITIZE)
+  target_compile_options(towbench_options INTERFACE
+    -fsanitize=${TOWBENCH_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(towbench_options INTERFACE -fsanitize=${TOWBENCH_SANITIZE})
+endif()
+
+# towbench_library(NAME [DEPENDS targets...] [EXCLUDE regex...]): every .cc below the calling folder.
+function(towbench_library name)
+  cmake_parse_arguments(arg "" "" "DEPENDS;EXCLUDE" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
+  foreach(pattern IN LISTS arg_EXCLUDE)
+    list(FILTER sources EXCLUDE REGEX "${pattern}")
+  endforeach()
+  if(sources)
+    add_library(${name} STATIC ${sources})
+    target_link_libraries(${name} PUBLIC towbench_options ${arg_DEPENDS})
+  else()
+    add_library(${name} INTERFACE)
+    target_link_libraries(${name} INTERFACE towbench_options ${arg_DEPENDS})
+  endif()
+endfunction()
+
+# towbench_test(NAME DEPENDS targets...): one GoogleTest program of the calling folder.
+function(towbench_test name)
+  cmake_parse_arguments(arg "" "" "DEPENDS;EXCLUDE" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
+  foreach(pattern IN LISTS arg_EXCLUDE)
+    list(FILTER sources EXCLUDE REGEX "${pattern}")
+  endforeach()
+  if(NOT sources)
+    return()
+  endif()
+  add_executable(${name} ${sources})
+  target_link_libraries(${name} PRIVATE towbench_options ${arg_DEPENDS}
+    GTest::gmock GTest::gtest GTest::gtest_main)
+  gtest_discover_tests(${name} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR} DISCOVERY_TIMEOUT 60
+    DISCOVERY_MODE PRE_TEST)
+endfunction()

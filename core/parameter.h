@@ -1,0 +1,40 @@
+// How a plain parameter struct describes itself, once, to the file reader, the command line, the
+// documentation and whoever writes it back.
+//
+//   struct Gearbox {
+//     double ratio = 34.977;
+//     template <typename Visitor>
+//     void visit(Visitor& v) {
+//       v.value("gear_ratio", ratio, at_least(1.0), "motor turns per output turn");
+//     }
+//   };
+//
+// A visitor offers value(key, field, range, meaning) for double, bool, std::int64_t and enums with
+// names, and group(key, nested, meaning) for a nested struct. The unit is the key's suffix.
+#pragma once
+
+#include <limits>
+
+namespace towbench::core {
+
+struct Range {
+  double min = -std::numeric_limits<double>::max();
+  double max = std::numeric_limits<double>::max();
+  bool min_is_allowed = true;
+
+  // NaN and infinities are inside no range.
+  [[nodiscard]] constexpr bool contains(double value) const noexcept {
+    return (min_is_allowed ? value >= min : value > min) && value <= max;
+  }
+};
+
+[[nodiscard]] constexpr Range any_finite() noexcept { return {}; }
+[[nodiscard]] constexpr Range at_least(double min) noexcept { return {.min = min}; }
+[[nodiscard]] constexpr Range above(double min) noexcept {
+  return {.min = min, .min_is_allowed = false};
+}
+[[nodiscard]] constexpr Range between(double min, double max) noexcept {
+  return {.min = min, .max = max};
+}
+
+}  // namespace towbench::core

@@ -1,0 +1,58 @@
+// A lock-free queue of fixed capacity for one producer and one consumer thread.
+//
+// boost::lockfree::spsc_queue serves the harness; this one exists because the controller's layers
+// compile for bare metal, where Boost is not available.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <type_traits>
+
+namespace towbench::core {
+
+template <typename T, std::size_t Capacity>
+class SpscQueue {
+  static_assert(std::is_trivially_copyable_v<T>);
+  static_assert((Capacity & (Capacity - 1)) == 0, "a power of two keeps the index arithmetic cheap");
+
+ public:
+  // Producer side. False when full: the item is refused, never overwritten.
+  [[nodiscard]] bool push(const T& item) noexcept {
+    const std::size_t tail = tail_.load(std::memory_order_relaxed);
+    if (tail - head_.load(std::memory_order_acquire) == Capacity) {
+      return false;
+    }
+    items_[tail & kMask] = item;
+    tail_.store(tail + 1, std::memory_order_release);
+    return true;
+  }
+
+  // Consumer side. False when empty.
+  [[nodiscard]] bool pop(T& item) noexcept {
+    const std::size_t head = head_.load(std::memory_order_relaxed);
+    if (head == tail_.load(std::memory_order_acquire)) {
+      return false;
+    }
+    item = items_[head & kMask];
+    head_.store(head + 1, std::memory_order_release);
+    return true;
+  }
+
+  // Exact on the calling side only if the other side rests.
+  [[nodiscard]] std::size_t size() const noexcept {
+    return tail_.load(std::memory_order_acquire) - head_.load(std::memory_order_acquire);
+  }
+  [[nodiscard]] bool empty() const noexcept { return size() == 0; }
+  [[nodiscard]] static constexpr std::size_t capacity() noexcept { return Capacity; }
+
+ private:
+  static constexpr std::size_t kMask = Capacity - 1;
+  // Head and tail on cache lines of their own, or the two threads would fight over one.
+  static constexpr std::size_t kCacheLine = 64;
+  alignas(kCacheLine) std::atomic<std::size_t> head_{0};
+  alignas(kCacheLine) std::atomic<std::size_t> tail_{0};
+  alignas(kCacheLine) std::array<T, Capacity> items_{};
+};
+
+}  // namespace towbench::core

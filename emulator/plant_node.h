@@ -1,0 +1,57 @@
+// The plant's end of the protocol: receives duty, runs the rig at 10 kHz, sends edges and lines.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "core/axis.h"
+#include "core/time.h"
+#include "emulator/rig_parameters.h"
+#include "emulator/scheduled_event.h"
+#include "emulator/truth_row.h"
+#include "protocol/message_sink.h"
+
+namespace towbench::emulator {
+
+// Receives what only the emulator knows. Called from the thread that runs the plant, inside
+// on(Advance): an observer copies and returns.
+class PlantObserver {
+ public:
+  PlantObserver() = default;
+  PlantObserver(const PlantObserver&) = delete;
+  PlantObserver& operator=(const PlantObserver&) = delete;
+  virtual ~PlantObserver() = default;
+  virtual void on_truth(const TruthRow& row) noexcept = 0;
+  virtual void on_event(const PlantEvent& event) noexcept = 0;
+};
+
+class PlantNode : public protocol::MessageSink {
+ public:
+  // `seed` feeds every random quantity of the rig; `events` are sorted by time.
+  PlantNode(const RigParameters& rig, std::uint64_t seed, std::span<const ScheduledEvent> events,
+            PlantObserver& observer);
+  ~PlantNode() override;
+
+  // Must precede the first message. The sink outlives this node.
+  void connect(protocol::MessageSink& controller) noexcept;
+
+  void on(const protocol::Hello& hello) noexcept override;
+  void on(const protocol::PwmDuty& duty) noexcept override;
+  void on(const protocol::DigitalOutputs& outputs) noexcept override;
+  void on(const protocol::Advance& advance) noexcept override;
+  void on(const protocol::Fault& fault) noexcept override;
+  void on(const protocol::Bye& bye) noexcept override;
+
+  // The carrier calls this when the controller is gone: drive removed, event recorded.
+  void peer_lost(core::ErrorCode why) noexcept;
+
+  [[nodiscard]] bool finished() const noexcept;
+  [[nodiscard]] core::Nanoseconds now_ns() const noexcept;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace towbench::emulator

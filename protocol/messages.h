@@ -1,0 +1,190 @@
+// What crosses between controller and plant. One set of messages, one meaning, on every carrier.
+//
+// Times are integer nanoseconds from the start of the run. The wire form of each message stands in
+// protocol/README.md and is produced by codec.h; in process no wire form exists and messages are
+// handed over by reference (message_sink.h).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/axis.h"
+#include "core/bounded_vector.h"
+#include "core/error.h"
+#include "core/time.h"
+
+namespace towbench::protocol {
+
+inline constexpr std::uint16_t kProtocolVersion = 1;
+
+enum class Role : std::uint8_t { kController = 0, kPlant = 1, kObserver = 2 };
+
+// Bits of Hello::capabilities.
+inline constexpr std::uint32_t kCapabilityEdges = 1U << 0U;   // EncoderEdges
+inline constexpr std::uint32_t kCapabilityDigest = 1U << 1U;  // EncoderReport
+
+// First message of each side. A mismatch is refused with both sides named (handshake.h).
+struct Hello {
+  std::uint16_t version = kProtocolVersion;
+  Role role = Role::kController;
+  std::uint8_t axes_mask = 0;          // bit index_of(axis)
+  std::uint32_t tick_ns = 0;           // the plant's step
+  std::uint32_t exchange_ns = 0;       // time between two Advance messages in lockstep
+  std::uint32_t capabilities = 0;
+  std::uint64_t fixture_hash = 0;      // of the rig, as both sides read it; 0 = not known, accept any
+};
+
+// The plant's answer to Hello, with what it is and whether it agrees.
+struct HelloReply {
+  Hello plant;
+  core::ErrorCode refusal = core::ErrorCode::kNone;
+};
+
+// The two half-bridge channels of one axis. At most one is non-zero: A drives towards max, B
+// towards min. Ticks are of the PWM counter; duty = ticks / period.
+struct PwmDuty {
+  core::Axis axis = core::Axis::kY;
+  bool enable = false;
+  std::uint16_t channel_a_ticks = 0;
+  std::uint16_t channel_b_ticks = 0;
+  std::uint16_t period_ticks = 0;      // > 0
+  std::uint32_t sequence = 0;          // + 1 for each message of this axis
+};
+
+enum class EncoderLine : std::uint8_t { kA = 0, kB = 1, kIndex = 2 };
+
+// One toggle of one line, packed as on the wire: time since the previous edge of the message (or
+// its start) in the low 30 bits, line in the upper two.
+class EncoderEdge {
+ public:
+  static constexpr std::uint32_t kMaxStep_ns = (1U << 30U) - 1U;
+
+  constexpr EncoderEdge() noexcept = default;
+  constexpr EncoderEdge(std::uint32_t step_ns, EncoderLine line) noexcept
+      : packed_((static_cast<std::uint32_t>(line) << 30U) | (step_ns & kMaxStep_ns)) {}
+  static constexpr EncoderEdge from_packed(std::uint32_t packed) noexcept {
+    EncoderEdge edge;
+    edge.packed_ = packed;
+    return edge;
+  }
+  [[nodiscard]] constexpr std::uint32_t packed() const noexcept { return packed_; }
+  [[nodiscard]] constexpr std::uint32_t step_ns() const noexcept { return packed_ & kMaxStep_ns; }
+  // 3 is not a line; the codec refuses it.
+  [[nodiscard]] constexpr EncoderLine line() const noexcept {
+    return static_cast<EncoderLine>(packed_ >> 30U);
+  }
+  friend constexpr bool operator==(EncoderEdge, EncoderEdge) = default;
+
+ private:
+  std::uint32_t packed_ = 0;
+};
+
+// Levels of the three lines of one encoder as a bit field: bit 0 A, bit 1 B, bit 2 index.
+using EncoderLevels = std::uint8_t;
+
+inline constexpr std::size_t kMaxEdgesPerMessage = 1024;
+
+// Every edge of one axis in [start, end), oldest first. More than kMaxEdgesPerMessage in one
+// exchange go into several messages, each starting where the one before ended.
+struct EncoderEdges {
+  core::Axis axis = core::Axis::kY;
+  EncoderLevels start_levels = 0;
+  core::Nanoseconds start_ns = 0;
+  core::Nanoseconds end_ns = 0;
+  std::uint32_t sequence = 0;
+  core::BoundedVector<EncoderEdge, kMaxEdgesPerMessage> edges;
+};
+
+// The digest of the same for narrow links: what a quadrature peripheral at the plant's side saw.
+struct EncoderReport {
+  core::Axis axis = core::Axis::kY;
+  EncoderLevels levels = 0;
+  core::Nanoseconds time_ns = 0;            // end of the interval reported
+  std::int32_t count_change = 0;
+  core::Nanoseconds last_edge_ns = 0;       // 0 = none since the start of the run
+  std::uint32_t capture_period_ns = 0;      // between the last two edges; 0 = unknown
+  std::int32_t index_count = 0;             // count at the last index pulse
+  std::uint16_t index_pulses = 0;           // in the interval
+  std::uint16_t illegal_transitions = 0;    // in the interval
+  std::uint32_t sequence = 0;
+};
+
+// Lines from the machine to the controller, one bit each; 1 = active.
+enum class InputLine : std::uint8_t {
+  kHallYMin = 0,
+  kHallYMax = 1,
+  kHallXMin = 2,
+  kHallXMax = 3,
+  kKillSwitch = 4,
+  kAmplifierReadyY = 5,
+  kAmplifierReadyX = 6,
+};
+inline constexpr std::size_t kInputLineCount = 7;
+
+[[nodiscard]] constexpr std::uint16_t mask_of(InputLine line) noexcept {
+  return static_cast<std::uint16_t>(1U << static_cast<unsigned>(line));
+}
+
+// All lines as they are from `change_ns` on. Sent once at start and at each change, with the
+// change's own time inside the plant step.
+struct DigitalInputs {
+  std::uint16_t lines = 0;
+  core::Nanoseconds change_ns = 0;
+  std::uint32_t sequence = 0;
+};
+
+enum class OutputLine : std::uint8_t { kAmplifierEnableY = 0, kAmplifierEnableX = 1 };
+inline constexpr std::size_t kOutputLineCount = 2;
+
+[[nodiscard]] constexpr std::uint16_t mask_of(OutputLine line) noexcept {
+  return static_cast<std::uint16_t>(1U << static_cast<unsigned>(line));
+}
+
+struct DigitalOutputs {
+  std::uint16_t lines = 0;
+  core::Nanoseconds change_ns = 0;
+  std::uint32_t sequence = 0;
+};
+
+// Force/torque between mount and shaft, sensor frame = tank frame at zero yaw.
+struct ForceSample {
+  core::Nanoseconds time_ns = 0;
+  std::array<float, 3> force_N{};
+  std::array<float, 3> torque_Nm{};
+};
+
+struct CurrentSample {
+  core::Axis axis = core::Axis::kY;
+  core::Nanoseconds time_ns = 0;
+  float armature_current_A = 0;
+};
+
+// Lockstep, controller to plant: "all my outputs up to now are sent; run until this time."
+struct Advance {
+  core::Nanoseconds until_ns = 0;
+};
+
+// Lockstep, plant to controller: "all that happened until this time is sent."
+struct Advanced {
+  core::Nanoseconds time_ns = 0;
+};
+
+struct Heartbeat {
+  core::Nanoseconds time_ns = 0;
+  std::uint32_t sequence = 0;
+};
+
+// Something the sender found wrong, for the other side's record.
+struct Fault {
+  core::ErrorCode code = core::ErrorCode::kNone;
+  core::Nanoseconds time_ns = 0;
+  std::uint32_t detail = 0;  // meaning belongs to the code: an axis, a line, a count
+};
+
+// Orderly end. The receiver removes the drive, answers with its own Bye, and stops.
+struct Bye {
+  core::Nanoseconds time_ns = 0;
+};
+
+}  // namespace towbench::protocol
