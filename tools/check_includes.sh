@@ -11,6 +11,7 @@ bare_forbidden='iostream fstream sstream ostream istream iomanip locale regex fi
   condition_variable future semaphore string vector map unordered_map set list deque functional
   memory_resource iosfwd format random chrono'
 
+# shellcheck disable=SC2016  # the awk program is not for the shell
 find core protocol emulator bbmc harness tests benchmarks \
   \( -name '*.h' -o -name '*.cc' \) -type f 2>/dev/null | sort | xargs awk -v forbidden="$bare_forbidden" '
   BEGIN {

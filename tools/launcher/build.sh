@@ -1,0 +1,48 @@
+# shellcheck shell=bash
+# Configures and builds one preset, quietly unless it fails. Sourced by ./towbench; expects $root.
+
+# shellcheck disable=SC2034,SC2154  # used by ./towbench; set by it
+bench_program=$root/build/release/harness/towbench-bench
+
+# build_preset PRESET BUILD_PRESET [TARGET...]: a line says that it builds, the log stays in build/.
+build_preset() {
+  local preset=$1 folder_preset=$2 log
+  shift 2
+  mkdir -p "$root/build"
+  log=$root/build/$preset.log
+  local targets=()
+  (($#)) && targets=(--target "$@")
+  if ! (cd "$root" && cmake --preset "$preset" >"$log" 2>&1 && build_quietly "$folder_preset" "$log" "${targets[@]}"); then
+    grep -E 'error|FAILED|Error' -A 8 "$log" | head -n 60 >&2 || tail -n 40 "$log" >&2
+    echo "towbench: the $preset build failed; the whole log: build/$preset.log" >&2
+    exit 3
+  fi
+}
+
+# Says that it builds only when there is something to build; the include check always is.
+has_work() { (($(cmake --build "$@" -- -n 2>/dev/null | grep -c '^\[') > 1)); }
+
+# Ninja's own counter is the progress line, on a terminal only.
+build_quietly() {
+  local folder_preset=$1 log=$2
+  shift 2
+  if ! has_work "build/$folder_preset" "$@"; then
+    cmake --build "build/$folder_preset" "$@" >>"$log" 2>&1
+  elif [[ -t 2 ]]; then
+    NINJA_STATUS='towbench: building %f/%t ' cmake --build "build/$folder_preset" "$@" 2>&1 | tee -a "$log" |
+      grep --line-buffered -oE '^towbench: building [0-9]+/[0-9]+' | while read -r line; do printf '\r%s' "$line" >&2; done
+    local status=${PIPESTATUS[0]}
+    printf '\r\033[K' >&2
+    return "$status"
+  else
+    echo "towbench: building ($folder_preset)" >&2
+    cmake --build "build/$folder_preset" "$@" >>"$log" 2>&1
+  fi
+}
+
+# The bench itself. A tree configured with tests keeps them; a fresh one is built without.
+build_bench() {
+  local preset=user
+  if grep -qs 'TOWBENCH_TESTS:BOOL=ON' "$root/build/release/CMakeCache.txt"; then preset=release; fi
+  build_preset "$preset" release towbench-bench check_includes
+}

@@ -1,0 +1,138 @@
+# shellcheck shell=bash disable=SC2154
+# `./towbench test`: every check there is, stage by stage, with one summary. Sourced by ./towbench.
+#
+# A stage is a function stage_NAME that returns 0 (passed), 99 (skipped, reason in $skip_reason) or
+# anything else (failed). It adds what it counted to $passed and $failed.
+
+all_stages=(lint tests sanitize_address sanitize_thread fuzz fresh_start)
+quick_stages=(lint tests)
+
+test_usage() {
+  cat <<'TEXT'
+usage: ./towbench test [--quick] [--only STAGE]... [--list]
+
+  (nothing)     every stage; about half an hour on two cores from nothing
+  --quick       lint, unit, integration and browser tests only
+  --only STAGE  this stage only; may be repeated
+  --list        name the stages
+
+stages: lint              format, shellcheck, include rules, clang-tidy
+        tests             unit, integration and browser tests of the release build
+        sanitize_address  the same under address and undefined-behaviour sanitizers
+        sanitize_thread   the same under the thread sanitizer
+        fuzz              every libFuzzer target for a minute (TOWBENCH_FUZZ_SECONDS to change)
+        fresh_start       clone, ./towbench demo and --quick test in a bare Debian 12 folder
+
+exit code: 0 all passed; 1 something failed; 2 bad arguments; 99 nothing failed but all was skipped
+TEXT
+}
+
+run_tests() {
+  local stages=("${all_stages[@]}") chosen=()
+  while (($#)); do
+    case $1 in
+      --quick) stages=("${quick_stages[@]}") ;;
+      --only)
+        [[ " ${all_stages[*]} " == *" ${2:-} "* ]] || { echo "towbench: no stage '${2:-}' (allowed: ${all_stages[*]})" >&2; exit 2; }
+        chosen+=("$2")
+        shift
+        ;;
+      --list) printf '%s\n' "${all_stages[@]}"; return ;;
+      --help | -h) test_usage; return ;;
+      *) echo "towbench: unknown argument '$1' to test (allowed: --quick --only --list --help)" >&2; exit 2 ;;
+    esac
+    shift
+  done
+  ((${#chosen[@]})) && stages=("${chosen[@]}")
+  install_packages test
+  run_stages "${stages[@]}"
+}
+
+run_stages() {
+  passed=0 failed=0 skipped=0 summary=''
+  local stage started status verdict
+  for stage in "$@"; do
+    printf '\n== %s\n' "$stage"
+    started=$SECONDS skip_reason=''
+    status=0
+    "stage_$stage" || status=$?
+    case $status in
+      0) verdict=passed ;;
+      99) verdict="skipped: $skip_reason" skipped=$((skipped + 1)) ;;
+      *) verdict=FAILED failed=$((failed == 0 ? 1 : failed)) ;;
+    esac
+    summary+=$(printf '%-18s %4d s  %s' "$stage" $((SECONDS - started)) "$verdict")$'\n'
+  done
+  printf '\n%s\n%d passed, %d failed, %d skipped\n' "$summary" "$passed" "$failed" "$skipped"
+  ((failed)) && exit 1
+  ((passed)) || exit 99
+  exit 0
+}
+
+# count COMMAND...: one check, counted.
+count() {
+  if "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); return 1; fi
+}
+
+# run_ctest PRESET [ctest arguments...]: counts each test, shows the failed ones.
+run_ctest() {
+  local preset=$1 log=$root/build/$1.ctest.log status=0 line
+  shift
+  ctest --test-dir "$root/build/$preset" --output-on-failure --no-tests=error -j 2 "$@" >"$log" 2>&1 || status=$?
+  line=$(grep -E 'tests? failed out of' "$log" || echo '0 tests failed out of 0')
+  local total=${line##* } bad=${line#*passed, } off
+  bad=${bad%% *}
+  off=$(grep -cE '\*\*\*(Skipped|Not Run)' "$log" || true)
+  passed=$((passed + total - bad - off)) failed=$((failed + bad)) skipped=$((skipped + off))
+  grep -E '\*\*\*(Skipped|Not Run)' "$log" || true
+  if ((status)); then grep -vE '^ *[0-9]+/[0-9]+ Test .* Passed|^ *Start ' "$log" | tail -n 150; fi
+  echo "$((total - bad - off)) of $total tests passed ($preset)"
+  return "$status"
+}
+
+stage_lint() {
+  "$root/tools/lint.sh" "$root" || { failed=$((failed + 1)); return 1; }
+  passed=$((passed + 1))
+}
+
+stage_tests() {
+  build_preset release release
+  run_ctest release
+}
+
+stage_sanitize_address() {
+  build_preset asan asan
+  ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 run_ctest asan -LE browser
+}
+
+stage_sanitize_thread() {
+  build_preset tsan tsan
+  TSAN_OPTIONS=halt_on_error=1 run_ctest tsan -LE browser
+}
+
+stage_fuzz() {
+  build_preset fuzz fuzz
+  local target
+  for target in "$root"/build/fuzz/tests/fuzz/fuzz_*; do
+    [[ -f $target && -x $target ]] && echo "$target"
+  done >"$root/build/fuzz.targets"
+  [[ -s $root/build/fuzz.targets ]] || { echo 'no fuzz target was built'; return 1; }
+  # Two at a time: as many as the smallest supported machine has cores.
+  if xargs -P 2 -n 1 "$root/tools/fuzz_one.sh" "$root" "${TOWBENCH_FUZZ_SECONDS:-60}" <"$root/build/fuzz.targets"; then
+    passed=$((passed + $(wc -l <"$root/build/fuzz.targets")))
+  else
+    failed=$((failed + 1))
+    return 1
+  fi
+}
+
+stage_fresh_start() {
+  local status=0
+  "$root/tools/fresh_start.sh" "$root" || status=$?
+  if ((status == 99)); then
+    skip_reason='no bare Debian could be made here (see above)'
+  elif ((status == 0)); then
+    passed=$((passed + 1))
+  fi
+  return "$status"
+}

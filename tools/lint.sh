@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Format, shell scripts, include rules and static analysis of the whole tree.
+# usage: lint.sh ROOT
+set -uo pipefail
+root=${1:?usage: lint.sh ROOT}
+cd "$root" || exit 1
+status=0
+
+mapfile -t sources < <(git ls-files '*.cc' '*.h')
+mapfile -t scripts < <(git ls-files '*.sh' towbench .ci/run)
+
+echo "clang-format: ${#sources[@]} files"
+clang-format --dry-run -Werror "${sources[@]}" 2>&1 | grep -E 'error' | head -n 20 && status=1
+
+echo "shellcheck: ${#scripts[@]} scripts"
+shellcheck -x "${scripts[@]}" || status=1
+
+sh tools/check_includes.sh . || status=1
+
+# An absolute path of somebody's machine in a tracked file is a mistake, always.
+if git grep -nIE '(^|[^A-Za-z0-9_.])/(work|home|root)/' -- . ":!*.lock" ":!tools/lint.sh"; then
+  echo "machine paths in tracked files"
+  status=1
+fi
+
+tools/clang_tidy.sh . || status=1
+exit "$status"
