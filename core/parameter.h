@@ -10,7 +10,10 @@
 //   };
 //
 // A visitor offers value(key, field, range, meaning) for double, bool, std::int64_t and enums with
-// names, and group(key, nested, meaning) for a nested struct. The unit is the key's suffix.
+// names, list(key, field, range, meaning) for a core::BoundedVector<double, N> (a TOML array), and
+// group(key, nested, meaning) for a nested struct. The unit is the key's suffix. An enum E with
+// names has, beside it, `constexpr std::array<std::string_view, n> names_of(E)`: one name a value,
+// in order.
 #pragma once
 
 #include <limits>
@@ -28,8 +31,12 @@ struct Range {
   }
 };
 
-[[nodiscard]] constexpr Range any_finite() noexcept { return {}; }
-[[nodiscard]] constexpr Range at_least(double min) noexcept { return {.min = min}; }
+[[nodiscard]] constexpr Range any_finite() noexcept {
+  return {};
+}
+[[nodiscard]] constexpr Range at_least(double min) noexcept {
+  return {.min = min};
+}
 [[nodiscard]] constexpr Range above(double min) noexcept {
   return {.min = min, .min_is_allowed = false};
 }

@@ -6,13 +6,14 @@
 
 #include "core/bounded_vector.h"
 #include "core/realtime.h"
+#include "emulator/plant/axis_forces.h"
 #include "emulator/plant/axis_parameters.h"
 
 namespace towbench::emulator {
 
 // Constant over one step.
 struct AxisInput {
-  double command_V = 0;            // at the amplifier's differential input, + drives towards max
+  double command_V = 0;  // at the amplifier's differential input, + drives towards max
   double supply_V = 12.0;
   double carriage_force_N = 0;     // external, + towards max (water, cross-axis, a hand)
   bool amplifier_enabled = false;  // false: no current flows
@@ -20,10 +21,10 @@ struct AxisInput {
 
 struct AxisState {
   double current_A = 0;
-  double current_integral_V = 0;   // of the amplifier's PI loop
-  double motor_angle_rad = 0;      // 0 where the encoder count is 0
+  double current_integral_V = 0;  // of the amplifier's PI loop
+  double motor_angle_rad = 0;     // 0 where the encoder count is 0
   double motor_speed_rad_per_s = 0;
-  double carriage_m = 0;           // 0 where the chain is relaxed at motor angle 0
+  double carriage_m = 0;  // 0 where the chain is relaxed at motor angle 0
   double carriage_speed_m_per_s = 0;
 };
 
