@@ -28,6 +28,7 @@ debootstrap --variant=minbase bookworm "$bare" "$mirror" >"$bare.log" 2>&1 || { 
 rm -f "$bare.log"
 # How this host reaches its mirror (proxy, certificates, sources) is the bare machine's way too.
 cp -r /etc/apt/. "$bare/etc/apt/"
+[[ -e /etc/apt/sources.list ]] || rm -f "$bare/etc/apt/sources.list"
 [[ -d /etc/ssl/certs ]] && mkdir -p "$bare/etc/ssl" && cp -r /etc/ssl/certs "$bare/etc/ssl/"
 [[ -d /usr/local/share/ca-certificates ]] && cp -r /usr/local/share/ca-certificates "$bare/usr/local/share/"
 for file in /etc/resolv.conf /etc/hosts; do [[ -e $file ]] && cp -L "$file" "$bare$file"; done
