@@ -1,6 +1,11 @@
 #include "core/error.h"
 
 namespace towbench::core {
+namespace {
+
+constexpr std::string_view kUnknown = "unknown error number";
+
+}  // namespace
 
 std::string_view describe(ErrorCode code) noexcept {
   switch (code) {
@@ -90,6 +95,8 @@ std::string_view describe(ErrorCode code) noexcept {
       return "axes differ";
     case ErrorCode::kProtocolTick:
       return "ticks differ";
+    case ErrorCode::kProtocolCapabilities:
+      return "no common way to send encoder data";
     case ErrorCode::kFrameTooLong:
       return "frame too long";
     case ErrorCode::kFrameBadCrc:
@@ -121,7 +128,11 @@ std::string_view describe(ErrorCode code) noexcept {
     case ErrorCode::kTimeNotMonotonic:
       return "time ran backwards";
   }
-  return "unknown error number";
+  return kUnknown;
+}
+
+bool is_known(ErrorCode code) noexcept {
+  return describe(code).data() != kUnknown.data();
 }
 
 }  // namespace towbench::core

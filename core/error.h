@@ -62,6 +62,7 @@ enum class ErrorCode : std::uint16_t {
   kProtocolRole = 402,
   kProtocolAxes = 403,
   kProtocolTick = 404,
+  kProtocolCapabilities = 405,
   kFrameTooLong = 410,
   kFrameBadCrc = 411,
   kFrameTruncated = 412,
@@ -87,5 +88,8 @@ enum class ErrorCode : std::uint16_t {
 
 // A short English phrase, e.g. "device not open". Never empty.
 [[nodiscard]] std::string_view describe(ErrorCode code) noexcept;
+
+// False for a number that stands for no error above: it came off a wire.
+[[nodiscard]] bool is_known(ErrorCode code) noexcept;
 
 }  // namespace towbench::core

@@ -28,11 +28,11 @@ inline constexpr std::uint32_t kCapabilityDigest = 1U << 1U;  // EncoderReport
 struct Hello {
   std::uint16_t version = kProtocolVersion;
   Role role = Role::kController;
-  std::uint8_t axes_mask = 0;          // bit index_of(axis)
-  std::uint32_t tick_ns = 0;           // the plant's step
-  std::uint32_t exchange_ns = 0;       // time between two Advance messages in lockstep
+  std::uint8_t axes_mask = 0;     // bit index_of(axis)
+  std::uint32_t tick_ns = 0;      // the plant's step
+  std::uint32_t exchange_ns = 0;  // time between two Advance messages in lockstep
   std::uint32_t capabilities = 0;
-  std::uint64_t fixture_hash = 0;      // of the rig, as both sides read it; 0 = not known, accept any
+  std::uint64_t fixture_hash = 0;  // of the rig, as both sides read it; 0 = not known, accept any
 };
 
 // The plant's answer to Hello, with what it is and whether it agrees.
@@ -48,8 +48,8 @@ struct PwmDuty {
   bool enable = false;
   std::uint16_t channel_a_ticks = 0;
   std::uint16_t channel_b_ticks = 0;
-  std::uint16_t period_ticks = 0;      // > 0
-  std::uint32_t sequence = 0;          // + 1 for each message of this axis
+  std::uint16_t period_ticks = 0;  // > 0
+  std::uint32_t sequence = 0;      // + 1 for each message of this axis
 };
 
 enum class EncoderLine : std::uint8_t { kA = 0, kB = 1, kIndex = 2 };
@@ -100,13 +100,13 @@ struct EncoderEdges {
 struct EncoderReport {
   core::Axis axis = core::Axis::kY;
   EncoderLevels levels = 0;
-  core::Nanoseconds time_ns = 0;            // end of the interval reported
+  core::Nanoseconds time_ns = 0;  // end of the interval reported
   std::int32_t count_change = 0;
-  core::Nanoseconds last_edge_ns = 0;       // 0 = none since the start of the run
-  std::uint32_t capture_period_ns = 0;      // between the last two edges; 0 = unknown
-  std::int32_t index_count = 0;             // count at the last index pulse
-  std::uint16_t index_pulses = 0;           // in the interval
-  std::uint16_t illegal_transitions = 0;    // in the interval
+  core::Nanoseconds last_edge_ns = 0;     // 0 = none since the start of the run
+  std::uint32_t capture_period_ns = 0;    // between the last two edges; 0 = unknown
+  std::int32_t index_count = 0;           // count at the last index pulse
+  std::uint16_t index_pulses = 0;         // in the interval
+  std::uint16_t illegal_transitions = 0;  // in the interval
   std::uint32_t sequence = 0;
 };
 
