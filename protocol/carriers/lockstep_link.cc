@@ -1,0 +1,131 @@
+#include "protocol/carriers/lockstep_link.h"
+
+#include <chrono>
+#include <optional>
+#include <type_traits>
+
+namespace towbench::protocol {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t index_of(Turn turn) noexcept {
+  return static_cast<std::size_t>(turn);
+}
+
+template <typename Message>
+constexpr Turn turn_of() noexcept {
+  if constexpr (std::is_same_v<Message, Hello>) {
+    return Turn::kHello;
+  } else if constexpr (std::is_same_v<Message, HelloReply>) {
+    return Turn::kHelloReply;
+  } else if constexpr (std::is_same_v<Message, Advance>) {
+    return Turn::kAdvance;
+  } else if constexpr (std::is_same_v<Message, Advanced>) {
+    return Turn::kAdvanced;
+  } else if constexpr (std::is_same_v<Message, Heartbeat>) {
+    return Turn::kHeartbeat;
+  } else {
+    static_assert(std::is_same_v<Message, Bye>);
+    return Turn::kBye;
+  }
+}
+
+}  // namespace
+
+template <typename Message>
+void LockstepLink::Watch::handle(const Message& message) noexcept {
+  to->on(message);
+  if constexpr (kEndsTurn<Message>) {
+    ++ended[index_of(turn_of<Message>())];
+  }
+}
+
+LockstepLink::LockstepLink(ByteStream& stream, core::Nanoseconds silence_limit_ns) noexcept
+    : stream_(stream), silence_limit_ns_(silence_limit_ns), writer_(stream) {}
+
+bool LockstepLink::take(Turn turn) noexcept {
+  if (watch_.ended[index_of(turn)] == 0) {
+    return false;
+  }
+  --watch_.ended[index_of(turn)];
+  return true;
+}
+
+core::Result<Turn> LockstepLink::wait(MessageSink& here) noexcept {
+  std::optional<Turn> turn;
+  const core::Status status = wait_until(
+      [&] {
+        for (std::size_t i = 0; i < kTurnCount && !turn; ++i) {
+          if (take(static_cast<Turn>(i))) {
+            turn = static_cast<Turn>(i);
+          }
+        }
+        return turn.has_value();
+      },
+      here);
+  if (!turn) {
+    return core::failure(status.error());
+  }
+  return *turn;
+}
+
+core::Status LockstepLink::wait_for(Turn expected, MessageSink& here) noexcept {
+  bool expected_came = false;
+  const core::Status status = wait_until(
+      [&] {
+        expected_came = take(expected);
+        return expected_came || watch_.ended[index_of(Turn::kBye)] > 0;
+      },
+      here);
+  if (!status || expected_came) {
+    return status;
+  }
+  return core::failure(core::ErrorCode::kPeerClosed);
+}
+
+template <typename Predicate>
+core::Status LockstepLink::wait_until(Predicate is_over, MessageSink& here) noexcept {
+  watch_.to = &here;
+  if (is_over()) {
+    return {};
+  }
+  const auto deadline = Clock::now() + std::chrono::nanoseconds(silence_limit_ns_);
+  core::Nanoseconds left_ns = silence_limit_ns_;
+  while (lost_.has_value()) {
+    if (left_ns <= 0) {
+      lost_ = core::failure(core::ErrorCode::kPeerSilent);
+      break;
+    }
+    const auto progress = read_once(left_ns);
+    if (!progress) {
+      lost_ = core::failure(progress.error());
+    } else if (*progress == Progress::kBytes && is_over()) {
+      return {};
+    } else {
+      left_ns = std::chrono::nanoseconds(deadline - Clock::now()).count();
+    }
+  }
+  return lost_;
+}
+
+core::Result<LockstepLink::Progress> LockstepLink::read_once(
+    core::Nanoseconds timeout_ns) noexcept {
+  // A peer that has gone may have left a last word: read on. Any other failure to send is final.
+  if (const auto sent = writer_.status(); !sent && sent.error() != core::ErrorCode::kPeerClosed) {
+    return core::failure(sent.error());
+  }
+  const auto size = stream_.read_some(received_, timeout_ns);
+  if (!size) {
+    reader_.finish();
+    return core::failure(size.error());
+  }
+  if (*size == 0) {
+    return Progress::kNothing;
+  }
+  bytes_received_ += *size;
+  reader_.feed(std::span(received_).first(*size), watch_);
+  return Progress::kBytes;
+}
+
+}  // namespace towbench::protocol
