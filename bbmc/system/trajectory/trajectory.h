@@ -1,0 +1,58 @@
+// The reference of one axis over time, whatever its shape: a value, without heap, so that it can
+// pass a queue.
+#pragma once
+
+#include <type_traits>
+#include <variant>
+
+#include "bbmc/system/trajectory/harmonic.h"
+#include "bbmc/system/trajectory/reference.h"
+#include "bbmc/system/trajectory/s_curve.h"
+#include "bbmc/system/trajectory/trapezoid.h"
+#include "core/realtime.h"
+
+namespace towbench::bbmc {
+
+// Stands where it is.
+class Hold {
+ public:
+  Hold() noexcept = default;
+  explicit Hold(double position_m, double duration_s = 0.0) noexcept
+      : position_m_(position_m), duration_s_(duration_s) {}
+
+  [[nodiscard]] Reference at(double /*time_s*/) const noexcept {
+    return {.position_m = position_m_};
+  }
+  [[nodiscard]] double duration_s() const noexcept { return duration_s_; }
+
+ private:
+  double position_m_ = 0;
+  double duration_s_ = 0;
+};
+
+class Trajectory {
+ public:
+  using Shape = std::variant<Hold, Trapezoid, SCurve, Harmonic>;
+
+  Trajectory() noexcept = default;
+  template <typename T>
+  requires std::is_constructible_v<Shape, const T&>
+  // A planner's result is a trajectory; the conversion is the point.
+  Trajectory(const T& shape)
+  noexcept : shape_(shape) {}  // NOLINT(google-explicit-constructor)
+
+  // Time from the start of the motion; the shape rests before 0 and after duration_s().
+  TOWBENCH_REALTIME [[nodiscard]] Reference at(double time_s) const noexcept {
+    return std::visit([time_s](const auto& shape) { return shape.at(time_s); }, shape_);
+  }
+  [[nodiscard]] double duration_s() const noexcept {
+    return std::visit([](const auto& shape) { return shape.duration_s(); }, shape_);
+  }
+
+ private:
+  Shape shape_;
+};
+
+static_assert(std::is_trivially_copyable_v<Trajectory>);
+
+}  // namespace towbench::bbmc
