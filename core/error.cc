@@ -97,6 +97,8 @@ std::string_view describe(ErrorCode code) noexcept {
       return "ticks differ";
     case ErrorCode::kProtocolCapabilities:
       return "no common way to send encoder data";
+    case ErrorCode::kProtocolNoHello:
+      return "message before an accepted Hello";
     case ErrorCode::kFrameTooLong:
       return "frame too long";
     case ErrorCode::kFrameBadCrc:

@@ -63,6 +63,7 @@ enum class ErrorCode : std::uint16_t {
   kProtocolAxes = 403,
   kProtocolTick = 404,
   kProtocolCapabilities = 405,
+  kProtocolNoHello = 406,
   kFrameTooLong = 410,
   kFrameBadCrc = 411,
   kFrameTruncated = 412,

@@ -36,6 +36,7 @@ class PlantNode : public protocol::MessageSink {
   // Must precede the first message. The sink outlives this node.
   void connect(protocol::MessageSink& controller) noexcept;
 
+  using MessageSink::on;
   void on(const protocol::Hello& hello) noexcept override;
   void on(const protocol::PwmDuty& duty) noexcept override;
   void on(const protocol::DigitalOutputs& outputs) noexcept override;

@@ -20,7 +20,7 @@ struct AxisTruth {
   double carriage_friction_N = 0;
   double chain_force_N = 0;
   double command_V = 0;
-  std::int64_t count = 0;       // floor of the true angle in counts
+  std::int64_t count = 0;        // floor of the true angle in counts
   std::int64_t edges_total = 0;  // A and B edges sent since the start
 };
 

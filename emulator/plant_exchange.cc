@@ -1,0 +1,323 @@
+#include "emulator/plant_exchange.h"
+
+#include "protocol/handshake.h"
+
+namespace towbench::emulator {
+
+using core::Axis;
+using core::ErrorCode;
+
+namespace {
+
+constexpr std::uint32_t kMaxFaultsPerExchange = 16;
+
+}  // namespace
+
+PlantExchange::PlantExchange(const RigParameters& rig, std::uint64_t /*seed*/,
+                             std::span<const ScheduledEvent> events, PlantObserver& observer)
+    : rig_(rig),
+      fixture_hash_(rig.fixture_hash),
+      events_(events.begin(), events.end()),
+      observer_(&observer) {
+  for (const Axis which : core::kAxes) {
+    if (const RigAxis* axis = rig_.axis(which)) {
+      const protocol::EncoderLevels levels = axis->encoder().levels();
+      outputs_[which].emplace(AxisOutputs{EdgeStream(which, levels), EncoderDigest(which, levels)});
+    }
+  }
+}
+
+// --- handshake -----------------------------------------------------------------------------------
+
+protocol::Hello PlantExchange::own_hello(const protocol::Hello& theirs) const noexcept {
+  return {.role = protocol::Role::kPlant,
+          .axes_mask = rig_.axes_mask(),
+          .tick_ns = static_cast<std::uint32_t>(core::kPlantTick_ns),
+          .exchange_ns = theirs.exchange_ns,
+          .capabilities = protocol::kCapabilityEdges | protocol::kCapabilityDigest,
+          .fixture_hash = fixture_hash_};
+}
+
+void PlantExchange::greet(const protocol::Hello& hello) noexcept {
+  if (finished_) {
+    return;
+  }
+  if (greeted_) {
+    // The controller has restarted: whatever the one before it commanded is void.
+    remove_drive(ErrorCode::kPeerClosed);
+  }
+  forget_controller();
+  protocol::HelloReply reply{.plant = own_hello(hello)};
+  const core::Status agreed = protocol::compare(reply.plant, hello);
+  reply.refusal = agreed ? ErrorCode::kNone : agreed.error();
+  greeted_ = agreed.has_value();
+  // Edges are the finer class; the digest is for a controller that asks for nothing else.
+  sends_edges_ = (hello.capabilities & protocol::kCapabilityEdges) != 0;
+  sends_digest_ = !sends_edges_;
+  sink_->on(reply);
+  if (greeted_) {
+    sent_lines_ = rig_.lines();
+    sink_->on(protocol::DigitalInputs{
+        .lines = sent_lines_, .change_ns = now_ns(), .sequence = line_sequence_++});
+  }
+}
+
+void PlantExchange::forget_controller() noexcept {
+  line_sequence_ = 0;
+  output_sequence_known_ = false;
+  pending_lines_.clear();
+  for (const Axis which : core::kAxes) {
+    if (RigAxis* axis = rig_.axis(which)) {
+      axis->command.forget_sequence();
+      outputs_[which]->edges.forget_sequence();
+      outputs_[which]->digest.forget_sequence();
+    }
+  }
+}
+
+// --- what the controller commands ----------------------------------------------------------------
+
+void PlantExchange::drive(const protocol::PwmDuty& duty) noexcept {
+  if (finished_) {
+    return;
+  }
+  if (!greeted_) {
+    report(ErrorCode::kProtocolNoHello, duty.axis, 0);
+    return;
+  }
+  const bool known_axis = core::index_of(duty.axis) < core::kAxisCount;
+  RigAxis* axis = known_axis ? rig_.axis(duty.axis) : nullptr;
+  const ErrorCode verdict =
+      axis != nullptr ? axis->command.accept(duty) : ErrorCode::kMessageBadField;
+  if (verdict != ErrorCode::kNone) {
+    report(verdict, known_axis ? duty.axis : Axis::kY, static_cast<std::uint32_t>(duty.axis));
+  }
+}
+
+void PlantExchange::set_outputs(const protocol::DigitalOutputs& outputs) noexcept {
+  if (finished_) {
+    return;
+  }
+  if (!greeted_) {
+    report(ErrorCode::kProtocolNoHello, Axis::kY, 0);
+    return;
+  }
+  const std::uint32_t ahead = outputs.sequence - output_sequence_;
+  if (output_sequence_known_ && ahead != 1) {
+    report(ErrorCode::kSequence, Axis::kY, outputs.sequence);
+    if (ahead == 0 || ahead > 0x8000'0000U) {
+      return;
+    }
+  }
+  output_sequence_ = outputs.sequence;
+  output_sequence_known_ = true;
+  constexpr core::PerAxis<protocol::OutputLine> kEnableLine{
+      {protocol::OutputLine::kAmplifierEnableY, protocol::OutputLine::kAmplifierEnableX}};
+  for (const Axis which : core::kAxes) {
+    if (RigAxis* axis = rig_.axis(which)) {
+      axis->enable_line = (outputs.lines & protocol::mask_of(kEnableLine[which])) != 0;
+    }
+  }
+}
+
+// --- one exchange --------------------------------------------------------------------------------
+
+ErrorCode PlantExchange::objection(const protocol::Advance& advance) const noexcept {
+  const core::Nanoseconds interval_ns = advance.until_ns - now_ns();
+  if (!greeted_) {
+    return ErrorCode::kProtocolNoHello;
+  }
+  if (advance.until_ns < now_ns()) {
+    return ErrorCode::kTimeNotMonotonic;
+  }
+  return interval_ns > kMaxAdvance_ns || interval_ns % core::kPlantTick_ns != 0
+             ? ErrorCode::kMessageBadField
+             : ErrorCode::kNone;
+}
+
+void PlantExchange::advance(const protocol::Advance& advance) noexcept {
+  if (finished_) {
+    return;
+  }
+  if (const ErrorCode wrong = objection(advance); wrong != ErrorCode::kNone) {
+    report(wrong, Axis::kY, 0);
+    return;
+  }
+  faults_in_exchange_ = 0;
+  if (advance.until_ns > now_ns()) {
+    for (auto& output : outputs_) {
+      if (output) {
+        output->edges.begin(now_ns());
+      }
+    }
+    while (now_ns() < advance.until_ns) {
+      tick();
+    }
+    send_outputs();
+    observer_->on_truth(rig_.truth());
+  }
+  sink_->on(protocol::Advanced{.time_ns = now_ns()});
+}
+
+void PlantExchange::tick() noexcept {
+  fire_due_events();
+  const core::Nanoseconds start_ns = now_ns();
+  rig_.step();
+  for (const Axis which : core::kAxes) {
+    const RigAxis* axis = rig_.axis(which);
+    if (axis == nullptr) {
+      continue;
+    }
+    AxisOutputs& output = *outputs_[which];
+    if (sends_edges_) {
+      output.edges.add(start_ns, axis->edges(), *sink_);
+    } else {
+      output.digest.add(start_ns, axis->edges());
+    }
+    watch_contact(which);
+    watch_rate(which);
+  }
+  collect_lines();
+  watch_supply();
+}
+
+void PlantExchange::send_outputs() noexcept {
+  for (auto& output : outputs_) {
+    if (output && sends_edges_) {
+      output->edges.finish(now_ns(), *sink_);
+    } else if (output && sends_digest_) {
+      sink_->on(output->digest.take(now_ns()));
+    }
+  }
+  send_lines();
+}
+
+void PlantExchange::send_lines() noexcept {
+  for (const protocol::DigitalInputs& inputs : pending_lines_.view()) {
+    sink_->on(inputs);
+  }
+  pending_lines_.clear();
+}
+
+void PlantExchange::collect_lines() noexcept {
+  for (const LineChange& change : rig_.line_changes().view()) {
+    const unsigned mask = protocol::mask_of(change.line);
+    sent_lines_ =
+        static_cast<std::uint16_t>(change.active ? sent_lines_ | mask : sent_lines_ & ~mask);
+    if (pending_lines_.full()) {
+      send_lines();  // early rather than lost; still in the order of time
+    }
+    (void)pending_lines_.push_back(
+        {.lines = sent_lines_, .change_ns = change.time_ns, .sequence = line_sequence_++});
+    observe({.time_ns = change.time_ns,
+             .kind = PlantEventKind::kInputLineChanged,
+             .lines = sent_lines_,
+             .value = static_cast<double>(change.line)});
+  }
+}
+
+// --- what happens to the machine -----------------------------------------------------------------
+
+void PlantExchange::fire_due_events() noexcept {
+  const core::Nanoseconds end_ns = now_ns() + core::kPlantTick_ns;
+  for (; next_event_ < events_.size() && events_[next_event_].time_ns < end_ns; ++next_event_) {
+    const ScheduledEvent& event = events_[next_event_];
+    const core::Nanoseconds time_ns = event.time_ns < now_ns() ? now_ns() : event.time_ns;
+    if (!fire(event, time_ns)) {
+      return;  // no room in this tick: the next one takes it
+    }
+    observe({.time_ns = time_ns,
+             .kind = PlantEventKind::kScheduledEventFired,
+             .axis = event.axis,
+             .value = static_cast<double>(next_event_)});
+  }
+}
+
+bool PlantExchange::fire(const ScheduledEvent& event, core::Nanoseconds time_ns) noexcept {
+  switch (event.kind) {
+    case ScheduledEventKind::kPressKillSwitch:
+      return rig_.set_kill_switch(true, time_ns);
+    case ScheduledEventKind::kReleaseKillSwitch:
+      return rig_.set_kill_switch(false, time_ns);
+    case ScheduledEventKind::kPushCarriage:
+      rig_.push_carriage(event.axis, event.value, time_ns);
+      return true;
+  }
+  return true;
+}
+
+void PlantExchange::watch_contact(Axis which) noexcept {
+  const HardEndContact& contact = rig_.axis(which)->plant().contact();
+  if (!contact.occurred) {
+    return;
+  }
+  observe({.time_ns = now_ns() - core::kPlantTick_ns + core::nanoseconds(contact.time_s),
+           .kind = PlantEventKind::kHardEndContact,
+           .axis = which,
+           .code = ErrorCode::kHardEndContact,
+           .lines = contact.at_max ? std::uint16_t{1} : std::uint16_t{0},
+           .value = contact.speed_m_per_s,
+           .energy_J = contact.energy_J});
+}
+
+void PlantExchange::watch_rate(Axis which) noexcept {
+  const bool too_fast = rig_.axis(which)->encoder().too_fast();
+  if (too_fast && !outputs_[which]->too_fast) {
+    report(ErrorCode::kEncoderRateExceeded, which, static_cast<std::uint32_t>(which));
+  }
+  outputs_[which]->too_fast = too_fast;
+}
+
+void PlantExchange::watch_supply() noexcept {
+  const Supply& supply = rig_.supply();
+  if (supply.tripped() && !supply_was_tripped_) {
+    report(ErrorCode::kSupplyOverCurrent, Axis::kY, 0);
+  }
+  if (supply.cut_out() && !supply_was_cut_out_) {
+    report(ErrorCode::kSupplyUnderVoltage, Axis::kY, 0);
+  }
+  supply_was_tripped_ = supply.tripped();
+  supply_was_cut_out_ = supply.cut_out();
+}
+
+// --- trouble and the end -------------------------------------------------------------------------
+
+void PlantExchange::report(ErrorCode code, Axis axis, std::uint32_t detail) noexcept {
+  if (faults_in_exchange_ == kMaxFaultsPerExchange) {
+    return;
+  }
+  ++faults_in_exchange_;
+  observe({.time_ns = now_ns(), .kind = PlantEventKind::kFault, .axis = axis, .code = code});
+  sink_->on(protocol::Fault{.code = code, .time_ns = now_ns(), .detail = detail});
+}
+
+void PlantExchange::remove_drive(ErrorCode why) noexcept {
+  rig_.remove_drive();
+  observe({.time_ns = now_ns(), .kind = PlantEventKind::kDriveRemoved, .code = why});
+}
+
+void PlantExchange::note_fault(const protocol::Fault& fault) noexcept {
+  observe({.time_ns = now_ns(), .kind = PlantEventKind::kFault, .code = fault.code});
+}
+
+void PlantExchange::end(const protocol::Bye& /*bye*/) noexcept {
+  if (finished_) {
+    return;
+  }
+  remove_drive(ErrorCode::kNone);
+  finished_ = true;
+  observe({.time_ns = now_ns(), .kind = PlantEventKind::kFinished});
+  sink_->on(protocol::Bye{.time_ns = now_ns()});
+}
+
+void PlantExchange::peer_lost(ErrorCode why) noexcept {
+  if (finished_) {
+    return;
+  }
+  observe({.time_ns = now_ns(), .kind = PlantEventKind::kPeerLost, .code = why});
+  remove_drive(why);
+  greeted_ = false;
+  finished_ = true;
+}
+
+}  // namespace towbench::emulator

@@ -1,0 +1,96 @@
+// One conversation with a controller: handshake, then exchanges in lockstep, then the end. What
+// PlantNode does, without its face.
+//
+// An exchange, at Advance{T + dt} (docs/design/0001-walls.md): step the rig from T to T + dt, then
+// send EncoderEdges (or EncoderReport) of each axis in the order Y, X, then DigitalInputs of each
+// change in the order of time, then Advanced. Whatever a controller sends that makes no sense is
+// counted, answered by a Fault, and changes nothing.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/bounded_vector.h"
+#include "emulator/edge_stream.h"
+#include "emulator/plant_node.h"
+#include "emulator/rig.h"
+#include "emulator/sensors/encoder_digest.h"
+
+namespace towbench::emulator {
+
+class PlantExchange {
+ public:
+  // Longest interval of one Advance. Also keeps every edge's step within its 30 bits.
+  static constexpr core::Nanoseconds kMaxAdvance_ns = core::kNanosecondsPerSecond;
+
+  PlantExchange(const RigParameters& rig, std::uint64_t seed,
+                std::span<const ScheduledEvent> events, PlantObserver& observer);
+
+  void connect(protocol::MessageSink& controller) noexcept { sink_ = &controller; }
+
+  void greet(const protocol::Hello& hello) noexcept;
+  TOWBENCH_REALTIME void drive(const protocol::PwmDuty& duty) noexcept;
+  TOWBENCH_REALTIME void set_outputs(const protocol::DigitalOutputs& outputs) noexcept;
+  TOWBENCH_REALTIME void advance(const protocol::Advance& advance) noexcept;
+  void note_fault(const protocol::Fault& fault) noexcept;
+  void end(const protocol::Bye& bye) noexcept;
+  void peer_lost(core::ErrorCode why) noexcept;
+
+  [[nodiscard]] bool finished() const noexcept { return finished_; }
+  [[nodiscard]] core::Nanoseconds now_ns() const noexcept { return rig_.now_ns(); }
+
+ private:
+  struct AxisOutputs {
+    EdgeStream edges;
+    EncoderDigest digest;
+    bool too_fast = false;
+  };
+
+  [[nodiscard]] protocol::Hello own_hello(const protocol::Hello& theirs) const noexcept;
+  [[nodiscard]] core::ErrorCode objection(const protocol::Advance& advance) const noexcept;
+  void forget_controller() noexcept;
+  void remove_drive(core::ErrorCode why) noexcept;
+
+  void tick() noexcept;
+  void fire_due_events() noexcept;
+  [[nodiscard]] bool fire(const ScheduledEvent& event, core::Nanoseconds time_ns) noexcept;
+  void collect_lines() noexcept;
+  void watch_contact(core::Axis which) noexcept;
+  void watch_rate(core::Axis which) noexcept;
+  void watch_supply() noexcept;
+  void send_outputs() noexcept;
+  void send_lines() noexcept;
+
+  // Something wrong, for the record of both sides.
+  void report(core::ErrorCode code, core::Axis axis, std::uint32_t detail) noexcept;
+  void observe(PlantEvent event) noexcept { observer_->on_event(event); }
+
+  Rig rig_;
+  std::uint64_t fixture_hash_;
+  std::vector<ScheduledEvent> events_;
+  std::size_t next_event_ = 0;
+  PlantObserver* observer_;
+  protocol::MessageSink* sink_ = nullptr;
+  core::PerAxis<std::optional<AxisOutputs>> outputs_;
+
+  // DigitalInputs of this exchange, sent behind the edges.
+  core::BoundedVector<protocol::DigitalInputs, 64> pending_lines_;
+  std::uint16_t sent_lines_ = 0;
+  std::uint32_t line_sequence_ = 0;
+  std::uint32_t output_sequence_ = 0;
+  bool output_sequence_known_ = false;
+
+  bool greeted_ = false;
+  bool sends_edges_ = false;
+  bool sends_digest_ = false;
+  bool finished_ = false;
+  bool supply_was_tripped_ = false;
+  bool supply_was_cut_out_ = false;
+  // A peer that babbles gets a bounded number of answers per exchange.
+  std::uint32_t faults_in_exchange_ = 0;
+};
+
+}  // namespace towbench::emulator

@@ -1,0 +1,212 @@
+#include "emulator/rig.h"
+
+#include <algorithm>
+
+namespace towbench::emulator {
+
+using core::Axis;
+using protocol::InputLine;
+
+namespace {
+
+constexpr core::PerAxis<InputLine> kHallMinLine{{InputLine::kHallYMin, InputLine::kHallXMin}};
+constexpr core::PerAxis<InputLine> kHallMaxLine{{InputLine::kHallYMax, InputLine::kHallXMax}};
+constexpr core::PerAxis<InputLine> kReadyLine{
+    {InputLine::kAmplifierReadyY, InputLine::kAmplifierReadyX}};
+
+[[nodiscard]] Axis other(Axis axis) noexcept {
+  return axis == Axis::kY ? Axis::kX : Axis::kY;
+}
+
+// Oldest first; changes of the same nanosecond keep their order. A handful at most.
+void sort_by_time(LineChanges& changes) noexcept {
+  for (std::size_t i = 1; i < changes.size(); ++i) {
+    const LineChange moving = changes[i];
+    std::size_t place = i;
+    for (; place > 0 && changes[place - 1].time_ns > moving.time_ns; --place) {
+      changes[place] = changes[place - 1];
+    }
+    changes[place] = moving;
+  }
+}
+
+}  // namespace
+
+RigAxis::RigAxis(Axis axis, const RigAxisParameters& p)
+    : command(p.command),
+      plant_(p.plant, p.start_m),
+      encoder_(p.encoder, plant_.state().motor_angle_rad),
+      hall_min_(p.hall_min, TravelEnd::kMin, kHallMinLine[axis], p.start_m),
+      hall_max_(p.hall_max, TravelEnd::kMax, kHallMaxLine[axis], p.start_m) {}
+
+void RigAxis::step(core::Nanoseconds start_ns, const Surroundings& around,
+                   LineChanges& changes) noexcept {
+  command_V_ = command.step();
+  const AxisInput input{.command_V = command_V_,
+                        .supply_V = around.supply_V,
+                        .carriage_force_N = around.external_N,
+                        .amplifier_enabled = enable_line && around.amplifier_may_drive};
+  const AxisState before = plant_.state();
+  plant_.step(input, segments_);
+  encoder_.step(segments_, edges_);
+  const AxisState& after = plant_.state();
+  const CarriageMotion motion{.before_m = before.carriage_m,
+                              .before_m_per_s = before.carriage_speed_m_per_s,
+                              .after_m = after.carriage_m,
+                              .after_m_per_s = after.carriage_speed_m_per_s};
+  hall_min_.step(start_ns, motion, changes);
+  hall_max_.step(start_ns, motion, changes);
+}
+
+double RigAxis::output_power_W() const noexcept {
+  return plant_.forces().terminal_V * plant_.state().current_A;
+}
+
+std::uint16_t RigAxis::hall_lines() const noexcept {
+  unsigned lines = 0;
+  for (const HallSensor* hall : {&hall_min_, &hall_max_}) {
+    lines |= hall->active() ? protocol::mask_of(hall->line()) : 0U;
+  }
+  return static_cast<std::uint16_t>(lines);
+}
+
+AxisTruth RigAxis::truth() const noexcept {
+  const AxisState& state = plant_.state();
+  const AxisForces& forces = plant_.forces();
+  return {.motor_angle_rad = state.motor_angle_rad,
+          .motor_speed_rad_per_s = state.motor_speed_rad_per_s,
+          .carriage_m = state.carriage_m,
+          .carriage_speed_m_per_s = state.carriage_speed_m_per_s,
+          .current_A = state.current_A,
+          .motor_torque_Nm = forces.motor_torque_Nm,
+          .motor_friction_Nm = forces.motor_friction_Nm,
+          .carriage_friction_N = forces.carriage_friction_N,
+          .chain_force_N = forces.chain_force_N,
+          .command_V = command_V_,
+          .count = encoder_.count(),
+          .edges_total = encoder_.edges_total()};
+}
+
+Rig::Rig(const RigParameters& parameters) : parameters_(parameters), supply_(parameters.supply) {
+  unsigned lines = 0;
+  for (const Axis which : core::kAxes) {
+    if (parameters_.axes[which].exists) {
+      axes_[which].emplace(which, parameters_.axes[which]);
+      lines |= axes_[which]->hall_lines();
+      lines |= supply_.ready() ? protocol::mask_of(kReadyLine[which]) : 0U;
+    }
+  }
+  lines_ = static_cast<std::uint16_t>(lines);
+}
+
+RigAxis* Rig::axis(Axis which) noexcept {
+  return axes_[which] ? &*axes_[which] : nullptr;
+}
+const RigAxis* Rig::axis(Axis which) const noexcept {
+  return axes_[which] ? &*axes_[which] : nullptr;
+}
+
+std::uint8_t Rig::axes_mask() const noexcept {
+  unsigned mask = 0;
+  for (const Axis which : core::kAxes) {
+    mask |= axes_[which] ? 1U << core::index_of(which) : 0U;
+  }
+  return static_cast<std::uint8_t>(mask);
+}
+
+bool Rig::set_kill_switch(bool pressed, core::Nanoseconds time_ns) noexcept {
+  if (!parameters_.kill_switch.fitted || pressed == kill_pressed_) {
+    return true;
+  }
+  if (kill_changes_.size() == kMaxKillChangesPerStep) {
+    return false;
+  }
+  kill_pressed_ = pressed;
+  return kill_changes_.push_back({time_ns, InputLine::kKillSwitch, pressed});
+}
+
+// The step holds its input, so the tick that the change falls into gets the mean: same impulse.
+void Rig::push_carriage(Axis which, double force_N, core::Nanoseconds time_ns) noexcept {
+  const double missed_share =
+      static_cast<double>(time_ns - now_ns_) / static_cast<double>(core::kPlantTick_ns);
+  push_correction_N_[which] -= (force_N - push_N_[which]) * std::clamp(missed_share, 0.0, 1.0);
+  push_N_[which] = force_N;
+}
+
+void Rig::remove_drive() noexcept {
+  for (auto& axis : axes_) {
+    if (axis) {
+      axis->command.remove();
+      axis->enable_line = false;
+    }
+  }
+}
+
+double Rig::cross_axis_force_N(Axis which) const noexcept {
+  const double ratio = parameters_.axes[which].cross_axis_force_ratio;
+  const RigAxis* neighbour = axis(other(which));
+  return ratio == 0.0 || neighbour == nullptr ? 0.0
+                                              : ratio * neighbour->plant().forces().chain_force_N;
+}
+
+void Rig::step() noexcept {
+  changes_ = kill_changes_;
+  const bool hardware_cut = parameters_.kill_switch.cuts_amplifiers &&
+                            (lines_ & protocol::mask_of(InputLine::kKillSwitch)) != 0;
+  const bool may_drive = supply_.ready() && !hardware_cut;
+  const core::PerAxis<double> cross_N{{cross_axis_force_N(Axis::kY), cross_axis_force_N(Axis::kX)}};
+  double power_W = 0.0;
+  for (const Axis which : core::kAxes) {
+    if (!axes_[which]) {
+      continue;
+    }
+    axes_[which]->step(now_ns_,
+                       {.supply_V = supply_.voltage_V(),
+                        .amplifier_may_drive = may_drive,
+                        .external_N = push_N_[which] + push_correction_N_[which] + cross_N[which]},
+                       changes_);
+    push_correction_N_[which] = 0.0;
+    power_W += std::max(0.0, axes_[which]->output_power_W());
+  }
+  const bool was_ready = supply_.ready();
+  supply_.step(power_W);
+  now_ns_ += core::kPlantTick_ns;
+  kill_changes_.clear();
+  if (supply_.ready() != was_ready) {
+    update_ready_lines();
+  }
+  if (!changes_.empty()) {
+    apply_changes();
+  }
+}
+
+// The amplifiers notice the supply at the end of the tick: its last nanosecond.
+void Rig::update_ready_lines() noexcept {
+  for (const Axis which : core::kAxes) {
+    if (axes_[which]) {
+      (void)changes_.push_back({now_ns_ - 1, kReadyLine[which], supply_.ready()});
+    }
+  }
+}
+
+void Rig::apply_changes() noexcept {
+  sort_by_time(changes_);
+  for (const LineChange& change : changes_.view()) {
+    const unsigned mask = protocol::mask_of(change.line);
+    lines_ = static_cast<std::uint16_t>(change.active ? lines_ | mask : lines_ & ~mask);
+  }
+}
+
+TruthRow Rig::truth() const noexcept {
+  TruthRow row;
+  row.time_ns = now_ns_;
+  for (const Axis which : core::kAxes) {
+    if (axes_[which]) {
+      row.axes[which] = axes_[which]->truth();
+    }
+  }
+  row.input_lines = lines_;
+  return row;
+}
+
+}  // namespace towbench::emulator

@@ -1,0 +1,106 @@
+// The whole machine, one 100 us tick at a time: command paths, supply, both axes, their sensors and
+// the kill chain. Knows nothing of messages; plant_node.cc carries its inputs and outputs.
+//
+// Order of a tick, the same for every carrier and clock: supply voltage and kill chain of the tick
+// before -> command voltage -> both axes -> encoders and halls -> supply. Axes meet in the supply
+// and in `cross_axis_force_ratio` only (MACS-A-6), and there with one tick of delay.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/axis.h"
+#include "core/realtime.h"
+#include "core/time.h"
+#include "emulator/command_path.h"
+#include "emulator/plant/axis_plant.h"
+#include "emulator/rig_parameters.h"
+#include "emulator/sensors/hall_sensor.h"
+#include "emulator/sensors/line_change.h"
+#include "emulator/sensors/quadrature_encoder.h"
+#include "emulator/supply.h"
+#include "emulator/truth_row.h"
+
+namespace towbench::emulator {
+
+// One axis with everything that hangs on it.
+class RigAxis {
+ public:
+  RigAxis(core::Axis axis, const RigAxisParameters& parameters);
+
+  struct Surroundings {
+    double supply_V = 0;
+    bool amplifier_may_drive = false;
+    double external_N = 0;
+  };
+  // One tick from `start_ns` on; appends what the hall lines do.
+  TOWBENCH_REALTIME void step(core::Nanoseconds start_ns, const Surroundings& around,
+                              LineChanges& changes) noexcept;
+
+  CommandPath command;
+  bool enable_line = false;
+
+  [[nodiscard]] const AxisPlant& plant() const noexcept { return plant_; }
+  [[nodiscard]] const QuadratureEncoder& encoder() const noexcept { return encoder_; }
+  // Of the last step.
+  [[nodiscard]] const StepEdges& edges() const noexcept { return edges_; }
+  [[nodiscard]] double output_power_W() const noexcept;
+  [[nodiscard]] std::uint16_t hall_lines() const noexcept;
+  [[nodiscard]] AxisTruth truth() const noexcept;
+
+ private:
+  AxisPlant plant_;
+  QuadratureEncoder encoder_;
+  HallSensor hall_min_;
+  HallSensor hall_max_;
+  MotionSegments segments_;
+  StepEdges edges_;
+  double command_V_ = 0.0;
+};
+
+class Rig {
+ public:
+  // Consistent parameters only (rig_parameters.h).
+  explicit Rig(const RigParameters& parameters);
+
+  // The axis, or null when the machine has none.
+  [[nodiscard]] RigAxis* axis(core::Axis which) noexcept;
+  [[nodiscard]] const RigAxis* axis(core::Axis which) const noexcept;
+  [[nodiscard]] std::uint8_t axes_mask() const noexcept;
+
+  // Inputs of the tick about to run. Times lie inside it, ascending.
+  // False, and nothing changed, when the contact bounces more often than one tick can take.
+  TOWBENCH_REALTIME [[nodiscard]] bool set_kill_switch(bool pressed,
+                                                       core::Nanoseconds time_ns) noexcept;
+  TOWBENCH_REALTIME void push_carriage(core::Axis which, double force_N,
+                                       core::Nanoseconds time_ns) noexcept;
+  TOWBENCH_REALTIME void remove_drive() noexcept;
+
+  TOWBENCH_REALTIME void step() noexcept;
+
+  [[nodiscard]] core::Nanoseconds now_ns() const noexcept { return now_ns_; }
+  // Lines now, as protocol::DigitalInputs, and how they changed in the last tick, oldest first.
+  [[nodiscard]] std::uint16_t lines() const noexcept { return lines_; }
+  [[nodiscard]] const LineChanges& line_changes() const noexcept { return changes_; }
+  [[nodiscard]] const Supply& supply() const noexcept { return supply_; }
+  [[nodiscard]] TruthRow truth() const noexcept;
+
+ private:
+  void update_ready_lines() noexcept;
+  void apply_changes() noexcept;
+  [[nodiscard]] double cross_axis_force_N(core::Axis which) const noexcept;
+
+  RigParameters parameters_;
+  core::PerAxis<std::optional<RigAxis>> axes_;
+  Supply supply_;
+  core::Nanoseconds now_ns_ = 0;
+  std::uint16_t lines_ = 0;
+  LineChanges changes_;
+  LineChanges kill_changes_;
+  bool kill_pressed_ = false;
+  core::PerAxis<double> push_N_{};
+  // Change of the push that has not yet acted in the tick that it falls into.
+  core::PerAxis<double> push_correction_N_{};
+};
+
+}  // namespace towbench::emulator

@@ -1,0 +1,104 @@
+#include "emulator/rig_parameters.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace towbench::emulator {
+namespace {
+
+// plant.md, "travel, counts" and "hall min / max at" (7.2.1; firmware presets).
+constexpr double kYHallMin_counts = 1'000.0;
+constexpr double kYHallMax_counts = 1'740'000.0;
+constexpr double kXTravel_counts = 505'000.0;
+constexpr double kXHallMin_counts = 1'000.0;
+constexpr double kXHallMax_counts = 500'000.0;
+
+// X differs from the default axis, which is Y. Mostly assumed: the thesis identified Y only.
+AxisParameters nominal_x_plant() noexcept {
+  AxisParameters x;
+  x.inertia_kg_m2 = 2.0e-6;
+  x.rotor_inertia_kg_m2 = 1.3e-6;
+  x.viscous_friction_Nm_s_per_rad = 4e-6;
+  x.coulomb_friction_Nm = 1.6e-3;
+  x.sprocket_radius_m = 0.030;
+  x.torque_constant_Nm_per_A = 23.5e-3;
+  x.winding.resistance_ohm = 2.3;
+  x.winding.inductance_H = 0.24e-3;
+  x.friction.breakaway_Nm = 2.4e-3;
+  x.friction.position = {};
+  x.chain.resonance_Hz = 22.0;
+  return x;
+}
+
+void place_halls(RigAxisParameters& axis, double min_counts, double max_counts) noexcept {
+  axis.hall_min.position_m = min_counts * metres_per_count(axis);
+  axis.hall_max.position_m = max_counts * metres_per_count(axis);
+}
+
+const char* inconsistency(const RigAxisParameters& axis) noexcept {
+  if (!axis.exists) {
+    return nullptr;
+  }
+  if (const char* found = inconsistency(axis.plant)) {
+    return found;
+  }
+  const EncoderParameters& encoder = axis.encoder;
+  if (encoder.counts_per_turn % 4 != 0) {
+    return "encoder_counts_per_rev must be a multiple of 4";
+  }
+  if (encoder.index_count >= encoder.counts_per_turn) {
+    return "encoder.index_count must be below encoder_counts_per_rev";
+  }
+  if (std::fabs(encoder.phase_deg - 90.0) + std::fabs(encoder.pulse_width_deg - 180.0) > 80.0) {
+    return "encoder.phase_deg and encoder.pulse_width_deg together swap edges of A and B";
+  }
+  // Eccentricity stretches the turn by 2 pi e / N; edges 10 electrical degrees apart must stay so.
+  if (2.0 * std::numbers::pi * encoder.eccentricity_counts >
+      0.1 * static_cast<double>(encoder.counts_per_turn)) {
+    return "encoder.eccentricity_counts is too large for encoder_counts_per_rev";
+  }
+  const HardEndParameters& ends = axis.plant.hard_ends;
+  if (ends.fitted && (axis.start_m < ends.min_m || axis.start_m > ends.max_m)) {
+    return "start_m lies outside hard_ends";
+  }
+  if (axis.hall_min.fitted && axis.hall_max.fitted &&
+      axis.hall_min.position_m >= axis.hall_max.position_m) {
+    return "hall_min.position_m must be below hall_max.position_m";
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+RigParameters::RigParameters() noexcept {
+  RigAxisParameters& y = axes[core::Axis::kY];
+  place_halls(y, kYHallMin_counts, kYHallMax_counts);
+  RigAxisParameters& x = axes[core::Axis::kX];
+  x.plant = nominal_x_plant();
+  x.plant.hard_ends.max_m = kXTravel_counts * metres_per_count(x);
+  place_halls(x, kXHallMin_counts, kXHallMax_counts);
+}
+
+double metres_per_count(const RigAxisParameters& axis) noexcept {
+  return 2.0 * std::numbers::pi * axis.plant.sprocket_radius_m /
+         (axis.plant.gear_ratio * static_cast<double>(axis.encoder.counts_per_turn));
+}
+
+const char* inconsistency(const RigParameters& rig) noexcept {
+  bool any_axis = false;
+  for (const RigAxisParameters& axis : rig.axes) {
+    any_axis = any_axis || axis.exists;
+    if (const char* found = inconsistency(axis)) {
+      return found;
+    }
+  }
+  if (!any_axis) {
+    return "axis.y.exists and axis.x.exists are both false";
+  }
+  if (rig.supply.voltage_V < rig.supply.cut_out_V) {
+    return "supply.voltage_V is below supply.cut_out_V";
+  }
+  return nullptr;
+}
+
+}  // namespace towbench::emulator

@@ -1,0 +1,133 @@
+// The whole machine as a parameter set: two axes with their sensors and command paths, one supply,
+// one kill chain. SI inside; every default has its source in plant.md's table or says "assumed".
+//
+// X rides on Y: the carriage of Y carries the X platform, motor and load, so Y's inertia and
+// friction include them (Table 7.4 was identified that way). X's platform moves along X only, and
+// the axes are orthogonal, so X's mass loads Y but X's motion does not push Y (MACS-A-6); what
+// residual push there is, is `cross_axis_force_ratio`, zero by default.
+#pragma once
+
+#include <cstdint>
+
+#include "core/axis.h"
+#include "core/parameter.h"
+#include "core/time.h"
+#include "emulator/plant/axis_parameters.h"
+#include "emulator/sensors/sensor_parameters.h"
+
+namespace towbench::emulator {
+
+// PWM ticks -> volts at the amplifier's differential input (5.2).
+struct CommandPathParameters {
+  double pwm_amplitude_V = 10.0;  // at 100 % duty
+  double delay_s = 20e-6;         // assumed; PWM-R-3: below 100 us
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("pwm_amplitude_V", pwm_amplitude_V, core::between(0.1, 50.0),
+            "voltage at the amplifier's input at 100 % duty");
+    v.value("command_delay_s", delay_s, core::between(0.0, core::kPlantTick_s),
+            "from the PWM's output to the amplifier's input");
+  }
+};
+
+struct RigAxisParameters {
+  bool exists = true;
+  AxisParameters plant;
+  CommandPathParameters command;
+  EncoderParameters encoder;
+  HallParameters hall_min;
+  HallParameters hall_max;
+  double start_m = 0.0;  // carriage at rest there at time 0, chain relaxed
+  double cross_axis_force_ratio = 0.0;
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("exists", exists, core::any_finite(), "whether the machine has this axis");
+    plant.visit(v);
+    command.visit(v);
+    v.value("encoder_counts_per_rev", encoder.counts_per_turn, core::between(4, 40'000),
+            "counts a motor turn, 4 x the encoder's lines");
+    v.value("start_m", start_m, core::any_finite(), "carriage position at the start of the run");
+    v.value("cross_axis_force_ratio", cross_axis_force_ratio, core::between(-1.0, 1.0),
+            "share of the other axis's chain force that pushes along this one");
+    v.group("encoder", encoder, "incremental encoder on the motor shaft");
+    v.group("hall_min", hall_min, "end-stop sensor at the min end");
+    v.group("hall_max", hall_max, "end-stop sensor at the max end");
+  }
+};
+
+// One 12 V supply feeds both amplifiers (5.2.1).
+struct SupplyParameters {
+  double voltage_V = 12.0;
+  double source_resistance_ohm = 0.02;  // assumed
+  double over_current_A = 4.5;          // 5.2.1; trips and stays off
+  double over_current_delay_s = 10e-3;  // assumed
+  double cut_out_V = 11.4;              // App. A, absolute minimum of the amplifier
+  double cut_out_hysteresis_V = 0.2;    // assumed
+  double amplifier_efficiency = 0.95;   // App. A
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("voltage_V", voltage_V, core::between(0.0, 60.0), "open-circuit voltage");
+    v.value("source_resistance_ohm", source_resistance_ohm, core::between(0.0, 10.0),
+            "of supply and cable: how far the voltage sags");
+    v.value("over_current_A", over_current_A, core::above(0.0),
+            "current of both axes above which the supply trips");
+    v.value("over_current_delay_s", over_current_delay_s, core::between(0.0, 10.0),
+            "how long the current may stay above that");
+    v.value("cut_out_V", cut_out_V, core::between(0.0, 60.0),
+            "voltage below which the amplifiers cut out");
+    v.value("cut_out_hysteresis_V", cut_out_hysteresis_V, core::between(0.0, 10.0),
+            "how far above that the voltage must come back");
+    v.value("amplifier_efficiency", amplifier_efficiency, core::between(0.1, 1.0),
+            "power out over power in");
+  }
+};
+
+struct KillSwitchParameters {
+  bool fitted = true;
+  bool cuts_amplifiers = false;  // off when the controller's own reaction is under test
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("fitted", fitted, core::any_finite(), "whether the machine has a kill switch");
+    v.value("cuts_amplifiers", cuts_amplifiers, core::any_finite(),
+            "whether the contact also cuts both amplifiers in hardware");
+  }
+};
+
+struct RigAxes : core::PerAxis<RigAxisParameters> {
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.group("y", (*this)[core::Axis::kY], "along the tank");
+    v.group("x", (*this)[core::Axis::kX], "across the tank, on Y's carriage");
+  }
+};
+
+struct RigParameters {
+  RigAxes axes;
+  SupplyParameters supply;
+  KillSwitchParameters kill_switch;
+  // Of the file this was read from; no parameter. 0 = not known.
+  std::uint64_t fixture_hash = 0;
+
+  // The nominal machine.
+  RigParameters() noexcept;
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.group("axis", axes, "the two axes");
+    v.group("supply", supply, "shared 12 V supply");
+    v.group("kill_switch", kill_switch, "the operator's kill switch");
+  }
+};
+
+// Carriage metres an encoder count, from gear and sprocket (3.42).
+[[nodiscard]] double metres_per_count(const RigAxisParameters& axis) noexcept;
+
+// What must hold between parameters and no single range can say: the first breach in words that
+// name the key, or null. A rig is built from consistent parameters only.
+[[nodiscard]] const char* inconsistency(const RigParameters& rig) noexcept;
+
+}  // namespace towbench::emulator

@@ -1,0 +1,61 @@
+// A hall switch at one end of an axis: from the carriage's true position to a line, with hysteresis
+// or latching, and the time of each change inside the step.
+//
+// The line follows the field after `delay_s`, and only if the field has stayed for that long: a
+// comparator behind a filter, so a touch shorter than the delay leaves no trace.
+#pragma once
+
+#include <cstdint>
+
+#include "core/realtime.h"
+#include "core/time.h"
+#include "emulator/sensors/cubic_motion.h"
+#include "emulator/sensors/line_change.h"
+#include "emulator/sensors/sensor_parameters.h"
+
+namespace towbench::emulator {
+
+enum class TravelEnd : std::uint8_t { kMin, kMax };
+
+// The carriage over one plant step.
+struct CarriageMotion {
+  double before_m = 0;
+  double before_m_per_s = 0;
+  double after_m = 0;
+  double after_m_per_s = 0;
+};
+
+class HallSensor {
+ public:
+  HallSensor(const HallParameters& parameters, TravelEnd end, protocol::InputLine line,
+             double carriage_m) noexcept;
+
+  // One plant step from `start_ns` on. Appends the changes of the line in [start, start + tick).
+  TOWBENCH_REALTIME void step(core::Nanoseconds start_ns, const CarriageMotion& motion,
+                              LineChanges& changes) noexcept;
+
+  [[nodiscard]] bool active() const noexcept { return line_is_active_; }
+  [[nodiscard]] protocol::InputLine line() const noexcept { return line_; }
+
+ private:
+  [[nodiscard]] double depth(double carriage_m) const noexcept {
+    return sign_ * (carriage_m - position_m_);
+  }
+  [[nodiscard]] bool far_from_change(const CarriageMotion& motion) const noexcept;
+  void follow_field(core::Nanoseconds start_ns, const CarriageMotion& motion,
+                    LineChanges& changes) noexcept;
+  void toggle_field(core::Nanoseconds time_ns, LineChanges& changes) noexcept;
+  void settle_line(core::Nanoseconds before_ns, LineChanges& changes) noexcept;
+
+  double position_m_;
+  double sign_;             // +1 at max, -1 at min: depth is positive beyond the switch point
+  double release_depth_m_;  // negative
+  core::Nanoseconds delay_ns_;
+  protocol::InputLine line_;
+  bool fitted_;
+  bool field_is_on_;
+  bool line_is_active_;
+  core::Nanoseconds field_since_ns_ = 0;
+};
+
+}  // namespace towbench::emulator

@@ -1,0 +1,66 @@
+// Parameters of the sensors of one axis. SI; positions are carriage positions in the tank frame,
+// 0 at encoder count 0. Values and sources: plant.md's table, thesis App. A (encoder data sheet).
+#pragma once
+
+#include <cstdint>
+
+#include "core/parameter.h"
+
+namespace towbench::emulator {
+
+// Magnetic incremental encoder on the motor shaft, 1000 lines, line driver (App. A, 228456).
+// Turning towards max, channel A leads channel B. `counts_per_turn` is a key of the axis itself
+// (encoder_counts_per_rev), all else of its table [encoder].
+struct EncoderParameters {
+  std::int64_t counts_per_turn = 4000;  // 4 x the lines: A and B, both edges (6.1.2, 7.2.1)
+  double phase_deg = 90.0;              // electrical, from A to B; data sheet: 90 +- 45
+  double pulse_width_deg = 180.0;       // electrical, high part of A and of B
+  double eccentricity_counts = 0.0;     // amplitude of the once-a-turn error of the grating
+  double eccentricity_phase_deg = 0.0;  // mechanical, where that error crosses zero upwards
+  std::int64_t index_count = 0;         // the index pulse is high while count mod turn = this
+  double max_channel_Hz = 200e3;        // data sheet; faster is flagged, not dropped
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("phase_deg", phase_deg, core::between(20.0, 160.0),
+            "electrical angle from A to B; the data sheet allows 45 to 135");
+    v.value("pulse_width_deg", pulse_width_deg, core::between(150.0, 210.0),
+            "electrical angle for which a channel is high");
+    v.value("eccentricity_counts", eccentricity_counts, core::between(0.0, 50.0),
+            "amplitude of the once-a-turn position error");
+    v.value("eccentricity_phase_deg", eccentricity_phase_deg, core::between(-360.0, 360.0),
+            "motor angle at which the once-a-turn error crosses zero upwards");
+    v.value("index_count", index_count, core::between(0, 1 << 22),
+            "count inside a turn at which the index pulse is high");
+    v.value("max_channel_Hz", max_channel_Hz, core::above(0.0),
+            "highest rate a channel carries; faster motion is flagged");
+  }
+};
+
+// Hall switch at one end, seen by a magnet on the carriage. It operates at `position_m` and beyond
+// (towards its end). A switching sensor releases `hysteresis_m` back towards the middle, a latching
+// one (OR-EMCP-3c) only where the opposite pole passes it, `latch_release_m` back.
+struct HallParameters {
+  bool fitted = true;
+  double position_m = 0.0;
+  double hysteresis_m = 0.5e-3;  // assumed
+  bool latching = false;
+  double latch_release_m = 20e-3;  // assumed
+  double delay_s = 0.1e-3;         // assumed; OR-EMCP-3b: below 1 ms
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("fitted", fitted, core::any_finite(), "whether the sensor exists");
+    v.value("position_m", position_m, core::any_finite(),
+            "carriage position at which the sensor operates");
+    v.value("hysteresis_m", hysteresis_m, core::above(0.0),
+            "way back towards the middle until a switching sensor releases");
+    v.value("latching", latching, core::any_finite(),
+            "releases only where the opposite pole passes");
+    v.value("latch_release_m", latch_release_m, core::above(0.0),
+            "way back towards the middle until a latching sensor releases");
+    v.value("delay_s", delay_s, core::between(0.0, 1e-3), "from the field to the line");
+  }
+};
+
+}  // namespace towbench::emulator
