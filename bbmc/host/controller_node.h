@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "bbmc/system/configuration.h"
+#include "bbmc/system/system_event.h"
 #include "bbmc/system/telemetry_row.h"
 #include "core/result.h"
 #include "core/time.h"
@@ -15,17 +16,7 @@
 
 namespace towbench::bbmc {
 
-// What happened in the controller that is worth a line in events.jsonl.
-struct ControllerEvent {
-  core::Nanoseconds time_ns = 0;
-  enum class Kind : std::uint8_t {
-    kStateChanged, kFaultLatched, kReset, kMotionStarted, kMotionEnded, kDutyZeroed,
-    kLineEdge, kLogFull, kPeerLost,
-  } kind = Kind::kStateChanged;
-  core::Axis axis = core::Axis::kY;
-  core::ErrorCode code = core::ErrorCode::kNone;
-  std::int64_t value = 0;
-};
+using ControllerEvent = SystemEvent;
 
 class ControllerNode : public protocol::MessageSink {
  public:

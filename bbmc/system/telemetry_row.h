@@ -11,12 +11,12 @@ namespace towbench::bbmc {
 
 // Of one axis, as the control loop sees it. Numbers are printed in the log and never reused.
 enum class AxisMode : std::uint8_t {
-  kIdle = 0,          // no drive
-  kOpenLoop = 1,      // duty is commanded
-  kPosition = 2,      // the law follows a reference
-  kVelocity = 3,      // speed control (goto's long leg)
-  kBraking = 4,       // safety stop in progress
-  kFaulted = 5,       // latched; no drive until reset
+  kIdle = 0,      // no drive
+  kOpenLoop = 1,  // duty is commanded
+  kPosition = 2,  // the law follows a reference
+  kVelocity = 3,  // speed control (goto's long leg)
+  kBraking = 4,   // safety stop in progress
+  kFaulted = 5,   // latched; no drive until reset
 };
 
 struct AxisTelemetry {
@@ -25,7 +25,7 @@ struct AxisTelemetry {
   std::int64_t count = 0;
   double position_m = 0;  // (count + 1/2) x resolution, so that the quantisation has no bias
   double velocity_m_per_s = 0;
-  double duty_pct = 0;    // as written to the PWM, after limits and rounding to ticks
+  double duty_pct = 0;      // as written to the PWM, after limits and rounding to ticks
   std::uint32_t edges = 0;  // A and B edges since the last row
   AxisMode mode = AxisMode::kIdle;
 };

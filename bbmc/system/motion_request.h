@@ -1,0 +1,34 @@
+// What the application layer may ask the system manager to do with the machine.
+#pragma once
+
+#include "bbmc/system/trajectory/duty_program.h"
+#include "bbmc/system/trajectory/trajectory.h"
+#include "core/axis.h"
+
+namespace towbench::bbmc {
+
+// Follow references. Positions are in the global frame of each axis (system_status.h), and each
+// reference must start where its axis stands, within safety.start_tolerance_m.
+struct MotionRequest {
+  // An axis that is not driven has no power. One that must not move is driven with a Hold.
+  core::PerAxis<bool> driven;
+  core::PerAxis<Trajectory> trajectory;
+  // Ends when every driven axis has settled (Configuration::go_to), not hold_time_s after the end.
+  bool until_settled = false;
+};
+
+// Command duty. The axis that is not driven has no power.
+struct OpenLoopRequest {
+  core::PerAxis<bool> driven;
+  core::PerAxis<DutyProgram> program;
+  // Ends, with no drive, as soon as a driven axis is faster: break-away. 0 = never.
+  double stop_speed_count_per_s = 0;
+};
+
+// Go to a place: both axes, each with its own profile; done means both.
+struct GotoRequest {
+  core::PerAxis<double> target_m;
+  bool fast = false;
+};
+
+}  // namespace towbench::bbmc
