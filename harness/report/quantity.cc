@@ -87,7 +87,7 @@ std::string readable_number(double value) {
       text.pop_back();
     }
   }
-  return value < 0 ? "−" + text : text;
+  return fmt::format("{}{}", value < 0 ? "−" : "", text);
 }
 
 std::string readable_quantity(double value_si, std::string_view unit_si) {

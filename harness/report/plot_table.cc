@@ -1,0 +1,158 @@
+#include "harness/report/plot_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bbmc/system/telemetry_row.h"
+#include "core/axis.h"
+
+namespace towbench::harness::report {
+namespace {
+
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+constexpr auto kFollowing = static_cast<double>(bbmc::AxisMode::kPosition);
+
+// Rows whose time is a number above all times before it: what can be drawn over time.
+std::vector<std::size_t> rows_in_order(const std::vector<double>& time_s) {
+  std::vector<std::size_t> kept;
+  kept.reserve(time_s.size());
+  double last_s = -std::numeric_limits<double>::infinity();
+  for (std::size_t row = 0; row < time_s.size(); ++row) {
+    if (std::isfinite(time_s[row]) && time_s[row] > last_s) {
+      kept.push_back(row);
+      last_s = time_s[row];
+    }
+  }
+  return kept;
+}
+
+std::vector<double> picked(const std::vector<double>& values,
+                           const std::vector<std::size_t>& rows) {
+  std::vector<double> result;
+  result.reserve(rows.size());
+  for (const std::size_t row : rows) {
+    // An infinity cannot be drawn to scale; like a missing value it leaves a gap.
+    result.push_back(std::isfinite(values[row]) ? values[row] : kMissing);
+  }
+  return result;
+}
+
+// Linear interpolation at the increasing times `at_s`; NaN outside of `time_s`.
+std::vector<double> resampled(const std::vector<double>& time_s, const std::vector<double>& values,
+                              const std::vector<double>& at_s) {
+  std::vector<double> result;
+  result.reserve(at_s.size());
+  std::size_t next = 0;
+  for (const double t_s : at_s) {
+    while (next < time_s.size() && time_s[next] < t_s) {
+      ++next;
+    }
+    if (next == time_s.size() || (next == 0 && time_s[0] > t_s)) {
+      result.push_back(kMissing);
+    } else if (time_s[next] == t_s) {
+      result.push_back(values[next]);
+    } else {
+      const double share = (t_s - time_s[next - 1]) / (time_s[next] - time_s[next - 1]);
+      result.push_back(values[next - 1] + share * (values[next] - values[next - 1]));
+    }
+  }
+  return result;
+}
+
+void add_truth(const CsvTable& truth, PlotTable& table) {
+  const std::vector<double>* time_s = truth.find("time_s");
+  if (time_s == nullptr) {
+    table.remarks.emplace_back("truth.csv has no time_s column and was left out.");
+    return;
+  }
+  const std::vector<std::size_t> rows = rows_in_order(*time_s);
+  const std::vector<double> truth_s = picked(*time_s, rows);
+  for (const core::Axis axis : core::kAxes) {
+    for (const char* quantity : {"carriage_m", "carriage_speed_m_per_s"}) {
+      const std::string name = fmt::format("{}_{}", core::name_of(axis), quantity);
+      if (const std::vector<double>* values = truth.find(name)) {
+        table.columns.push_back(
+            {name, resampled(truth_s, picked(*values, rows), table.columns[0].values)});
+      }
+    }
+  }
+  if (rows.size() > table.rows + table.rows / 2) {
+    table.remarks.push_back(
+        fmt::format("truth.csv has {} rows; the plots show it at the {} times of log.csv.",
+                    rows.size(), table.rows));
+  }
+}
+
+void add_error(PlotTable& table, core::Axis axis, std::string_view measured,
+               std::string_view error) {
+  const auto column = [&](std::string_view quantity) {
+    return table.find(fmt::format("{}_{}", core::name_of(axis), quantity));
+  };
+  const std::vector<double>* reference = column("reference_m");
+  const std::vector<double>* actual = column(measured);
+  const std::vector<double>* state = column("state");
+  if (reference == nullptr || actual == nullptr) {
+    return;
+  }
+  std::vector<double> difference(table.rows, kMissing);
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    if (state == nullptr || (*state)[row] == kFollowing) {
+      difference[row] = (*reference)[row] - (*actual)[row];
+    }
+  }
+  table.columns.push_back(
+      {fmt::format("{}_{}", core::name_of(axis), error), std::move(difference)});
+}
+
+}  // namespace
+
+const std::vector<double>* PlotTable::find(std::string_view name) const {
+  for (const PlotColumn& column : columns) {
+    if (column.name == name) {
+      return &column.values;
+    }
+  }
+  return nullptr;
+}
+
+PlotTable plot_table(const RunContents& run) {
+  PlotTable table;
+  const std::vector<double>* time_s = run.log ? run.log->find("time_s") : nullptr;
+  if (time_s == nullptr) {
+    table.remarks.emplace_back(run.log ? "log.csv has no time_s column: nothing can be plotted."
+                                       : "log.csv is missing: nothing can be plotted.");
+    return table;
+  }
+  const std::vector<std::size_t> rows = rows_in_order(*time_s);
+  table.source_rows = time_s->size();
+  table.rows = rows.size();
+  if (rows.size() < time_s->size()) {
+    table.remarks.push_back(
+        fmt::format("log.csv: {} rows whose time does not increase were left out.",
+                    time_s->size() - rows.size()));
+  }
+  if (rows.empty()) {
+    table.remarks.emplace_back("log.csv has no row: nothing can be plotted.");
+    return table;
+  }
+  table.columns.push_back({"time_s", picked(*time_s, rows)});
+  for (std::size_t i = 0; i < run.log->names.size(); ++i) {
+    if (run.log->names[i] != "time_s") {
+      table.columns.push_back({run.log->names[i], picked(run.log->columns[i], rows)});
+    }
+  }
+  if (run.truth) {
+    add_truth(*run.truth, table);
+  }
+  for (const core::Axis axis : core::kAxes) {
+    add_error(table, axis, "position_m", "error_m");
+    add_error(table, axis, "carriage_m", "carriage_error_m");
+  }
+  return table;
+}
+
+}  // namespace towbench::harness::report

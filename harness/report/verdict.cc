@@ -1,0 +1,129 @@
+#include "harness/report/verdict.h"
+
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "harness/report/run_contents.h"
+
+namespace towbench::harness::report {
+namespace {
+
+struct Tally {
+  std::size_t checks = 0;
+  std::size_t failed = 0;
+  std::size_t unjudged = 0;
+};
+
+Tally tally_of(const nlohmann::json& checks) {
+  Tally tally;
+  if (checks.is_array()) {
+    for (const nlohmann::json& check : checks) {
+      const VerdictKind kind = kind_of(text_at(check, "verdict"));
+      ++tally.checks;
+      tally.failed += kind == VerdictKind::kFail ? 1U : 0U;
+      tally.unjudged += kind == VerdictKind::kPass || kind == VerdictKind::kFail ? 0U : 1U;
+    }
+  }
+  return tally;
+}
+
+std::string sentence_for(const Tally& tally) {
+  if (tally.failed > 0 && tally.unjudged > 0) {
+    return fmt::format("Of {} checks {} failed and {} could not be judged.", tally.checks,
+                       tally.failed, tally.unjudged);
+  }
+  if (tally.failed > 0) {
+    return fmt::format("{} of {} checks failed.", tally.failed, tally.checks);
+  }
+  if (tally.unjudged > 0) {
+    return fmt::format("{} of {} checks could not be judged.", tally.unjudged, tally.checks);
+  }
+  return tally.checks == 1 ? "The one check is met."
+                           : fmt::format("All {} checks are met.", tally.checks);
+}
+
+Verdict contradiction(std::string_view claimed, const Tally& tally) {
+  return {VerdictKind::kInvalid,
+          tally.checks == 0 ? fmt::format("The result says {}, but nothing was checked.", claimed)
+                            : fmt::format("The result says {}, which its checks contradict. {}",
+                                          claimed, sentence_for(tally))};
+}
+
+}  // namespace
+
+VerdictKind kind_of(std::string_view word) {
+  return word == "PASS"   ? VerdictKind::kPass
+         : word == "FAIL" ? VerdictKind::kFail
+                          : VerdictKind::kInvalid;
+}
+
+Verdict verdict_of(const nlohmann::json& result) {
+  if (!result.is_object()) {
+    return {VerdictKind::kIncomplete, "There is no readable result.json: nothing was judged."};
+  }
+  const std::string reason = text_at(result, "reason");
+  if (text_at(result, "status") != "complete") {
+    return {VerdictKind::kIncomplete,
+            reason.empty() ? "The run did not come to its end: nothing was judged." : reason};
+  }
+  const Tally tally = tally_of(member(result, "checks"));
+  const std::string word = text_at(result, "verdict");
+  const bool clean = tally.checks > 0 && tally.failed == 0 && tally.unjudged == 0;
+  if (word == "PASS") {
+    return clean ? Verdict{VerdictKind::kPass, sentence_for(tally)} : contradiction(word, tally);
+  }
+  if (word == "FAIL" || word == "INVALID") {
+    std::string sentence = reason;
+    if (tally.checks > 0 && !clean) {
+      sentence += sentence.empty() ? "" : " ";
+      sentence += sentence_for(tally);
+    }
+    return {kind_of(word), sentence.empty() ? "No reason was recorded." : sentence};
+  }
+  return {VerdictKind::kInvalid, "The result carries no verdict that this page knows."};
+}
+
+std::string_view word_of(VerdictKind kind) {
+  switch (kind) {
+    case VerdictKind::kPass:
+      return "PASS";
+    case VerdictKind::kFail:
+      return "FAIL";
+    case VerdictKind::kInvalid:
+      return "INVALID";
+    case VerdictKind::kIncomplete:
+      break;
+  }
+  return "INCOMPLETE";
+}
+
+std::string_view symbol_of(VerdictKind kind) {
+  switch (kind) {
+    case VerdictKind::kPass:
+      return "✓";
+    case VerdictKind::kFail:
+      return "✕";
+    case VerdictKind::kInvalid:
+      return "?";
+    case VerdictKind::kIncomplete:
+      break;
+  }
+  return "…";
+}
+
+std::string_view class_of(VerdictKind kind) {
+  switch (kind) {
+    case VerdictKind::kPass:
+      return "pass";
+    case VerdictKind::kFail:
+      return "fail";
+    case VerdictKind::kInvalid:
+      return "invalid";
+    case VerdictKind::kIncomplete:
+      break;
+  }
+  return "incomplete";
+}
+
+}  // namespace towbench::harness::report
