@@ -71,7 +71,7 @@ struct ChainParameters {
 struct HardEndParameters {
   bool fitted = true;
   double min_m = 0.0;
-  double max_m = 3.95199662;       // 1,760,000 counts (7.2.1) by (3.42)
+  double max_m = 3.951997;         // 1,760,000 counts (7.2.1) by (3.42)
   double stiffness_N_per_m = 5e5;  // assumed: 1.8 mm deep from 0.5 m/s
   double damping_N_s_per_m = 1e3;  // assumed
 

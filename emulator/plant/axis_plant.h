@@ -1,13 +1,24 @@
 // One axis of the carriage, stepped at 10 kHz: amplifier, winding, gear, elastic chain, friction,
 // hard ends. Pure: the next state follows from parameters, state and input alone.
+//
+// Laws: axis_model.h (linear part), friction_law.h (dry friction), guards.h (what ends a regime).
+// Between events the axis is linear and the step is exact; reversals, break-away, limits and
+// contacts are located inside the step (docs/design/0002-friction-and-stepping.md).
+//
+// Left out: iron losses, brush drop, winding temperature, the diodes' conduction of a motor driven
+// faster than the supply allows.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "core/bounded_vector.h"
 #include "core/realtime.h"
+#include "core/time.h"
 #include "emulator/plant/axis_forces.h"
 #include "emulator/plant/axis_parameters.h"
+#include "emulator/plant/situation.h"
+#include "emulator/plant/taylor_flow.h"
 
 namespace towbench::emulator {
 
@@ -16,7 +27,9 @@ struct AxisInput {
   double command_V = 0;  // at the amplifier's differential input, + drives towards max
   double supply_V = 12.0;
   double carriage_force_N = 0;     // external, + towards max (water, cross-axis, a hand)
-  bool amplifier_enabled = false;  // false: no current flows
+  bool amplifier_enabled = false;  // false: current dies through the diodes, then none flows
+
+  friend constexpr bool operator==(const AxisInput&, const AxisInput&) = default;
 };
 
 struct AxisState {
@@ -28,8 +41,8 @@ struct AxisState {
   double carriage_speed_m_per_s = 0;
 };
 
-// A piece of a step without an event inside: cubic Hermite between its ends is exact to well below
-// 1e-3 encoder counts.
+// A piece of a step without an event inside: cubic Hermite between its ends is exact to about 1e-3
+// encoder counts while the current slews, far better otherwise.
 struct MotionSegment {
   double start_s = 0;  // from the start of the step
   double end_s = 0;
@@ -53,21 +66,33 @@ struct HardEndContact {
 
 class AxisPlant {
  public:
-  // Parameters are valid (the fixture reader refuses others). Starts at rest, chain relaxed.
-  AxisPlant(const AxisParameters& parameters, double carriage_m);
+  // Parameters are consistent (axis_parameters.h; others abort). Starts at rest, chain relaxed. A
+  // tick other than the plant's own serves convergence studies.
+  AxisPlant(const AxisParameters& parameters, double carriage_m,
+            double tick_s = core::kPlantTick_s);
 
-  // Advances by core::kPlantTick_s. `segments` describes the motor shaft during the step.
+  // Advances by one tick. `segments` describes the motor shaft during it, without gaps.
   TOWBENCH_REALTIME void step(const AxisInput& input, MotionSegments& segments) noexcept;
 
-  [[nodiscard]] const AxisState& state() const noexcept { return state_; }
+  [[nodiscard]] AxisState state() const noexcept;
+  // Of the last step.
   [[nodiscard]] const HardEndContact& contact() const noexcept { return contact_; }
-  // Friction, chain and motor torque at the end of the last step, for truth.csv.
-  [[nodiscard]] const AxisForces& forces() const noexcept { return forces_; }
+  // At the end of the last step.
+  [[nodiscard]] AxisForces forces() const noexcept;
 
  private:
-  AxisState state_;
+  void take(const AxisInput& input) noexcept;
+  [[nodiscard]] bool step_without_event(MotionSegments& segments) noexcept;
+  void step_through_events(MotionSegments& segments) noexcept;
+  [[nodiscard]] TaylorFlow flow_from_here(double span_s) noexcept;
+  void update_friction(const StateVector& start, const StateVector& end) noexcept;
+  void record_contact(double time_s, double sign) noexcept;
+
+  std::shared_ptr<const AxisModel> model_;
+  StateVector z_{};
+  Situation situation_;
+  AxisInput input_;  // of the step before
   HardEndContact contact_;
-  AxisForces forces_;
 };
 
 }  // namespace towbench::emulator

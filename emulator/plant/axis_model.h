@@ -1,0 +1,45 @@
+// What never changes during a run: one axis's derived mechanics, friction laws and linear modes.
+//
+//   winding    L i' = v - R i - K_T w                                   (3.13)
+//              v = K_p (i_ref - i) + q,  q' = K_i (i_ref - i)           current loop, kCurrentLoop
+//              v held, q' = 0                                           kFixedVoltage
+//              i' = 0, q' = 0                                           kFixedCurrent
+//   motor      J_m w' = K_T i - B_m w - r F_chain + tau                 (3.37), errata of plant.md
+//   carriage   M v'   = F_chain - B_c v + F + F_end                     (3.38)
+//   chain      F_chain = K_s d + B_s d',  d = r theta - x,  d' = r w - v
+//   hard end   F_end = -K_e (x - x_end) - B_e v, only while it pushes
+//   rigid      J w' = K_T i - B w + tau + r (F + F_end),  v = r w       (3.33)
+//
+// tau and F are what is held during a step: dry friction, outside forces. A body that sticks has
+// its speed row zero.
+#pragma once
+
+#include <array>
+
+#include "emulator/plant/derived_mechanics.h"
+#include "emulator/plant/friction_law.h"
+#include "emulator/plant/linear_mode.h"
+#include "emulator/plant/regime.h"
+
+namespace towbench::emulator {
+
+struct AxisModel {
+  // Parameters must be consistent (axis_parameters.h); aborts on a mode too fast for the tick.
+  AxisModel(const AxisParameters& axis, double tick_length_s) noexcept;
+
+  AxisParameters parameters;
+  DerivedMechanics mechanics;
+  StribeckCurve stribeck;
+  PositionFrictionCurve position_friction;  // N, or N m when the chain is rigid
+  double tick_s;
+  bool motor_is_dry;     // has friction to stick with
+  bool carriage_is_dry;  // likewise; false when the chain is rigid
+  std::array<DiscreteMode, kModeCount> ticks{};
+  std::array<ContinuousMode, kModeCount> flows{};
+};
+
+[[nodiscard]] ContinuousMode continuous_mode(const AxisParameters& axis,
+                                             const DerivedMechanics& mechanics,
+                                             const ModeKey& key) noexcept;
+
+}  // namespace towbench::emulator

@@ -1,0 +1,55 @@
+#include "emulator/plant/derived_mechanics.h"
+
+#include <numbers>
+
+namespace towbench::emulator {
+namespace {
+
+void share_out(const AxisParameters& p, DerivedMechanics& d) noexcept {
+  const double r = d.metres_per_radian;
+  const double on_carriage = p.chain.rigid ? 0.0 : p.friction.carriage_share;
+  const double on_motor = 1.0 - on_carriage;
+  d.motor_viscous_Nm_s_per_rad = on_motor * p.viscous_friction_Nm_s_per_rad;
+  d.carriage_viscous_N_s_per_m = on_carriage * p.viscous_friction_Nm_s_per_rad / (r * r);
+  d.motor = {.coulomb = on_motor * p.coulomb_friction_Nm,
+             .breakaway = on_motor * p.friction.breakaway_Nm,
+             .inverse_speed = 1.0 / p.friction.stribeck_speed_rad_per_s};
+  d.carriage = {.coulomb = on_carriage * p.coulomb_friction_Nm / r,
+                .breakaway = on_carriage * p.friction.breakaway_Nm / r,
+                .inverse_speed = 1.0 / (p.friction.stribeck_speed_rad_per_s * r)};
+}
+
+void derive_chain(const AxisParameters& p, DerivedMechanics& d) noexcept {
+  const double r = d.metres_per_radian;
+  const double resonance_rad_per_s = 2.0 * std::numbers::pi * p.chain.resonance_Hz;
+  const double mobility = r * r / d.motor_inertia_kg_m2 + 1.0 / d.carriage_mass_kg;
+  d.chain_stiffness_N_per_m = resonance_rad_per_s * resonance_rad_per_s / mobility;
+  d.chain_damping_N_s_per_m = 2.0 * p.chain.damping_ratio * resonance_rad_per_s / mobility;
+}
+
+// The zero of the PI cancels the winding's pole: C(s) = w_c (L s + R) / s leaves the loop w_c / s,
+// whose closed form has exactly the bandwidth w_c.
+void derive_current_loop(const AxisParameters& p, DerivedMechanics& d) noexcept {
+  const double corner_rad_per_s = 2.0 * std::numbers::pi * p.amplifier.current_loop_bandwidth_Hz;
+  d.proportional_gain_V_per_A =
+      corner_rad_per_s * (p.winding.inductance_H + p.winding.choke_inductance_H);
+  d.integral_gain_V_per_A_s = corner_rad_per_s * p.winding.resistance_ohm;
+}
+
+}  // namespace
+
+DerivedMechanics derive(const AxisParameters& p) noexcept {
+  DerivedMechanics d;
+  const double r = p.sprocket_radius_m / p.gear_ratio;
+  d.metres_per_radian = r;
+  d.motor_inertia_kg_m2 = p.chain.rigid ? p.inertia_kg_m2 : p.rotor_inertia_kg_m2;
+  d.carriage_mass_kg = (p.inertia_kg_m2 - p.rotor_inertia_kg_m2) / (r * r);
+  share_out(p, d);
+  if (!p.chain.rigid) {
+    derive_chain(p, d);
+  }
+  derive_current_loop(p, d);
+  return d;
+}
+
+}  // namespace towbench::emulator

@@ -1,0 +1,64 @@
+// Dry friction level against speed and position, (3.31)/(3.34) without sign and viscous part:
+//
+//   level(v, x) = C + (S - C) f_s(|v| / v_s) + F_P(x),  f_s(y) = exp(-y^2) or 1 / (1 + y^2)
+//
+// At rest the level is S + F_P(x), the break-away force, so friction is continuous through
+// break-away. No libm: the Gaussian is a table of cubics, good to 1e-8 of (S - C).
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "core/realtime.h"
+#include "emulator/plant/derived_mechanics.h"
+
+namespace towbench::emulator {
+
+class StribeckCurve {
+ public:
+  explicit StribeckCurve(StribeckForm form) noexcept;
+
+  // f_s at speed_ratio = |v| / v_s >= 0.
+  TOWBENCH_REALTIME [[nodiscard]] double operator()(double speed_ratio) const noexcept {
+    if (form_ == StribeckForm::kLorentz) {
+      return 1.0 / (1.0 + speed_ratio * speed_ratio);
+    }
+    const double scaled = speed_ratio * kKnotsPerUnit;
+    if (!(scaled < static_cast<double>(kIntervals))) {
+      return 0.0;
+    }
+    const auto interval = static_cast<std::size_t>(scaled);
+    const double s = scaled - static_cast<double>(interval);
+    const auto& c = cubics_[interval];
+    return c[0] + s * (c[1] + s * (c[2] + s * c[3]));
+  }
+
+  // Whether f_s is zero at this ratio and, for a whole tick around it, as good as zero.
+  [[nodiscard]] bool has_faded(double speed_ratio) const noexcept {
+    return form_ == StribeckForm::kGaussian && speed_ratio > kFaded;
+  }
+
+ private:
+  static constexpr double kFaded = 6.0;  // exp(-36) = 2e-16
+  static constexpr double kKnotsPerUnit = 32.0;
+  static constexpr std::size_t kIntervals = 200;  // up to a ratio of 6.25
+  StribeckForm form_;
+  std::array<std::array<double, 4>, kIntervals> cubics_{};
+};
+
+// F_P(x): piecewise linear, constant outside the knots.
+class PositionFrictionCurve {
+ public:
+  // `scale` turns the table's motor-side torque into this body's unit.
+  PositionFrictionCurve(const PositionFriction& table, double scale) noexcept;
+
+  [[nodiscard]] bool present() const noexcept { return !position_m_.empty(); }
+  TOWBENCH_REALTIME [[nodiscard]] double operator()(double carriage_m) const noexcept;
+
+ private:
+  PositionFriction::Table position_m_;
+  PositionFriction::Table level_;
+  PositionFriction::Table slope_per_m_;
+};
+
+}  // namespace towbench::emulator

@@ -1,0 +1,74 @@
+// The discrete state of an axis: between two changes of it the axis is one linear mode.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace towbench::emulator {
+
+// What the amplifier does with the winding.
+enum class Drive : std::uint8_t {
+  kRegulated,       // current loop in control
+  kLimited,         // current loop at the output voltage limit, its integrator held (anti-windup)
+  kVoltage,         // voltage mode
+  kCurrentLimited,  // voltage mode at the current limit
+  kFreewheel,       // disabled, current flows back into the supply through the diodes
+  kOpen,            // disabled, no current
+};
+
+enum class HardEnd : std::uint8_t {
+  kClear,
+  kPushing,     // the stop pushes on the carriage
+  kRebounding,  // the carriage leaves faster than the stop follows
+};
+
+struct Regime {
+  Drive drive = Drive::kOpen;
+  HardEnd end = HardEnd::kClear;
+  double drive_sign = 1;          // of limit or current: +1, -1
+  double end_sign = 1;            // +1 max stop, -1 min stop
+  double motor_direction = 0;     // +1, -1; 0: sticks
+  double carriage_direction = 0;  // likewise; unused with a rigid chain
+};
+
+// Linear modes differ in these only.
+enum class Winding : std::uint8_t { kCurrentLoop, kFixedVoltage, kFixedCurrent };
+inline constexpr std::size_t kModeCount = 3 * 2 * 2 * 2;
+
+struct ModeKey {
+  Winding winding = Winding::kFixedCurrent;
+  bool motor_moves = false;
+  bool carriage_moves = false;
+  bool end_pushes = false;
+
+  [[nodiscard]] constexpr std::size_t index() const noexcept {
+    return ((static_cast<std::size_t>(winding) * 2 + (motor_moves ? 1U : 0U)) * 2 +
+            (carriage_moves ? 1U : 0U)) *
+               2 +
+           (end_pushes ? 1U : 0U);
+  }
+};
+
+[[nodiscard]] constexpr Winding winding_of(Drive drive) noexcept {
+  switch (drive) {
+    case Drive::kRegulated:
+      return Winding::kCurrentLoop;
+    case Drive::kLimited:
+    case Drive::kVoltage:
+    case Drive::kFreewheel:
+      return Winding::kFixedVoltage;
+    case Drive::kCurrentLimited:
+    case Drive::kOpen:
+      break;
+  }
+  return Winding::kFixedCurrent;
+}
+
+[[nodiscard]] constexpr ModeKey mode_of(const Regime& regime) noexcept {
+  return {.winding = winding_of(regime.drive),
+          .motor_moves = regime.motor_direction != 0,
+          .carriage_moves = regime.carriage_direction != 0,
+          .end_pushes = regime.end == HardEnd::kPushing};
+}
+
+}  // namespace towbench::emulator

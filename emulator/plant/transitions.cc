@@ -1,0 +1,185 @@
+#include "emulator/plant/transitions.h"
+
+namespace towbench::emulator {
+namespace {
+
+double clamp(double value, double limit) noexcept {
+  if (value > limit) {
+    return limit;
+  }
+  return value < -limit ? -limit : value;
+}
+
+double sign_of(double value) noexcept {
+  return value < 0 ? -1.0 : 1.0;
+}
+
+void settle_disabled(Situation& s, StateVector& z) noexcept {
+  Regime& regime = s.regime;
+  if (regime.drive == Drive::kFreewheel || regime.drive == Drive::kOpen) {
+    return;
+  }
+  z[kIntegral] = 0;
+  regime.drive = z[kCurrent] == 0 ? Drive::kOpen : Drive::kFreewheel;
+  regime.drive_sign = sign_of(z[kCurrent]);
+}
+
+void settle_current_mode(const AxisModel& model, Situation& s, StateVector& z) noexcept {
+  Regime& regime = s.regime;
+  // The integrator is a capacitor at an amplifier's output: it cannot hold more than that gives.
+  z[kIntegral] = clamp(z[kIntegral], s.held.limit_V);
+  const double demanded_V =
+      model.mechanics.proportional_gain_V_per_A * (s.held.set_point_A - z[kCurrent]) + z[kIntegral];
+  const bool beyond = demanded_V > s.held.limit_V || demanded_V < -s.held.limit_V;
+  regime.drive = beyond ? Drive::kLimited : Drive::kRegulated;
+  regime.drive_sign = sign_of(demanded_V);
+}
+
+void settle_voltage_mode(const AxisModel& model, Situation& s, StateVector& z) noexcept {
+  Regime& regime = s.regime;
+  const auto& axis = model.parameters;
+  const double sign = sign_of(z[kCurrent]);
+  const double surplus_V =
+      sign * (s.held.command_terminal_V - axis.winding.resistance_ohm * z[kCurrent] -
+              axis.torque_constant_Nm_per_A * z[kMotorSpeed]);
+  const bool limited = sign * z[kCurrent] >= axis.current_limit_A && surplus_V > 0;
+  regime.drive = limited ? Drive::kCurrentLimited : Drive::kVoltage;
+  regime.drive_sign = sign;
+}
+
+void settle_drive(const AxisModel& model, Situation& s, StateVector& z) noexcept {
+  if (!s.held.enabled) {
+    settle_disabled(s, z);
+  } else if (model.parameters.amplifier.mode == AmplifierMode::kCurrent) {
+    settle_current_mode(model, s, z);
+  } else {
+    settle_voltage_mode(model, s, z);
+  }
+}
+
+// 0 while `level` holds `load`, else the direction in which the body starts.
+double direction_under(double load, double level) noexcept {
+  if (load > level) {
+    return 1.0;
+  }
+  return load < -level ? -1.0 : 0.0;
+}
+
+void settle_resting_motor(const AxisModel& model, Situation& s, const StateVector& z) noexcept {
+  s.motor_friction_Nm = motor_level_Nm(model, 0.0, carriage_position_m(model, z));
+  s.regime.motor_direction = direction_under(motor_load_Nm(model, s, z, 1.0), s.motor_friction_Nm);
+}
+
+void settle_resting_carriage(const AxisModel& model, Situation& s, const StateVector& z) noexcept {
+  s.carriage_friction_N = carriage_level_N(model, 0.0, carriage_position_m(model, z));
+  s.regime.carriage_direction =
+      direction_under(carriage_load_N(model, s, z, 1.0), s.carriage_friction_N);
+}
+
+void settle_friction(const AxisModel& model, Situation& s, const StateVector& z) noexcept {
+  if (!model.motor_is_dry) {
+    s.regime.motor_direction = 1.0;  // moves freely, whichever way
+  } else if (s.regime.motor_direction == 0) {
+    settle_resting_motor(model, s, z);
+  }
+  if (model.parameters.chain.rigid) {
+    return;
+  }
+  if (!model.carriage_is_dry) {
+    s.regime.carriage_direction = 1.0;
+  } else if (s.regime.carriage_direction == 0) {
+    settle_resting_carriage(model, s, z);
+  }
+}
+
+void settle_end(const AxisModel& model, Situation& s, const StateVector& z) noexcept {
+  if (s.regime.end != HardEnd::kClear || !model.parameters.hard_ends.fitted) {
+    return;
+  }
+  for (const double sign : {1.0, -1.0}) {
+    if (penetration_m(model, z, 1.0, sign) > 0) {
+      s.regime.end = end_push_N(model, z, 1.0, sign) > 0 ? HardEnd::kPushing : HardEnd::kRebounding;
+      s.regime.end_sign = sign;
+    }
+  }
+}
+
+void stop_motor(const AxisModel& model, Situation& s, StateVector& z) noexcept {
+  z[kMotorSpeed] = 0;
+  if (model.parameters.chain.rigid) {
+    z[kCarriageSpeed] = 0;
+  }
+  settle_resting_motor(model, s, z);
+}
+
+void cross_drive(const AxisModel& model, Event event, double sign, Situation& s,
+                 StateVector& z) noexcept {
+  Regime& regime = s.regime;
+  regime.drive_sign = sign;
+  switch (event) {
+    case Event::kVoltageLimitReached:
+      regime.drive = Drive::kLimited;
+      return;
+    case Event::kVoltageLimitLeft:
+      regime.drive = Drive::kRegulated;
+      return;
+    case Event::kCurrentLimitReached:
+      regime.drive = Drive::kCurrentLimited;
+      z[kCurrent] = sign * model.parameters.current_limit_A;
+      return;
+    case Event::kCurrentLimitLeft:
+      regime.drive = Drive::kVoltage;
+      return;
+    default:
+      regime.drive = Drive::kOpen;
+      z[kCurrent] = 0;
+      return;
+  }
+}
+
+}  // namespace
+
+void settle(const AxisModel& model, Situation& s, StateVector& z) noexcept {
+  settle_drive(model, s, z);
+  settle_end(model, s, z);
+  settle_friction(model, s, z);
+}
+
+void cross(const AxisModel& model, Event event, double sign, Situation& s,
+           StateVector& z) noexcept {
+  switch (event) {
+    case Event::kVoltageLimitReached:
+    case Event::kVoltageLimitLeft:
+    case Event::kCurrentLimitReached:
+    case Event::kCurrentLimitLeft:
+    case Event::kCurrentDied:
+      cross_drive(model, event, sign, s, z);
+      return;
+    case Event::kMotorStops:
+      stop_motor(model, s, z);
+      return;
+    case Event::kMotorBreaksAway:
+      s.regime.motor_direction = sign;
+      return;
+    case Event::kCarriageStops:
+      z[kCarriageSpeed] = 0;
+      settle_resting_carriage(model, s, z);
+      return;
+    case Event::kCarriageBreaksAway:
+      s.regime.carriage_direction = sign;
+      return;
+    case Event::kEndReached:
+    case Event::kEndPushesAgain:
+      s.regime.end = HardEnd::kPushing;
+      s.regime.end_sign = sign;
+      return;
+    case Event::kEndReleases:
+      s.regime.end = HardEnd::kRebounding;
+      return;
+    case Event::kEndCleared:
+      s.regime.end = HardEnd::kClear;
+      return;
+  }
+}
+
+}  // namespace towbench::emulator
