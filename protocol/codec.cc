@@ -226,20 +226,28 @@ core::Status Decoder::decode_edges(std::span<const std::byte> payload, MessageSi
   if (!reader.good() || payload.size() != kEdgesHeaderSize + kBytesPerEdge * count) {
     return core::failure(core::ErrorCode::kMessageBadField);
   }
-  edges_.edges.clear();
+  // Plain passes over 32-bit lanes, which the compiler turns into vectors: the sum of the times is
+  // taken in two halves because 1024 whole ones would not fit into a lane.
+  constexpr unsigned kHalfBits = 15;
+  constexpr std::uint32_t kHalfMask = (1U << kHalfBits) - 1U;
   const std::byte* at = reader.at();
-  core::Nanoseconds length_ns = 0;
-  bool lines_are_legal = true;
-  for (std::size_t i = 0; i < count; ++i, at += kBytesPerEdge) {
-    const auto edge = EncoderEdge::from_packed(load_little_endian<std::uint32_t>(at));
-    lines_are_legal &= edge.line() <= EncoderLine::kIndex;
-    length_ns += edge.step_ns();
-    lines_are_legal &= edges_.edges.push_back(edge);
+  std::uint32_t low_ns = 0;
+  std::uint32_t high_ns = 0;
+  std::uint32_t both_line_bits = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto packed = load_little_endian<std::uint32_t>(at + kBytesPerEdge * i);
+    unpacked_[i] = EncoderEdge::from_packed(packed);
+    low_ns += packed & kHalfMask;
+    high_ns += (packed >> kHalfBits) & kHalfMask;
+    both_line_bits |= packed & (packed << 1U);
   }
+  const core::Nanoseconds length_ns = (core::Nanoseconds{high_ns} << kHalfBits) + low_ns;
+  const bool lines_are_legal = both_line_bits >> 31U == 0;  // line 3 has both bits set
   // An edge whose time rounds to the end of its interval is legal there.
   if (!lines_are_legal || length_ns > edges_.end_ns - edges_.start_ns) {
     return core::failure(core::ErrorCode::kMessageBadField);
   }
+  edges_.edges.assign(std::span(unpacked_).first(count));
   sink.on(edges_);
   return {};
 }

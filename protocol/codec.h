@@ -4,6 +4,7 @@
 // trusts nothing: length, enum values, ranges and counts are checked before a sink sees anything.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -96,6 +97,7 @@ class Decoder {
   core::Status decode_edges(std::span<const std::byte> payload, MessageSink& sink) noexcept;
 
   EncoderEdges edges_;
+  std::array<EncoderEdge, kMaxEdgesPerMessage> unpacked_;
 };
 
 }  // namespace towbench::protocol

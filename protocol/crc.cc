@@ -2,6 +2,10 @@
 
 #include <array>
 
+#if defined(__x86_64__)
+#include <nmmintrin.h>
+#endif
+
 #include "protocol/wire.h"
 
 namespace towbench::protocol {
@@ -33,9 +37,7 @@ constexpr Table make_table() noexcept {
 
 constexpr Table kTable = make_table();
 
-}  // namespace
-
-std::uint32_t crc32c(std::span<const std::byte> bytes) noexcept {
+std::uint32_t crc_by_table(std::span<const std::byte> bytes) noexcept {
   std::uint32_t crc = 0xffffffffU;
   const std::byte* at = bytes.data();
   std::size_t left = bytes.size();
@@ -51,6 +53,42 @@ std::uint32_t crc32c(std::span<const std::byte> bytes) noexcept {
     crc = (crc >> 8U) ^ kTable[0][(crc ^ static_cast<std::uint32_t>(*at)) & 0xffU];
   }
   return crc ^ 0xffffffffU;
+}
+
+#if defined(__x86_64__)
+// The processor's own CRC-32C: the same sum, about four times as fast.
+[[gnu::target("sse4.2")]] std::uint32_t crc_by_instruction(
+    std::span<const std::byte> bytes) noexcept {
+  std::uint64_t crc = 0xffffffffU;
+  const std::byte* at = bytes.data();
+  std::size_t left = bytes.size();
+  for (; left >= sizeof(std::uint64_t); left -= sizeof(std::uint64_t)) {
+    crc = _mm_crc32_u64(crc, load_little_endian<std::uint64_t>(at));
+    at += sizeof(std::uint64_t);
+  }
+  auto narrow = static_cast<std::uint32_t>(crc);
+  for (; left > 0; --left, ++at) {
+    narrow = _mm_crc32_u8(narrow, std::to_integer<std::uint8_t>(*at));
+  }
+  return narrow ^ 0xffffffffU;
+}
+
+const bool kHasInstruction = __builtin_cpu_supports("sse4.2") != 0;
+#endif
+
+}  // namespace
+
+std::uint32_t crc32c(std::span<const std::byte> bytes) noexcept {
+#if defined(__x86_64__)
+  if (kHasInstruction) {
+    return crc_by_instruction(bytes);
+  }
+#endif
+  return crc_by_table(bytes);
+}
+
+std::uint32_t crc32c_by_table(std::span<const std::byte> bytes) noexcept {
+  return crc_by_table(bytes);
 }
 
 }  // namespace towbench::protocol

@@ -15,4 +15,7 @@ inline constexpr std::size_t kCrcSize = 4;
 
 [[nodiscard]] TOWBENCH_REALTIME std::uint32_t crc32c(std::span<const std::byte> bytes) noexcept;
 
+// The portable form of the same, whatever the processor offers: for tests and benchmarks.
+[[nodiscard]] std::uint32_t crc32c_by_table(std::span<const std::byte> bytes) noexcept;
+
 }  // namespace towbench::protocol
