@@ -26,8 +26,8 @@ class SmoothMotion {
       // The faster, the smaller: the fourth derivative sets the cubic's error.
       const double omega = 2.0 * std::numbers::pi * (5.0 + 300.0 * random.uniform());
       const double amplitude = std::min(sway_counts, 8e12 / std::pow(omega, 4));
-      sines_.push_back({amplitude * random.uniform(), omega,
-                        2.0 * std::numbers::pi * random.uniform()});
+      sines_.push_back(
+          {amplitude * random.uniform(), omega, 2.0 * std::numbers::pi * random.uniform()});
     }
   }
 
