@@ -1,0 +1,182 @@
+#include "harness/experiment/experiment_fixture.h"
+
+#include <algorithm>
+
+#include "core/time.h"
+#include "harness/fixtures/canonical_hash.h"
+#include "harness/judge/metric.h"
+
+namespace towbench::harness {
+namespace {
+
+// A day of virtual time: longer is a slip of the pen.
+constexpr double kLongestRun_s = 86'400.0;
+
+ConsoleStep read_console_step(TableReader& reader) {
+  ConsoleStep step;
+  double at_s = 0;
+  reader.value("at_s", at_s, core::between(0, kLongestRun_s), "time before which nothing is typed");
+  if (reader.has("at_s")) {
+    step.at_s = at_s;
+  }
+  reader.text("send", step.send, "what is typed, without the end of line");
+  reader.text("expect", step.expect, "part of what the console must answer");
+  std::size_t wait = 0;
+  reader.choice("wait", wait, {"none", "idle"});
+  step.wait_idle = wait == 1;
+  reader.value("wait_s", step.wait_s, core::between(0, kLongestRun_s), "pause after the step");
+  reader.value("timeout_s", step.timeout_s, core::between(1e-3, kLongestRun_s),
+               "longest time for expect and wait");
+  reader.finish();
+  return step;
+}
+
+emulator::ScheduledEvent read_event(TableReader& reader) {
+  using Kind = emulator::ScheduledEventKind;
+  double at_s = 0;
+  reader.value("at_s", at_s, core::between(0, kLongestRun_s), "when it happens");
+  std::size_t kind = 0;
+  reader.choice("do", kind, {"press_kill_switch", "release_kill_switch", "push_carriage"});
+  std::size_t axis = 0;
+  reader.choice("axis", axis, {"y", "x"});
+  emulator::ScheduledEvent event;
+  reader.value("force_N", event.value, core::between(-1000, 1000), "push from then on");
+  reader.require("at_s");
+  reader.require("do");
+  event.kind = static_cast<Kind>(kind);
+  if (event.kind == Kind::kPushCarriage) {
+    reader.require("axis");
+    reader.require("force_N");
+  } else if (reader.has("axis") || reader.has("force_N")) {
+    const char* const key = reader.has("axis") ? "axis" : "force_N";
+    throw FixtureError(reader.place_of(key), "a key without effect", "only with push_carriage");
+  }
+  reader.finish();
+  event.time_ns = core::nanoseconds(at_s);
+  event.axis = static_cast<core::Axis>(axis);
+  return event;
+}
+
+EvaluationWindow read_window(TableReader& reader) {
+  EvaluationWindow window;
+  reader.text("name", window.name, "how budgets call the window");
+  std::size_t origin = 0;
+  reader.choice("relative_to", origin, {"run", "motion"});
+  window.origin = static_cast<EvaluationWindow::Origin>(origin);
+  reader.value("from_s", window.from_s, core::between(0, kLongestRun_s), "start");
+  reader.value("to_s", window.to_s, core::between(0, kLongestRun_s), "end");
+  for (const char* key : {"name", "from_s", "to_s"}) {
+    reader.require(key);
+  }
+  reader.finish();
+  if (!(window.to_s > window.from_s)) {
+    throw FixtureError(reader.place_of("to_s"), std::to_string(window.to_s), "a time after from_s");
+  }
+  return window;
+}
+
+Budget read_budget(TableReader& reader, const std::vector<EvaluationWindow>& windows) {
+  Budget budget;
+  reader.text("metric", budget.metric, "name of a metric");
+  reader.text("window", budget.window, "name of a window");
+  reader.text("source", budget.source, "where the figure comes from");
+  double min = 0;
+  double max = 0;
+  reader.value("min", min, core::any_finite(), "smallest value allowed");
+  reader.value("max", max, core::any_finite(), "largest value allowed");
+  reader.require("metric");
+  reader.finish();
+  if (reader.has("min")) {
+    budget.min = min;
+  }
+  if (reader.has("max")) {
+    budget.max = max;
+  }
+  if (!budget.min && !budget.max) {
+    throw FixtureError(reader.place_of("metric"), "a budget without limits", "min, max or both");
+  }
+  if (budget.min && budget.max && *budget.min > *budget.max) {
+    throw FixtureError(reader.place_of("min"), "min above max", "min <= max");
+  }
+  if (find_metric(budget.metric) == nullptr) {
+    throw FixtureError(reader.place_of("metric"), '"' + budget.metric + '"',
+                       suggest_metric(budget.metric));
+  }
+  const bool window_exists = std::any_of(windows.begin(), windows.end(), [&](const auto& window) {
+    return window.name == budget.window;
+  });
+  if (!window_exists) {
+    throw FixtureError(reader.place_of("window"), '"' + budget.window + '"',
+                       "\"whole\" or the name of a [[window]] of this file");
+  }
+  return budget;
+}
+
+Experiment read_experiment(TableReader& reader) {
+  Experiment experiment;
+  reader.text("name", experiment.name, "short name, part of the folder's name");
+  reader.text("title", experiment.title, "one line for a person");
+  reader.text("description", experiment.description, "what it shows, and why");
+  reader.value("duration_limit_s", experiment.duration_limit_s, core::between(1e-3, kLongestRun_s),
+               "virtual time at which the run ends in any case");
+  reader.value("seed", experiment.seed, core::between(0, 9e15), "of every random quantity");
+  for (auto& step : reader.tables("console")) {
+    experiment.console.push_back(read_console_step(step));
+  }
+  for (auto& event : reader.tables("event")) {
+    experiment.events.push_back(read_event(event));
+  }
+  std::stable_sort(experiment.events.begin(), experiment.events.end(),
+                   [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; });
+  experiment.windows.emplace_back();
+  for (auto& window : reader.tables("window")) {
+    experiment.windows.push_back(read_window(window));
+  }
+  for (auto& budget : reader.tables("budget")) {
+    experiment.budgets.push_back(read_budget(budget, experiment.windows));
+  }
+  return experiment;
+}
+
+void check_name(const TableReader& reader, const std::string& name) {
+  const bool plain =
+      !name.empty() && name.size() <= 60 && std::all_of(name.begin(), name.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+      });
+  if (!plain) {
+    throw FixtureError(reader.place_of("name"), '"' + name + '"',
+                       "1 to 60 of a-z, 0-9 and - (it names the run folder)");
+  }
+}
+
+}  // namespace
+
+ExperimentFixture load_experiment(const std::filesystem::path& path) {
+  const auto file = FixtureFile::load(path);
+  ExperimentFixture fixture;
+  fixture.file = path;
+  remember(fixture.sources, file);
+
+  TableReader reader(file, file.table());
+  fixture.experiment = read_experiment(reader);
+  std::string rig;
+  std::string controller;
+  reader.text("rig", rig, "path of the rig file");
+  reader.text("controller", controller, "path of the controller file");
+  for (const char* key : {"name", "rig", "controller", "duration_limit_s"}) {
+    reader.require(key);
+  }
+  reader.finish();
+  check_name(reader, fixture.experiment.name);
+
+  fixture.rig_file = file.resolve(rig, reader.place_of("rig"));
+  fixture.controller_file = file.resolve(controller, reader.place_of("controller"));
+  fixture.rig = load_rig(fixture.rig_file, fixture.sources);
+  fixture.controller = load_controller(fixture.controller_file, fixture.sources);
+  CanonicalHash hash;
+  hash.add(file.text());
+  fixture.hash = hash.value();
+  return fixture;
+}
+
+}  // namespace towbench::harness

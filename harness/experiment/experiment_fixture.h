@@ -1,0 +1,28 @@
+// Reads an experiment file and every file that it names.
+#pragma once
+
+#include <filesystem>
+
+#include "harness/experiment/experiment.h"
+#include "harness/fixtures/controller_fixture.h"
+#include "harness/fixtures/fixture_file.h"
+#include "harness/fixtures/rig_fixture.h"
+
+namespace towbench::harness {
+
+// All that a run needs, resolved and checked.
+struct ExperimentFixture {
+  std::filesystem::path file;
+  std::filesystem::path rig_file;
+  std::filesystem::path controller_file;
+  Experiment experiment;
+  RigFixture rig;
+  ControllerFixture controller;
+  SourceFiles sources;     // every file read, this one first
+  std::uint64_t hash = 0;  // of the experiment's own text
+};
+
+// Throws FixtureError.
+[[nodiscard]] ExperimentFixture load_experiment(const std::filesystem::path& path);
+
+}  // namespace towbench::harness

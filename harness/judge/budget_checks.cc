@@ -1,0 +1,106 @@
+#include "harness/judge/budget_checks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace towbench::harness {
+namespace {
+
+// First control tick in which any axis is driven.
+std::optional<double> first_motion_s(const RunData& data) {
+  const auto time_s = data.log.column("time_s");
+  const auto state_y = data.log_of(core::Axis::kY, "state");
+  const auto state_x = data.log_of(core::Axis::kX, "state");
+  for (std::size_t i = 0; i < std::min(state_y.size(), state_x.size()); ++i) {
+    if (state_y[i] != 0.0 || state_x[i] != 0.0) {
+      return time_s[i];
+    }
+  }
+  return std::nullopt;
+}
+
+double relative_margin(double distance, double limit) {
+  return limit == 0.0 ? distance : distance / std::fabs(limit);
+}
+
+// Negative when the limit is broken.
+double margin_of(const Budget& budget, double value) {
+  double margin = std::numeric_limits<double>::infinity();
+  if (budget.min) {
+    margin = std::min(margin, relative_margin(value - *budget.min, *budget.min));
+  }
+  if (budget.max) {
+    margin = std::min(margin, relative_margin(*budget.max - value, *budget.max));
+  }
+  return margin;
+}
+
+}  // namespace
+
+std::vector<ResolvedWindow> resolve_windows(const std::vector<EvaluationWindow>& windows,
+                                            const RunData& data) {
+  const auto motion_s = first_motion_s(data);
+  std::vector<ResolvedWindow> resolved;
+  for (const auto& window : windows) {
+    const bool from_motion = window.origin == EvaluationWindow::Origin::kMotion;
+    const double origin_s = from_motion ? motion_s.value_or(0) : 0;
+    // Half a nanosecond of slack, so that a row at the very border belongs to the window however
+    // the sum rounds.
+    constexpr double kSlack_s = 0.5e-9;
+    resolved.push_back({window.name,
+                        {origin_s + window.from_s - kSlack_s, origin_s + window.to_s + kSlack_s},
+                        !from_motion || motion_s.has_value()});
+  }
+  return resolved;
+}
+
+std::vector<Measurement> measure(const RunData& data, const std::vector<ResolvedWindow>& windows) {
+  std::vector<Measurement> measurements;
+  for (const auto& window : windows) {
+    for (const auto& metric : all_metrics()) {
+      MetricValue value;
+      if (window.found) {
+        value = metric.compute(data, metric.axis, window.span);
+      }
+      measurements.push_back({&metric, window.name, value});
+    }
+  }
+  return measurements;
+}
+
+Check judge_budget(const Budget& budget, const std::vector<Measurement>& measurements) {
+  Check check;
+  check.name = budget.metric;
+  check.window = budget.window;
+  check.min = budget.min;
+  check.max = budget.max;
+  check.source = budget.source;
+  const auto found =
+      std::find_if(measurements.begin(), measurements.end(), [&](const Measurement& measurement) {
+        return measurement.metric->name == budget.metric && measurement.window == budget.window;
+      });
+  if (found == measurements.end()) {
+    check.reason = "no such metric over such a window";
+    return check;
+  }
+  check.unit = found->metric->unit;
+  check.meaning = found->metric->meaning;
+  if (found->value.samples == 0 || !std::isfinite(found->value.value)) {
+    check.reason = "the run holds nothing to compute this from";
+    return check;
+  }
+  check.value = found->value.value;
+  check.margin = margin_of(budget, *check.value);
+  const bool below = budget.min && *check.value < *budget.min;
+  const bool above = budget.max && *check.value > *budget.max;
+  check.verdict = below || above ? Verdict::kFail : Verdict::kPass;
+  if (below || above) {
+    check.reason = fmt::format("{:.6g} {} is {} {:.6g}", *check.value, check.unit,
+                               below ? "below" : "above", below ? *budget.min : *budget.max);
+  }
+  return check;
+}
+
+}  // namespace towbench::harness

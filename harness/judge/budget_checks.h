@@ -1,0 +1,35 @@
+// Every metric over every window, and the budgets judged on them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/experiment/experiment.h"
+#include "harness/judge/check.h"
+#include "harness/judge/metric.h"
+
+namespace towbench::harness {
+
+// A window of the experiment, resolved against the run.
+struct ResolvedWindow {
+  std::string name;
+  TimeSpan span;
+  bool found = true;  // false: it counts from the first motion, and there was none
+};
+
+[[nodiscard]] std::vector<ResolvedWindow> resolve_windows(
+    const std::vector<EvaluationWindow>& windows, const RunData& data);
+
+struct Measurement {
+  const Metric* metric = nullptr;
+  std::string window;
+  MetricValue value;
+};
+
+[[nodiscard]] std::vector<Measurement> measure(const RunData& data,
+                                               const std::vector<ResolvedWindow>& windows);
+
+[[nodiscard]] Check judge_budget(const Budget& budget,
+                                 const std::vector<Measurement>& measurements);
+
+}  // namespace towbench::harness

@@ -1,0 +1,124 @@
+#include "harness/judge/integrity_checks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "harness/judge/motion_metrics.h"
+
+namespace towbench::harness {
+namespace {
+
+constexpr double kSameTime_s = 1e-9;
+
+Check named(std::string name, std::string meaning, std::string reason) {
+  Check check;
+  check.name = std::move(name);
+  check.meaning = std::move(meaning);
+  check.verdict = reason.empty() ? Verdict::kPass : Verdict::kInvalid;
+  check.reason = std::move(reason);
+  return check;
+}
+
+// Empty when rows stand exactly one period apart and reach the end.
+std::string gaps_in(std::span<const double> time_s, core::Nanoseconds period_ns,
+                    core::Nanoseconds end_ns) {
+  if (time_s.empty()) {
+    return "there is no row";
+  }
+  const double period_s = core::seconds(period_ns);
+  for (std::size_t i = 1; i < time_s.size(); ++i) {
+    if (std::fabs(time_s[i] - time_s[i - 1] - period_s) > kSameTime_s) {
+      return fmt::format("row {} is at {} s, {} s after the one before; expected {} s", i + 1,
+                         time_s[i], time_s[i] - time_s[i - 1], period_s);
+    }
+  }
+  if (time_s.front() > period_s + kSameTime_s) {
+    return fmt::format("the first row is at {} s", time_s.front());
+  }
+  if (time_s.back() + period_s <= core::seconds(end_ns) - kSameTime_s) {
+    return fmt::format("the last row is at {} s, the run ended at {} s", time_s.back(),
+                       core::seconds(end_ns));
+  }
+  return {};
+}
+
+std::string not_finite_in(const CsvTable& table) {
+  for (const auto& name : table.names()) {
+    const auto column = table.column(name);
+    if (!std::all_of(column.begin(), column.end(), [](double x) { return std::isfinite(x); })) {
+      return fmt::format("column {} holds a value that is not finite", name);
+    }
+  }
+  return {};
+}
+
+std::string why_log_incomplete(const RunData& data, const ExpectedRecord& expected) {
+  if (!expected.writes_succeeded) {
+    return "a file could not be written";
+  }
+  if (expected.rows_lost > 0) {
+    return fmt::format("{} rows were lost", expected.rows_lost);
+  }
+  if (data.log.torn()) {
+    return "the last row is torn";
+  }
+  const auto gaps = gaps_in(data.log.column("time_s"), expected.control_period_ns, expected.end_ns);
+  return gaps.empty() ? not_finite_in(data.log) : gaps;
+}
+
+std::string why_truth_incomplete(const RunData& data, const ExpectedRecord& expected) {
+  if (data.truth.torn()) {
+    return "the last row is torn";
+  }
+  const auto gaps = gaps_in(data.truth.column("time_s"), expected.exchange_ns, expected.end_ns);
+  return gaps.empty() ? not_finite_in(data.truth) : gaps;
+}
+
+}  // namespace
+
+Check check_log_complete(const RunData& data, const ExpectedRecord& expected) {
+  return named("log_complete", "log.csv has every control tick",
+               why_log_incomplete(data, expected));
+}
+
+Check check_truth_complete(const RunData& data, const ExpectedRecord& expected) {
+  return named("truth_complete", "truth.csv has every exchange",
+               why_truth_incomplete(data, expected));
+}
+
+Check check_edges_seen(const RunData& data) {
+  constexpr double kMoved_counts = 10;
+  std::string reason;
+  double edges_of_all = 0;
+  for (const auto axis : core::kAxes) {
+    const auto edges = edges_total(data, axis, {});
+    edges_of_all += edges.value;
+    const double travel_m = carriage_travel(data, axis, {}).value;
+    const bool moved = travel_m > kMoved_counts * data.limits[axis].metres_per_count;
+    if (data.limits[axis].exists && moved && edges.value == 0.0) {
+      reason = fmt::format("{} moved {:.3g} m and the controller's decoder saw no edge",
+                           core::name_of(axis), travel_m);
+    }
+  }
+  if (reason.empty() && edges_of_all == 0.0) {
+    reason = "the controller's decoder saw no edge on any axis";
+  }
+  return named("edges_seen", "the controller's quadrature decoder saw the motion", reason);
+}
+
+Check check_events_fired(const RunData& data, const ExpectedRecord& expected) {
+  const auto fired = std::count_if(data.events.begin(), data.events.end(), [](const auto& event) {
+    return event.kind == "scheduled_event_fired";
+  });
+  std::string reason;
+  if (expected.unreached_events > 0) {
+    reason = fmt::format("the run ended before {} scheduled event(s)", expected.unreached_events);
+  } else if (static_cast<std::size_t>(fired) != expected.scheduled_events) {
+    reason = fmt::format("{} of {} scheduled events took place", fired, expected.scheduled_events);
+  }
+  return named("events_fired", "every scheduled event took place", reason);
+}
+
+}  // namespace towbench::harness

@@ -1,0 +1,35 @@
+// Whether a run may be judged at all. Each of these fails closed: what is not shown to be right
+// makes the run INVALID, however good its numbers look.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/time.h"
+#include "harness/judge/check.h"
+#include "harness/judge/run_data.h"
+
+namespace towbench::harness {
+
+// What the run should have left behind.
+struct ExpectedRecord {
+  core::Nanoseconds control_period_ns = 0;
+  core::Nanoseconds exchange_ns = 0;
+  core::Nanoseconds end_ns = 0;      // virtual time of the last exchange
+  std::uint64_t rows_lost = 0;       // as the controller counts them
+  std::size_t scheduled_events = 0;  // whose time came before the end
+  std::size_t unreached_events = 0;  // whose time did not
+  bool writes_succeeded = true;
+};
+
+// log.csv: a row each control period from the first to the end, none lost, none torn.
+[[nodiscard]] Check check_log_complete(const RunData& data, const ExpectedRecord& expected);
+// truth.csv: a row each exchange up to the end.
+[[nodiscard]] Check check_truth_complete(const RunData& data, const ExpectedRecord& expected);
+// Every axis that really moved was seen moving, and some axis was: an edge-class run without an
+// edge proves nothing (protocol.md).
+[[nodiscard]] Check check_edges_seen(const RunData& data);
+// Every event of the experiment took place.
+[[nodiscard]] Check check_events_fired(const RunData& data, const ExpectedRecord& expected);
+
+}  // namespace towbench::harness

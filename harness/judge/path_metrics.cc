@@ -1,0 +1,103 @@
+#include "harness/judge/path_metrics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/judge/statistics.h"
+#include "harness/judge/tracking_metrics.h"
+
+namespace towbench::harness {
+namespace {
+
+struct Point {
+  double x_m = 0;
+  double y_m = 0;
+};
+
+struct PathSample {
+  std::size_t log_row = 0;
+  Point actual;
+};
+
+// Within this many control ticks the nearest point of the reference is looked for: at 1 kHz a lag
+// of 0.1 s either way, a hundred times what a useful loop shows, and short enough that another lap
+// is never taken for this one.
+constexpr std::size_t kReach_rows = 100;
+
+double distance_to_segment(Point point, Point a, Point b) {
+  const double along_x = b.x_m - a.x_m;
+  const double along_y = b.y_m - a.y_m;
+  const double length_squared = along_x * along_x + along_y * along_y;
+  double share = 0;
+  if (length_squared > 0) {
+    share = ((point.x_m - a.x_m) * along_x + (point.y_m - a.y_m) * along_y) / length_squared;
+    share = std::clamp(share, 0.0, 1.0);
+  }
+  return std::hypot(point.x_m - (a.x_m + share * along_x), point.y_m - (a.y_m + share * along_y));
+}
+
+MetricValue peak_distance(const RunData& data, const std::vector<PathSample>& samples) {
+  const auto reference_x_m = data.log_of(core::Axis::kX, "reference_m");
+  const auto reference_y_m = data.log_of(core::Axis::kY, "reference_m");
+  const auto reference = [&](std::size_t row) {
+    return Point{reference_x_m[row], reference_y_m[row]};
+  };
+  Statistics statistics;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const std::size_t from = i > kReach_rows ? i - kReach_rows : 0;
+    const std::size_t to = std::min(samples.size() - 1, i + kReach_rows);
+    double nearest_m = distance_to_segment(samples[i].actual, reference(samples[i].log_row),
+                                           reference(samples[i].log_row));
+    for (std::size_t j = from; j < to; ++j) {
+      // Two samples that are not neighbours in the log belong to two motions: no path joins them.
+      if (samples[j + 1].log_row == samples[j].log_row + 1) {
+        nearest_m = std::min(nearest_m,
+                             distance_to_segment(samples[i].actual, reference(samples[j].log_row),
+                                                 reference(samples[j + 1].log_row)));
+      }
+    }
+    statistics.add(nearest_m);
+  }
+  return statistics.peak();
+}
+
+}  // namespace
+
+MetricValue path_error_peak(const RunData& data, core::Axis /*axis*/, const TimeSpan& span) {
+  const auto time_s = data.log.column("time_s");
+  const auto state_y = data.log_of(core::Axis::kY, "state");
+  const auto state_x = data.log_of(core::Axis::kX, "state");
+  const auto position_y_m = data.log_of(core::Axis::kY, "position_m");
+  const auto position_x_m = data.log_of(core::Axis::kX, "position_m");
+  std::vector<PathSample> samples;
+  if (state_x.empty() || state_y.empty() || position_x_m.empty() || position_y_m.empty()) {
+    return {};
+  }
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    if (span.holds(time_s[i]) && state_y[i] == kStatePosition && state_x[i] == kStatePosition) {
+      samples.push_back({i, {position_x_m[i], position_y_m[i]}});
+    }
+  }
+  return peak_distance(data, samples);
+}
+
+MetricValue carriage_path_error_peak(const RunData& data, core::Axis /*axis*/,
+                                     const TimeSpan& span) {
+  const auto along_y = carriage_samples(data, core::Axis::kY, span);
+  const auto along_x = carriage_samples(data, core::Axis::kX, span);
+  std::vector<PathSample> samples;
+  for (auto y = along_y.begin(), x = along_x.begin(); y != along_y.end() && x != along_x.end();) {
+    if (y->log_row == x->log_row) {
+      samples.push_back({y->log_row, {x->carriage_m, y->carriage_m}});
+      ++y;
+      ++x;
+    } else if (y->log_row < x->log_row) {
+      ++y;
+    } else {
+      ++x;
+    }
+  }
+  return peak_distance(data, samples);
+}
+
+}  // namespace towbench::harness

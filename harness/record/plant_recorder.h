@@ -1,0 +1,29 @@
+// The emulator's side of the record: truth.csv and plant_events.jsonl, written by whichever process
+// runs the plant.
+#pragma once
+
+#include <filesystem>
+
+#include "emulator/plant_node.h"
+#include "harness/record/csv_writer.h"
+#include "harness/record/line_writer.h"
+
+namespace towbench::harness {
+
+class PlantRecorder final : public emulator::PlantObserver {
+ public:
+  explicit PlantRecorder(const std::filesystem::path& folder);
+
+  void on_truth(const emulator::TruthRow& row) noexcept override;
+  void on_event(const emulator::PlantEvent& event) noexcept override;
+
+  void flush() noexcept;
+  [[nodiscard]] std::uint64_t rows() const noexcept { return truth_.rows(); }
+  [[nodiscard]] bool good() const noexcept { return truth_.good() && events_.good(); }
+
+ private:
+  CsvWriter truth_;
+  LineWriter events_;
+};
+
+}  // namespace towbench::harness
