@@ -31,6 +31,7 @@ class ControllerNode : public protocol::MessageSink {
   // Whether the plant agreed; kPeerSilent while no reply has come.
   [[nodiscard]] core::Status handshake() const noexcept;
 
+  using MessageSink::on;
   void on(const protocol::HelloReply& reply) noexcept override;
   void on(const protocol::EncoderEdges& edges) noexcept override;
   void on(const protocol::EncoderReport& report) noexcept override;
