@@ -1,0 +1,59 @@
+// What canvases draw with. The style sheet owns the colours; dashes tell the lines apart without them.
+
+export type LineRole = "reference" | "measured" | "truth";
+
+export interface Theme {
+  text: string;
+  muted: string;
+  grid: string;
+  shade: string;
+  line: Record<LineRole, string>;
+}
+
+export const dashes: Record<LineRole, number[]> = {
+  reference: [7, 4],
+  measured: [],
+  truth: [2, 3],
+};
+
+export const widths: Record<LineRole, number> = { reference: 1.25, measured: 1.5, truth: 2 };
+
+export const axisFont = '12px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif';
+
+export function currentTheme(): Theme {
+  const style = getComputedStyle(document.documentElement);
+  const colour = (name: string) => style.getPropertyValue(name).trim();
+  return {
+    text: colour("--text"),
+    muted: colour("--muted"),
+    grid: colour("--grid"),
+    shade: colour("--shade"),
+    line: {
+      reference: colour("--line-reference"),
+      measured: colour("--line-measured"),
+      truth: colour("--line-truth"),
+    },
+  };
+}
+
+// Also before and after printing, since paper has its own colours.
+export function onThemeChange(react: () => void): void {
+  for (const query of ["(prefers-color-scheme: dark)", "print"]) {
+    matchMedia(query).addEventListener("change", react);
+  }
+}
+
+// The sample of a line in a legend, as it is drawn in the plot.
+export function lineSample(role: LineRole): SVGSVGElement {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  svg.setAttribute("viewBox", "0 0 28 8");
+  svg.setAttribute("class", "sample");
+  svg.setAttribute("aria-hidden", "true");
+  const line = document.createElementNS(svg.namespaceURI, "line");
+  const attributes = { x1: 0, x2: 28, y1: 4, y2: 4, "stroke-width": widths[role] + 0.5 };
+  for (const [name, value] of Object.entries(attributes)) line.setAttribute(name, String(value));
+  line.setAttribute("stroke", `var(--line-${role})`);
+  line.setAttribute("stroke-dasharray", dashes[role].join(" "));
+  svg.append(line);
+  return svg;
+}
