@@ -1,0 +1,41 @@
+// One experiment from fixture to judged run folder.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/bench/script_loop.h"
+#include "harness/experiment/experiment_fixture.h"
+#include "harness/judge/check.h"
+#include "harness/judge/judge.h"
+
+namespace towbench::harness {
+
+enum class Carrier : std::uint8_t { kInProcess, kLocal };
+
+struct RunOptions {
+  std::filesystem::path out = "runs";
+  std::optional<std::uint64_t> seed;  // instead of the experiment's own
+  Carrier carrier = Carrier::kInProcess;
+  std::filesystem::path program = "/proc/self/exe";  // for the emulator's process
+  LoopWatchers watchers;
+};
+
+struct RunResult {
+  std::filesystem::path folder;
+  bool complete = false;
+  std::string reason;  // why not
+  RunOutcome outcome;
+  Judgement judgement;  // of a complete run
+  int exit_code = kExitRuntime;
+};
+
+// Throws filesystem_error and system_error when the run cannot even begin; after that every trouble
+// is told in the result and in the folder.
+[[nodiscard]] RunResult run_experiment(const ExperimentFixture& fixture, const RunOptions& options);
+
+}  // namespace towbench::harness

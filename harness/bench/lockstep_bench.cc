@@ -1,0 +1,73 @@
+#include "harness/bench/lockstep_bench.h"
+
+#include <array>
+
+namespace towbench::harness {
+
+LockstepBench::LockstepBench(const bbmc::Configuration& configuration, std::uint64_t rig_hash,
+                             PlantEnd& plant, ControllerRecorder* recorder)
+    : plant_(plant),
+      recorder_(recorder),
+      controller_(configuration, rig_hash),
+      duty_watch_(recorder),
+      to_plant_(duty_watch_, plant.sink()) {
+  plant_.connect(controller_);
+  controller_.connect(to_plant_);
+}
+
+core::Status LockstepBench::start() noexcept {
+  controller_.greet();
+  const auto answered = plant_.wait_for(protocol::Turn::kHelloReply);
+  return answered ? controller_.handshake() : answered;
+}
+
+std::string_view LockstepBench::serve() noexcept {
+  controller_.serve(now_ns_);
+  take_records();
+  return console_;
+}
+
+core::Status LockstepBench::advance() noexcept {
+  const core::Nanoseconds until_ns = now_ns_ + controller_.exchange_ns();
+  to_plant_.on(protocol::Advance{until_ns});
+  auto status = plant_.wait_for(protocol::Turn::kAdvanced);
+  if (status && controller_.plant_time_ns() != until_ns) {
+    status = core::failure(core::ErrorCode::kTimeNotMonotonic);
+  }
+  if (!status) {
+    controller_.peer_lost(status.error());
+    controller_.serve(now_ns_);
+    take_records();
+    return status;
+  }
+  now_ns_ = until_ns;
+  return {};
+}
+
+void LockstepBench::finish() noexcept {
+  controller_.say_bye();
+  // A plant that is gone by now has nothing left to say.
+  (void)plant_.wait_for(protocol::Turn::kBye);
+  take_records();
+}
+
+void LockstepBench::take_records() noexcept {
+  console_.clear();
+  std::array<char, 1024> bytes{};
+  while (const std::size_t count = controller_.read_console(bytes)) {
+    console_.append(bytes.data(), count);
+  }
+  if (recorder_ != nullptr) {
+    recorder_->console(console_);
+    recorder_->drain(controller_);
+    return;
+  }
+  bbmc::TelemetryRow row;
+  while (controller_.next_row(row)) {
+  }
+  bbmc::ControllerEvent event;
+  while (controller_.next_event(event)) {
+  }
+}
+
+}  // namespace towbench::harness

@@ -1,0 +1,50 @@
+// The controller wired to a plant, one exchange at a time (docs/design/0001-walls.md).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "bbmc/host/controller_node.h"
+#include "core/result.h"
+#include "core/time.h"
+#include "harness/bench/duty_watch.h"
+#include "harness/bench/plant_end.h"
+#include "protocol/tee_sink.h"
+
+namespace towbench::harness {
+
+class LockstepBench {
+ public:
+  // Plant and recorder outlive this; without a recorder rows and console are thrown away.
+  LockstepBench(const bbmc::Configuration& configuration, std::uint64_t rig_hash, PlantEnd& plant,
+                ControllerRecorder* recorder);
+
+  // Handshake. Before anything else.
+  [[nodiscard]] core::Status start() noexcept;
+
+  // Serves the controller as of now() and returns what its console printed.
+  std::string_view serve() noexcept;
+  // Runs the plant to the next exchange. An error means that the plant is gone; the controller has
+  // then been told and has removed its drive.
+  [[nodiscard]] core::Status advance() noexcept;
+
+  // Orderly end: drive off, Bye both ways.
+  void finish() noexcept;
+
+  [[nodiscard]] core::Nanoseconds now_ns() const noexcept { return now_ns_; }
+  [[nodiscard]] bbmc::ControllerNode& controller() noexcept { return controller_; }
+
+ private:
+  void take_records() noexcept;
+
+  PlantEnd& plant_;
+  ControllerRecorder* recorder_;
+  bbmc::ControllerNode controller_;
+  DutyWatch duty_watch_;
+  protocol::TeeSink to_plant_;
+  core::Nanoseconds now_ns_ = 0;
+  std::string console_;
+};
+
+}  // namespace towbench::harness

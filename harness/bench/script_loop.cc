@@ -1,0 +1,112 @@
+#include "harness/bench/script_loop.h"
+
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "harness/bench/console_script.h"
+
+namespace towbench::harness {
+namespace {
+
+using HostClock = std::chrono::steady_clock;
+
+core::Nanoseconds since(HostClock::time_point start) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(HostClock::now() - start).count();
+}
+
+std::string told(core::ErrorCode code) {
+  return fmt::format("{} ({})", core::describe(code), core::number_of(code));
+}
+
+class Loop {
+ public:
+  Loop(const Experiment& experiment, LockstepBench& bench, ControllerRecorder& recorder,
+       const LoopWatchers& watchers)
+      : bench_(bench),
+        recorder_(recorder),
+        watchers_(watchers),
+        script_(experiment.console),
+        limit_ns_(core::nanoseconds(experiment.duration_limit_s)) {}
+
+  RunOutcome run() {
+    const auto start = HostClock::now();
+    if (const auto agreed = bench_.start(); !agreed) {
+      outcome_.reason = "handshake refused: " + told(agreed.error());
+    } else {
+      exchange_until_over(start);
+    }
+    outcome_.wall_time_s = core::seconds(since(start));
+    outcome_.end_ns = bench_.now_ns();
+    outcome_.exchange_ns = bench_.controller().exchange_ns();
+    outcome_.rows_lost = bench_.controller().rows_lost();
+    return outcome_;
+  }
+
+ private:
+  void exchange_until_over(HostClock::time_point start) {
+    core::Nanoseconds last_host_ns = since(start);
+    while (!turn_is_last()) {
+      if (const auto alive = bench_.advance(); !alive) {
+        outcome_.reason = "the emulator was lost: " + told(alive.error());
+        return;
+      }
+      const core::Nanoseconds host_ns = since(start);
+      recorder_.timing(bench_.now_ns(), host_ns, host_ns - last_host_ns);
+      last_host_ns = host_ns;
+      tell_progress();
+    }
+    bench_.finish();
+  }
+
+  // Serves the controller once; true when the run is over with that.
+  bool turn_is_last() {
+    const auto now_ns = bench_.now_ns();
+    script_.typed(bench_.controller().type(script_.pending(now_ns)));
+    script_.hear(bench_.serve());
+    const auto progress = script_.update(now_ns, bench_.controller().idle());
+    if (watchers_.stop != nullptr && watchers_.stop->load(std::memory_order_relaxed)) {
+      outcome_.reason = "interrupted";
+      return true;
+    }
+    if (progress == ConsoleScript::Progress::kRunning && now_ns < limit_ns_) {
+      return false;
+    }
+    outcome_.complete = true;
+    outcome_.script_failure = script_.failure();
+    if (progress == ConsoleScript::Progress::kRunning) {
+      outcome_.script_failure =
+          fmt::format("the time limit of {} s came in step {} of {}; it had not ended",
+                      core::seconds(limit_ns_), script_.steps_done() + 1, script_.steps());
+    }
+    return true;
+  }
+
+  void tell_progress() {
+    constexpr std::uint32_t kExchangesBetween = 4096;
+    if (watchers_.progress && ++exchanges_ % kExchangesBetween == 0) {
+      watchers_.progress(bench_.now_ns());
+    }
+  }
+
+  LockstepBench& bench_;
+  ControllerRecorder& recorder_;
+  const LoopWatchers& watchers_;
+  ConsoleScript script_;
+  core::Nanoseconds limit_ns_;
+  RunOutcome outcome_;
+  std::uint32_t exchanges_ = 0;
+};
+
+}  // namespace
+
+RunOutcome play(const Experiment& experiment, LockstepBench& bench, ControllerRecorder& recorder,
+                const LoopWatchers& watchers) {
+  auto outcome = Loop(experiment, bench, recorder, watchers).run();
+  recorder.flush();
+  outcome.log_rows = recorder.rows();
+  outcome.writes_succeeded = recorder.good();
+  return outcome;
+}
+
+}  // namespace towbench::harness

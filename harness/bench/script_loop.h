@@ -1,0 +1,24 @@
+// Plays one experiment on a bench: console script, exchanges, records, until the script is done,
+// the time limit is reached, the plant is gone or somebody asks to stop.
+#pragma once
+
+#include <atomic>
+#include <functional>
+
+#include "harness/bench/lockstep_bench.h"
+#include "harness/bench/run_outcome.h"
+#include "harness/experiment/experiment.h"
+
+namespace towbench::harness {
+
+struct LoopWatchers {
+  // Set from outside (a signal): the run ends orderly and is incomplete. May be null.
+  const std::atomic<bool>* stop = nullptr;
+  // Called every few thousand exchanges with the virtual time. May be empty.
+  std::function<void(core::Nanoseconds)> progress;
+};
+
+[[nodiscard]] RunOutcome play(const Experiment& experiment, LockstepBench& bench,
+                              ControllerRecorder& recorder, const LoopWatchers& watchers);
+
+}  // namespace towbench::harness

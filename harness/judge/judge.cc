@@ -1,0 +1,94 @@
+#include "harness/judge/judge.h"
+
+#include <algorithm>
+
+#include "harness/judge/integrity_checks.h"
+
+namespace towbench::harness {
+namespace {
+
+ExpectedRecord expected_of(const ExperimentFixture& fixture, const RunOutcome& outcome) {
+  ExpectedRecord expected;
+  expected.control_period_ns = outcome.control_period_ns;
+  expected.exchange_ns = outcome.exchange_ns;
+  expected.end_ns = outcome.end_ns;
+  expected.rows_lost = outcome.rows_lost;
+  expected.writes_succeeded = outcome.writes_succeeded;
+  for (const auto& event : fixture.experiment.events) {
+    ++(event.time_ns < outcome.end_ns ? expected.scheduled_events : expected.unreached_events);
+  }
+  return expected;
+}
+
+Check script_check(const RunOutcome& outcome) {
+  Check check;
+  check.name = "console_script";
+  check.meaning = "every step of the console script was answered as expected";
+  check.verdict = outcome.script_failure.empty() ? Verdict::kPass : Verdict::kFail;
+  check.reason = outcome.script_failure;
+  return check;
+}
+
+Check unreadable(const char* why) {
+  Check check;
+  check.name = "record_readable";
+  check.meaning = "the run's files can be read back";
+  check.verdict = Verdict::kInvalid;
+  check.reason = why;
+  return check;
+}
+
+// An experiment that demands nothing shows nothing.
+Check no_budget() {
+  Check check;
+  check.name = "budgets";
+  check.meaning = "the experiment states what must come out";
+  check.verdict = Verdict::kInvalid;
+  check.reason = "the experiment has no [[budget]]";
+  return check;
+}
+
+}  // namespace
+
+core::PerAxis<AxisLimits> limits_of(const emulator::RigParameters& rig) {
+  core::PerAxis<AxisLimits> limits;
+  for (const auto which : core::kAxes) {
+    const auto& axis = rig.axes[which];
+    limits[which] = {.exists = axis.exists,
+                     .hall_min_m = axis.hall_min.position_m,
+                     .hall_max_m = axis.hall_max.position_m,
+                     .hard_min_m = axis.plant.hard_ends.min_m,
+                     .hard_max_m = axis.plant.hard_ends.max_m,
+                     .metres_per_count = emulator::metres_per_count(axis)};
+  }
+  return limits;
+}
+
+Judgement judge(const std::filesystem::path& folder, const ExperimentFixture& fixture,
+                const RunOutcome& outcome) {
+  Judgement judgement;
+  auto& checks = judgement.checks;
+  try {
+    const auto data = load_run_data(folder, limits_of(fixture.rig.parameters));
+    const auto expected = expected_of(fixture, outcome);
+    judgement.windows = resolve_windows(fixture.experiment.windows, data);
+    judgement.measurements = measure(data, judgement.windows);
+    for (const auto& budget : fixture.experiment.budgets) {
+      checks.push_back(judge_budget(budget, judgement.measurements));
+    }
+    if (fixture.experiment.budgets.empty()) {
+      checks.push_back(no_budget());
+    }
+    checks.push_back(script_check(outcome));
+    checks.push_back(check_log_complete(data, expected));
+    checks.push_back(check_truth_complete(data, expected));
+    checks.push_back(check_edges_seen(data));
+    checks.push_back(check_events_fired(data, expected));
+  } catch (const std::exception& error) {
+    checks.push_back(unreadable(error.what()));
+  }
+  judgement.verdict = worst_of(checks);
+  return judgement;
+}
+
+}  // namespace towbench::harness

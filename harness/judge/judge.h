@@ -1,0 +1,28 @@
+// Judges a finished run from its folder.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "harness/bench/run_outcome.h"
+#include "harness/experiment/experiment_fixture.h"
+#include "harness/judge/budget_checks.h"
+#include "harness/judge/check.h"
+
+namespace towbench::harness {
+
+struct Judgement {
+  Verdict verdict = Verdict::kInvalid;
+  std::vector<Check> checks;
+  std::vector<ResolvedWindow> windows;
+  std::vector<Measurement> measurements;
+};
+
+// Reads the record; never throws: a record that cannot be read is INVALID and says why.
+[[nodiscard]] Judgement judge(const std::filesystem::path& folder, const ExperimentFixture& fixture,
+                              const RunOutcome& outcome);
+
+// Where the rig's axes end, for metrics and drawings.
+[[nodiscard]] core::PerAxis<AxisLimits> limits_of(const emulator::RigParameters& rig);
+
+}  // namespace towbench::harness

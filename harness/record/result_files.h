@@ -1,0 +1,35 @@
+// result.json, metrics.json and junit.xml. README.md is the spec.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/bench/run_outcome.h"
+#include "harness/experiment/experiment_fixture.h"
+#include "harness/judge/judge.h"
+
+namespace towbench::harness {
+
+// What is known of a run before it starts.
+struct RunIdentity {
+  std::string carrier;  // "in-process", "local"
+  std::uint64_t seed = 0;
+  std::string started_utc;
+  std::filesystem::path experiment_copy;  // relative to the folder
+};
+
+// The first result.json: incomplete until the run has been judged.
+void write_started(const std::filesystem::path& folder, const ExperimentFixture& fixture,
+                   const RunIdentity& identity);
+// The last one of a run that was cut short.
+void write_incomplete(const std::filesystem::path& folder, const ExperimentFixture& fixture,
+                      const RunIdentity& identity, const RunOutcome& outcome);
+// All three files of a run that was judged. Returns what result.json holds.
+nlohmann::json write_judged(const std::filesystem::path& folder, const ExperimentFixture& fixture,
+                            const RunIdentity& identity, const RunOutcome& outcome,
+                            const Judgement& judgement);
+
+}  // namespace towbench::harness
