@@ -122,7 +122,7 @@ void CobsReader::close_frame(MessageSink& sink) noexcept {
   }
 }
 
-void CobsReader::finish() noexcept {
+void CobsReader::finish(MessageSink& /*sink*/) noexcept {
   counts_.truncated += held_ > 0 ? 1U : 0U;
   counts_.skipped_bytes += held_;
   held_ = 0;

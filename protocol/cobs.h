@@ -55,7 +55,7 @@ class CobsReader {
   TOWBENCH_REALTIME void feed(std::span<const std::byte> bytes, MessageSink& sink) noexcept;
 
   // The stream has ended: what is left over is a truncated frame.
-  void finish() noexcept;
+  void finish(MessageSink& sink) noexcept;
 
   [[nodiscard]] const LinkCounts& counts() const noexcept { return counts_; }
 

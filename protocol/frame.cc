@@ -62,9 +62,13 @@ void FrameReader::lose_place(std::uint64_t& reason) noexcept {
   ++counts_.skipped_bytes;
 }
 
-void FrameReader::finish() noexcept {
-  counts_.truncated += held_ > 0 ? 1U : 0U;
-  counts_.skipped_bytes += held_;
+void FrameReader::finish(MessageSink& sink) noexcept {
+  std::size_t at = 0;
+  while (at < held_) {
+    lose_place(counts_.truncated);
+    ++at;
+    at += consume(std::span<const std::byte>(buffer_).first(held_).subspan(at), sink);
+  }
   held_ = 0;
 }
 

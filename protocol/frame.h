@@ -48,8 +48,9 @@ class FrameReader {
   // sink must not feed this reader.
   TOWBENCH_REALTIME void feed(std::span<const std::byte> bytes, MessageSink& sink) noexcept;
 
-  // The stream has ended: what is left over is a truncated frame.
-  void finish() noexcept;
+  // The stream has ended: what is left over is a truncated frame, or whole ones that a false header
+  // held back.
+  void finish(MessageSink& sink) noexcept;
 
   [[nodiscard]] const LinkCounts& counts() const noexcept { return counts_; }
 

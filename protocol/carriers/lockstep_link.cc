@@ -117,7 +117,7 @@ core::Result<LockstepLink::Progress> LockstepLink::read_once(
   }
   const auto size = stream_.read_some(received_, timeout_ns);
   if (!size) {
-    reader_.finish();
+    reader_.finish(watch_);
     return core::failure(size.error());
   }
   if (*size == 0) {

@@ -8,10 +8,12 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "protocol/frame.h"
 #include "protocol/wire.h"
 #include "tests/protocol/any_message.h"
 #include "tests/protocol/golden.h"
 #include "tests/protocol/recording_sink.h"
+#include "tests/support/allocation_guard.h"
 
 namespace towbench::protocol {
 namespace {
@@ -99,6 +101,25 @@ TEST(Codec, EveryMessageSurvivesTheRoundTrip) {
       ASSERT_TRUE(is_plausible(encoding.bytes[0], encoding.bytes.size()));
     }
   }
+}
+
+TEST(Codec, TakesNoHeap) {
+  std::array<std::byte, LengthFraming::kMaxFrameSize> bytes;
+  FrameReader reader;
+  CountingSink sink;
+  EncoderEdges edges;
+  edges.end_ns = kMaxEdgesPerMessage;
+  while (edges.edges.push_back(EncoderEdge(1, EncoderLine::kB))) {
+  }
+  {
+    const tests::AllocationGuard guard;
+    for (int i = 0; i < 3; ++i) {
+      const std::size_t size = LengthFraming::append(edges, bytes);
+      reader.feed(std::span<const std::byte>(bytes).first(size / 2), sink);
+      reader.feed(std::span<const std::byte>(bytes).first(size).subspan(size / 2), sink);
+    }
+  }
+  EXPECT_EQ(sink.count, 3U);
 }
 
 TEST(Codec, WritesNothingWhereThereIsNoRoom) {
