@@ -24,10 +24,12 @@ class LineEditor {
     kInterrupt,    // Ctrl-C; the line typed so far is gone
   };
 
+  static constexpr std::size_t kMaxPrompt = 64;
   // The most that one byte can make the terminal show.
-  static constexpr std::size_t kMaxEcho = 2 * kMaxLineLength + 64;
+  static constexpr std::size_t kMaxEcho = 2 * kMaxLineLength + kMaxPrompt + 8;
 
-  explicit LineEditor(std::string_view prompt) noexcept : prompt_(prompt) {}
+  // At most kMaxPrompt characters, in storage that outlives the line; the caller shows it first.
+  void set_prompt(std::string_view prompt) noexcept { prompt_ = prompt; }
 
   // Off for scripts: nothing is written but by commands.
   void set_echo(bool on) noexcept { echo_ = on; }
@@ -35,7 +37,6 @@ class LineEditor {
 
   Event feed(char byte, TextWriter& screen) noexcept;
   [[nodiscard]] std::string_view line() const noexcept { return {line_.data(), size_}; }
-  [[nodiscard]] std::string_view prompt() const noexcept { return prompt_; }
 
  private:
   enum class Escape : std::uint8_t { kNone, kStarted, kBracket };

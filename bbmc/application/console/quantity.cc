@@ -34,7 +34,12 @@ constexpr std::array kUnits{
     Unit{.name = "mHz", .dimension = Dimension::kFrequency, .divisor = 1e3},
     Unit{.name = "kHz", .dimension = Dimension::kFrequency, .multiplier = 1e3},
     Unit{.name = "%", .dimension = Dimension::kDuty},
-    Unit{.name = "", .dimension = Dimension::kCount},
+    Unit{.name = "Nm/rad", .dimension = Dimension::kProportionalGain},
+    Unit{.name = kBbmcGainUnit, .dimension = Dimension::kProportionalGain},
+    Unit{.name = "Nm/(rad*s)", .dimension = Dimension::kIntegralGain},
+    Unit{.name = kBbmcGainUnit, .dimension = Dimension::kIntegralGain},
+    Unit{.name = "Nm*s/rad", .dimension = Dimension::kDerivativeGain},
+    Unit{.name = kBbmcGainUnit, .dimension = Dimension::kDerivativeGain},
 };
 
 constexpr int kPrintedDecimals = 9;

@@ -22,9 +22,15 @@ enum class Dimension : std::uint8_t {
   kAcceleration,
   kTime,
   kFrequency,
-  kDuty,   // in per cent of full drive, the unit of every duty in BBMC
-  kCount,  // a number of things
+  kDuty,              // in per cent of full drive, the unit of every duty in BBMC
+  kProportionalGain,  // K_P, K_I, K_D of (4.12), motor angle to motor torque
+  kIntegralGain,
+  kDerivativeGain,
 };
+
+// A gain as BBMC 0.5 took it: % duty per count, per count and sample, per count/s. Its factor to SI
+// depends on axis and control rate, so the number stays as typed and its user converts.
+inline constexpr std::string_view kBbmcGainUnit = "bbmc";
 
 // SI value = number x multiplier / divisor: both exact, so that 400mm is the same double as 0.4m.
 struct Unit {
@@ -45,7 +51,8 @@ struct Unit {
 
 // The SI value (per cent for duty) of `text`, a number with or without a unit of `dimension`.
 // `bare` is the unit of a number without one. `counts_per_m` belongs to the axis meant; 0 if no
-// axis is known, and counts are then refused. kRequestBadArgument for anything else.
+// axis is known, and counts are then refused. kRequestBadArgument for anything else. Gains in
+// kBbmcGainUnit come back as they are.
 [[nodiscard]] core::Result<double> parse_quantity(std::string_view text, Dimension dimension,
                                                   std::string_view bare,
                                                   double counts_per_m) noexcept;

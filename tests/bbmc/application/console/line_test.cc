@@ -47,7 +47,10 @@ class Terminal {
 
 class Typist {
  public:
-  Typist() { terminal.show("> "); }
+  Typist() {
+    editor.set_prompt("> ");
+    terminal.show("> ");
+  }
 
   // Every line finished by the bytes; "!" in front of a damaged one, "^C" for an interrupt.
   std::vector<std::string> type(std::string_view bytes) {
@@ -72,7 +75,7 @@ class Typist {
     return lines;
   }
 
-  LineEditor editor{"> "};
+  LineEditor editor;
   Terminal terminal;
   std::string shown;
 };

@@ -186,7 +186,8 @@ TEST(Quantity, EveryUnitMeansWhatItSays) {
            {"15", Dimension::kDuty, "%", 15},
            {"150mHz", Dimension::kFrequency, "Hz", 0.15},
            {"1kHz", Dimension::kFrequency, "Hz", 1000},
-           {"10", Dimension::kCount, "", 10},
+           {"0.12Nm/rad", Dimension::kProportionalGain, kBbmcGainUnit, 0.12},
+           {"0.008", Dimension::kProportionalGain, kBbmcGainUnit, 0.008},
        }) {
     const auto value = parse_quantity(unit.text, unit.dimension, unit.bare, kCountsPerM);
     ASSERT_TRUE(value) << unit.text;

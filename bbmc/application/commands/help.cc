@@ -1,0 +1,43 @@
+// help: from the same table that the parser reads.
+#include <array>
+
+#include "bbmc/application/commands/command_table.h"
+#include "bbmc/application/commands/context.h"
+
+namespace towbench::bbmc {
+namespace {
+
+using core::ErrorCode;
+
+enum Option : std::size_t { kTopic };
+constexpr std::array<OptionSpec, 1> kOptions{{
+    {.name = "COMMAND",
+     .kind = OptionKind::kChoice,
+     .presence = Presence::kOptional,
+     .choices = "all|run|goto|rmpi|status|datalog|perf|reset|config|help|quit",
+     .meaning = "shows options, units, ranges and defaults"},
+}};
+
+std::string_view chosen(std::size_t index) noexcept {
+  std::string_view rest = kOptions[kTopic].choices;
+  for (; index > 0; --index) {
+    rest.remove_prefix(rest.find('|') + 1);
+  }
+  return rest.substr(0, rest.find('|'));
+}
+
+ErrorCode help(CommandContext& context, const Arguments& arguments) {
+  context.report.start(
+      HelpReport(arguments.given(kTopic) ? chosen(arguments.choice(kTopic)) : std::string_view()));
+  return ErrorCode::kNone;
+}
+
+}  // namespace
+
+const CommandSpec& help_command() noexcept {
+  static constexpr CommandSpec kCommand{
+      .word = "help", .options = kOptions, .handler = help, .meaning = "lists the commands"};
+  return kCommand;
+}
+
+}  // namespace towbench::bbmc
