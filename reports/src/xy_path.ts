@@ -137,6 +137,10 @@ function drawPath(plot: uPlot, path: Path): void {
   ctx.restore();
 }
 
+function heightFor(width: number): number {
+  return Math.min(width, 560);
+}
+
 function makePlot(canvasHost: HTMLElement, current: () => Path[]): uPlot {
   let shown: Bounds | null = null; // null: everything
   const fit = (plot: uPlot) => {
@@ -157,7 +161,7 @@ function makePlot(canvasHost: HTMLElement, current: () => Path[]): uPlot {
     {
       mode: 2,
       width,
-      height: Math.min(width, 560),
+      height: heightFor(width),
       padding: [24, 12, 0, 0],
       legend: { show: false },
       scales: { x: { time: false, auto: false, range: [0, 1] }, y: { auto: false, range: [0, 1] } },
@@ -186,22 +190,25 @@ function makePlot(canvasHost: HTMLElement, current: () => Path[]): uPlot {
             fit(selected);
           },
         ],
-        setSize: [fit],
-        ready: [fit],
       },
     },
     // One point, so that uPlot has a series; the paths draw themselves.
     [null, [[0], [0]]] as unknown as uPlot.AlignedData,
     canvasHost,
   );
-  plot.over.addEventListener("dblclick", () => {
+  const showAll = () => {
     shown = null;
     fit(plot);
-  });
-  canvasHost.addEventListener("reset", () => {
-    shown = null;
+  };
+  plot.over.addEventListener("dblclick", showAll);
+  canvasHost.addEventListener("reset", showAll);
+  new ResizeObserver(() => {
+    const available = canvasHost.clientWidth;
+    if (available === 0 || available === plot.width) return;
+    plot.setSize({ width: available, height: heightFor(available) });
     fit(plot);
-  });
+  }).observe(canvasHost);
+  fit(plot);
   return plot;
 }
 
@@ -255,9 +262,5 @@ export function addPath(host: HTMLElement, table: Table, group: TimeGroup): void
     spot.style.display = Number.isNaN(x + y) ? "none" : "block";
     spot.style.transform = `translate(${x}px, ${y}px)`;
   });
-  new ResizeObserver(() => {
-    const width = canvasHost.clientWidth;
-    if (width > 0 && width !== plot.width) plot.setSize({ width, height: Math.min(width, 560) });
-  }).observe(canvasHost);
   onThemeChange(() => plot.redraw(false, true));
 }

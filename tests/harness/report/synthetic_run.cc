@@ -102,8 +102,9 @@ std::string timing_text(const SyntheticRun& run) {
   std::string text = "time_s,host_s,exchange_us\n";
   for (std::size_t row = 0; row < run.rows; ++row) {
     const double slow = row % 1000 == 0 ? 40.0 : 0.0;
-    text += fmt::format("{},{},{}\n", static_cast<double>(row) * 1e-3,
-                        static_cast<double>(row) * 2e-6, 1.5 + slow + 0.01 * (row % 97));
+    text +=
+        fmt::format("{},{},{}\n", static_cast<double>(row) * 1e-3, static_cast<double>(row) * 2e-6,
+                    1.5 + slow + 0.01 * static_cast<double>(row % 97));
   }
   return text;
 }
@@ -154,7 +155,7 @@ Json synthetic_result(const SyntheticRun& run) {
               {"hard_min_m", -0.255},
               {"hard_max_m", 3.945},
               {"metres_per_count", kMetresPerCount}}}}},
-          {"checks", {check, seen}}};
+          {"checks", Json::array({check, seen})}};
 }
 
 SyntheticRow synthetic_y(const SyntheticRun& run, std::size_t row) {
@@ -175,7 +176,7 @@ void write_synthetic_run(const std::filesystem::path& folder, const SyntheticRun
                                            {"windows",
                                             {{{"name", "whole"}, {"from_s", 0.0}, {"to_s", end_s}},
                                              {{"name", "steady"}, {"from_s", 2.0}, {"to_s", 6.0}}}},
-                                           {"metrics", {metric(run)}}}
+                                           {"metrics", Json::array({metric(run)})}}
                                           .dump(2));
   write_text(folder / "log.csv", log_text(run));
   write_text(folder / "truth.csv", truth_text(run));
