@@ -1,30 +1,67 @@
 #include "emulator/edge_stream.h"
 
+#include <algorithm>
+
 namespace towbench::emulator {
 
 void EdgeStream::begin(core::Nanoseconds start_ns) noexcept {
   message_.start_ns = start_ns;
   message_.start_levels = levels_;
-  message_.edges.clear();
+  size_ = 0;
   last_edge_ns_ = start_ns;
 }
 
 void EdgeStream::add(core::Nanoseconds step_start_ns, const StepEdges& edges,
                      protocol::MessageSink& sink) noexcept {
-  constexpr std::size_t kCapacity = protocol::kMaxEdgesPerMessage;
-  for (const TimedEdge& edge : edges.view()) {
-    const core::Nanoseconds time_ns = step_start_ns + edge.time_ns;
-    const std::size_t size = message_.edges.size();
-    if (size == kCapacity || (size + kReserve >= kCapacity && time_ns > last_edge_ns_)) {
-      send(time_ns, sink);
-      begin(time_ns);
+  std::span<const TimedEdge> rest = edges.view();
+  while (!rest.empty()) {
+    const std::size_t fitting = cut(step_start_ns, rest);
+    append(step_start_ns, rest.first(fitting));
+    rest = rest.subspan(fitting);
+    if (!rest.empty()) {
+      const core::Nanoseconds next_ns = step_start_ns + rest.front().time_ns();
+      send(next_ns, sink);
+      begin(next_ns);
     }
-    (void)message_.edges.push_back(
-        {static_cast<std::uint32_t>(time_ns - last_edge_ns_), edge.line});
-    levels_ =
-        static_cast<protocol::EncoderLevels>(levels_ ^ (1U << static_cast<unsigned>(edge.line)));
-    last_edge_ns_ = time_ns;
   }
+}
+
+// How many edges go into the message now: all, or as many as fit without parting an instant.
+std::size_t EdgeStream::cut(core::Nanoseconds step_start_ns,
+                            std::span<const TimedEdge> edges) const noexcept {
+  const std::size_t room = edges_.size() - size_;
+  if (edges.size() <= room) {
+    return edges.size();
+  }
+  std::size_t size = room;
+  while (size > 0 && edges[size].time_ns() == edges[size - 1].time_ns()) {
+    --size;
+  }
+  const bool behind_last = size > 0 || step_start_ns + edges[0].time_ns() > last_edge_ns_;
+  // A whole message of one instant cannot be parted; it is cut where it is full.
+  return behind_last ? size : room;
+}
+
+void EdgeStream::append(core::Nanoseconds step_start_ns,
+                        std::span<const TimedEdge> edges) noexcept {
+  if (edges.empty()) {
+    return;
+  }
+  const auto to_first =
+      static_cast<std::uint32_t>(step_start_ns + edges[0].time_ns() - last_edge_ns_);
+  edges_[size_] = protocol::EncoderEdge(to_first, edges[0].line());
+  // Same packing on both sides: taking away the time of the edge before leaves line and step.
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    edges_[size_ + i] = protocol::EncoderEdge::from_packed(
+        edges[i].packed() - (edges[i - 1].packed() & protocol::EncoderEdge::kMaxStep_ns));
+  }
+  size_ += edges.size();
+  last_edge_ns_ = step_start_ns + edges.back().time_ns();
+  unsigned toggles = 0;
+  for (const TimedEdge edge : edges) {
+    toggles ^= 1U << (edge.packed() >> 30U);
+  }
+  levels_ = static_cast<protocol::EncoderLevels>(levels_ ^ toggles);
 }
 
 void EdgeStream::finish(core::Nanoseconds end_ns, protocol::MessageSink& sink) noexcept {
@@ -33,6 +70,7 @@ void EdgeStream::finish(core::Nanoseconds end_ns, protocol::MessageSink& sink) n
 
 void EdgeStream::send(core::Nanoseconds end_ns, protocol::MessageSink& sink) noexcept {
   message_.end_ns = end_ns;
+  (void)message_.edges.assign({edges_.data(), size_});
   sink.on(message_);
   ++message_.sequence;
 }

@@ -4,7 +4,9 @@
 // sent early and the next one starts where it ended, never between two edges of one instant.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 
 #include "core/axis.h"
 #include "core/realtime.h"
@@ -32,12 +34,14 @@ class EdgeStream {
   void forget_sequence() noexcept { message_.sequence = 0; }
 
  private:
+  [[nodiscard]] std::size_t cut(core::Nanoseconds step_start_ns,
+                                std::span<const TimedEdge> edges) const noexcept;
+  void append(core::Nanoseconds step_start_ns, std::span<const TimedEdge> edges) noexcept;
   void send(core::Nanoseconds end_ns, protocol::MessageSink& sink) noexcept;
 
-  // Room kept for edges of the instant at which the message is cut: A or B, index, and back.
-  static constexpr std::size_t kReserve = 8;
-
   protocol::EncoderEdges message_;
+  std::array<protocol::EncoderEdge, protocol::kMaxEdgesPerMessage> edges_;
+  std::size_t size_ = 0;
   protocol::EncoderLevels levels_;
   core::Nanoseconds last_edge_ns_ = 0;
 };

@@ -4,12 +4,6 @@
 
 namespace towbench::emulator {
 
-CubicMotion::CubicMotion(double duration_s, double start, double start_rate, double end,
-                         double end_rate) noexcept
-    : linear_(start_rate * duration_s),
-      quadratic_(3.0 * (end - start) - (2.0 * start_rate + end_rate) * duration_s),
-      cubic_((start_rate + end_rate) * duration_s - 2.0 * (end - start)) {}
-
 CubicMotion::TurningPoints CubicMotion::turning_points() const noexcept {
   TurningPoints points;
   // slope = 3 c u^2 + 2 q u + l. The form with a sum of equal signs loses no digits when c is tiny.

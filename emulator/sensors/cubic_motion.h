@@ -4,6 +4,8 @@
 // Positions are any unit (counts, m); time is the normalised u in [0, 1] of the stretch.
 #pragma once
 
+#include <cmath>
+
 #include "core/bounded_vector.h"
 #include "core/realtime.h"
 
@@ -12,8 +14,11 @@ namespace towbench::emulator {
 class CubicMotion {
  public:
   // Rates are per second, the stretch lasts `duration_s` > 0.
-  CubicMotion(double duration_s, double start, double start_rate, double end,
-              double end_rate) noexcept;
+  TOWBENCH_REALTIME CubicMotion(double duration_s, double start, double start_rate, double end,
+                                double end_rate) noexcept
+      : linear_(start_rate * duration_s),
+        quadratic_(3.0 * (end - start) - (2.0 * start_rate + end_rate) * duration_s),
+        cubic_((start_rate + end_rate) * duration_s - 2.0 * (end - start)) {}
 
   // Displacement from the start. Relative, so that no digits drown in a large position.
   TOWBENCH_REALTIME [[nodiscard]] double displacement(double u) const noexcept {
@@ -21,6 +26,11 @@ class CubicMotion {
   }
   TOWBENCH_REALTIME [[nodiscard]] double slope(double u) const noexcept {
     return linear_ + u * (2.0 * quadratic_ + u * (3.0 * cubic_));
+  }
+
+  // Bound of how much the slope changes and curves over the stretch: 2 |Q| + 6 |C|.
+  TOWBENCH_REALTIME [[nodiscard]] double bend() const noexcept {
+    return 2.0 * std::fabs(quadratic_) + 6.0 * std::fabs(cubic_);
   }
 
   // Where the motion reverses strictly inside the stretch, ascending: none, one or two.

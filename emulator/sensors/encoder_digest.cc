@@ -15,8 +15,8 @@ namespace {
 }  // namespace
 
 void EncoderDigest::add(core::Nanoseconds step_start_ns, const StepEdges& edges) noexcept {
-  for (const TimedEdge& edge : edges.view()) {
-    decode(step_start_ns + edge.time_ns, edge.line);
+  for (const TimedEdge edge : edges.view()) {
+    decode(step_start_ns + edge.time_ns(), edge.line());
   }
 }
 

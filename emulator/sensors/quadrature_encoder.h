@@ -7,28 +7,22 @@
 //   n mod 4    0    1    2    3      A toggles at odd n, B at even n; upwards A leads B.
 //   A          0    1    1    0      The index is high while n mod counts-a-turn = index_count,
 //   B          0    0    1    1      and its edge comes right behind the A or B edge it belongs to.
+//
+// The count is carried from edge to edge, never recomputed, so no edge is made twice or lost where
+// segments, steps or exchanges meet.
 #pragma once
 
 #include <cstdint>
 
-#include "core/bounded_vector.h"
 #include "core/realtime.h"
 #include "emulator/plant/axis_plant.h"
 #include "emulator/sensors/cubic_motion.h"
 #include "emulator/sensors/encoder_grating.h"
 #include "emulator/sensors/sensor_parameters.h"
+#include "emulator/sensors/step_edges.h"
 #include "protocol/messages.h"
 
 namespace towbench::emulator {
-
-struct TimedEdge {
-  std::int32_t time_ns = 0;  // from the start of the step, in [0, kPlantTick_ns)
-  protocol::EncoderLine line = protocol::EncoderLine::kA;
-};
-
-// 10 times what an encoder at its rated 200 kHz a channel makes in a step.
-inline constexpr std::size_t kMaxEdgesPerStep = 1024;
-using StepEdges = core::BoundedVector<TimedEdge, kMaxEdgesPerStep>;
 
 class QuadratureEncoder {
  public:
@@ -47,18 +41,33 @@ class QuadratureEncoder {
   [[nodiscard]] bool too_fast() const noexcept { return too_fast_; }
 
  private:
-  void follow(const CubicMotion& motion, const MotionSegment& segment, double u_from, double u_to,
-              double end_counts, StepEdges& edges) noexcept;
-  [[nodiscard]] bool cross(bool upwards, double time_s, StepEdges& edges) noexcept;
+  // A segment in counts and seconds.
+  struct Stretch {
+    double start_s;
+    double duration_s;
+    double start;
+    CubicMotion motion;
+  };
+
+  void follow(const MotionSegment& segment, StepEdges& edges) noexcept;
+  void run_gently(const Stretch& stretch, double end, StepEdges& edges) noexcept;
+  void cross_one_by_one(const Stretch& stretch, double u_from, double u_to, double end,
+                        StepEdges& edges) noexcept;
+  template <typename Inverse>
+  void write_run(const Stretch& stretch, std::int64_t run, bool upwards, Inverse inverse,
+                 StepEdges& edges) noexcept;
+  void enter(std::int64_t change, std::uint32_t time_ns, StepEdges& edges) noexcept;
+  [[nodiscard]] std::int64_t run_before_index(std::int64_t run, bool upwards) const noexcept;
+  [[nodiscard]] std::uint32_t clamped_ns(double time_s) const noexcept;
 
   EncoderGrating grating_;
   double counts_per_rad_;
   double max_counts_per_s_;
   std::int64_t index_count_;
   std::int64_t count_;
-  std::int64_t count_in_turn_;
+  std::int64_t in_turn_;  // count_ modulo counts a turn
   std::int64_t edges_total_ = 0;
-  std::int32_t last_ns_ = 0;
+  std::uint32_t last_ns_ = 0;
   bool too_fast_ = false;
 };
 

@@ -49,8 +49,8 @@ TEST_P(ImperfectEncoder, HasTheLevelsOfItsDefinitionAtEverySample) {
       encoder.step(segments_of(motion, step, 1 + step % 3), edges);
       std::size_t next = 0;
       for (int sample_ns = 0; sample_ns < core::kPlantTick_ns; sample_ns += 211) {
-        for (; next < edges.size() && edges[next].time_ns <= sample_ns; ++next) {
-          decoder.toggle(edges[next].line);
+        for (; next < edges.size() && edges[next].time_ns() <= sample_ns; ++next) {
+          decoder.toggle(edges[next].line());
         }
         const double t = step * core::kPlantTick_s + sample_ns * 1e-9;
         const double counts = motion.counts(t);
@@ -61,7 +61,7 @@ TEST_P(ImperfectEncoder, HasTheLevelsOfItsDefinitionAtEverySample) {
         }
       }
       for (; next < edges.size(); ++next) {
-        decoder.toggle(edges[next].line);
+        decoder.toggle(edges[next].line());
       }
       ASSERT_EQ(decoder.count(), encoder.count());
     }

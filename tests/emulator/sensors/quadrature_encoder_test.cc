@@ -36,17 +36,17 @@ TEST_P(QuadratureEncoderFollowing, PutsEveryEdgeWhereTheTrueAngleCrossesItsCount
   for (int step = 0; step < 3000; ++step) {
     encoder.step(segments_of(motion, step, 1 + step % 4), edges);
     std::int32_t last_ns = 0;
-    for (const TimedEdge& edge : edges.view()) {
-      ASSERT_GE(edge.time_ns, last_ns);
-      ASSERT_LT(edge.time_ns, core::kPlantTick_ns);
-      last_ns = edge.time_ns;
+    for (const TimedEdge edge : edges.view()) {
+      ASSERT_GE(edge.time_ns(), last_ns);
+      ASSERT_LT(edge.time_ns(), core::kPlantTick_ns);
+      last_ns = edge.time_ns();
       const std::int64_t before = decoder.count();
-      decoder.toggle(edge.line);
-      if (edge.line == EncoderLine::kIndex) {
+      decoder.toggle(edge.line());
+      if (edge.line() == EncoderLine::kIndex) {
         continue;
       }
       ASSERT_EQ(std::abs(decoder.count() - before), 1);
-      const double t = step * core::kPlantTick_s + edge.time_ns * 1e-9;
+      const double t = step * core::kPlantTick_s + edge.time_ns() * 1e-9;
       const auto threshold = static_cast<double>(std::max(before, decoder.count()));
       const double slack =
           kMotionError_counts + std::fabs(motion.counts_per_s(t)) * kRounding_ns * 1e-9;
@@ -71,8 +71,8 @@ TEST_P(QuadratureEncoderFollowing, AgreesWithTheTrueAngleAtEveryDenseSample) {
     encoder.step(segments_of(motion, step, 1 + step % 3), edges);
     std::size_t next = 0;
     for (int sample_ns = 0; sample_ns < core::kPlantTick_ns; sample_ns += 53) {
-      for (; next < edges.size() && edges[next].time_ns <= sample_ns; ++next) {
-        decoder.toggle(edges[next].line);
+      for (; next < edges.size() && edges[next].time_ns() <= sample_ns; ++next) {
+        decoder.toggle(edges[next].line());
       }
       const double t = step * core::kPlantTick_s + sample_ns * 1e-9;
       const double counts = motion.counts(t);
@@ -84,7 +84,7 @@ TEST_P(QuadratureEncoderFollowing, AgreesWithTheTrueAngleAtEveryDenseSample) {
       }
     }
     for (; next < edges.size(); ++next) {
-      decoder.toggle(edges[next].line);
+      decoder.toggle(edges[next].line());
     }
   }
 }
@@ -118,10 +118,10 @@ TEST(QuadratureEncoder, MakesTheTwoEdgesOfAnExcursionInsideOneStep) {
   ASSERT_EQ(edges.size(), 2U);
   // 1.6 u (1 - u) = 0.1.
   const double u = 0.5 - std::sqrt(0.25 - 0.1 / 1.6);
-  EXPECT_NEAR(edges[0].time_ns, u * 1e5, 1.0);
-  EXPECT_NEAR(edges[1].time_ns, (1.0 - u) * 1e5, 1.0);
-  EXPECT_EQ(edges[0].line, EncoderLine::kA);
-  EXPECT_EQ(edges[1].line, EncoderLine::kA);
+  EXPECT_NEAR(edges[0].time_ns(), u * 1e5, 1.0);
+  EXPECT_NEAR(edges[1].time_ns(), (1.0 - u) * 1e5, 1.0);
+  EXPECT_EQ(edges[0].line(), EncoderLine::kA);
+  EXPECT_EQ(edges[1].line(), EncoderLine::kA);
   EXPECT_EQ(encoder.count(), 0);
 }
 
@@ -185,11 +185,11 @@ TEST(QuadratureEncoder, RaisesTheIndexForOneCountATurnInBothDirections) {
       MotionSegments segments;
       ASSERT_TRUE(segments.push_back(hermite(0, core::kPlantTick_s, from, rate, to, rate)));
       encoder.step(segments, edges);
-      for (const TimedEdge& edge : edges.view()) {
+      for (const TimedEdge edge : edges.view()) {
         const bool was_high = decoder.index();
-        decoder.toggle(edge.line);
+        decoder.toggle(edge.line());
         pulses += !was_high && decoder.index() ? 1 : 0;
-        if (edge.line == EncoderLine::kIndex && decoder.index()) {
+        if (edge.line() == EncoderLine::kIndex && decoder.index()) {
           ASSERT_EQ(((decoder.count() % 4000) + 4000) % 4000, kIndex);
         }
       }
@@ -225,8 +225,8 @@ TEST(QuadratureEncoder, LosesNoEdgeWhenAStepHasMoreThanFit) {
     const double speed = step == 0 ? rate : 0.0;
     ASSERT_TRUE(segments.push_back(hermite(0, core::kPlantTick_s, at, speed, to, speed)));
     encoder.step(segments, edges);
-    for (const TimedEdge& edge : edges.view()) {
-      decoder.toggle(edge.line);
+    for (const TimedEdge edge : edges.view()) {
+      decoder.toggle(edge.line());
     }
     EXPECT_EQ(encoder.too_fast(), step <= 1) << step;
     at = to;
