@@ -53,6 +53,8 @@ std::string_view describe(ErrorCode code) noexcept {
       return "missing argument";
     case ErrorCode::kRequestLogFull:
       return "data log is full";
+    case ErrorCode::kMotionNotSettled:
+      return "motion did not settle on its target in time";
     case ErrorCode::kFaultKillSwitch:
       return "kill switch";
     case ErrorCode::kFaultEndStopMin:

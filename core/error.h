@@ -37,6 +37,7 @@ enum class ErrorCode : std::uint16_t {
   kRequestSwitchPressed = 208,
   kRequestMissingArgument = 209,
   kRequestLogFull = 210,
+  kMotionNotSettled = 211,  // a result, not a refusal: the target was not reached in time
 
   // 3xx: BBMC faults. Latched; the drive is removed until an explicit reset.
   kFaultKillSwitch = 300,

@@ -59,7 +59,7 @@ struct VelocityEstimation {
   VelocityMethod method = VelocityMethod::kHybrid;
   double capture_clock_Hz = 1.5625e6;  // 100 MHz / 64, the firmware's eQEP capture unit
   double switch_ratio = 1.0;           // 1 = where the two quantisation errors are equal
-  double hysteresis_ratio = 0.1;       // half width of the band around the switching speed
+  double hysteresis_ratio = 0.04;      // half width of the band around the switching speed
   double timeout_s = 0.04;             // longest wait for an edge: a little below 2^16 ticks
 
   template <typename Visitor>
@@ -167,7 +167,7 @@ struct PlausibilityConfiguration {
   bool index_fitted = true;
   std::int64_t index_tolerance_counts = 3;
   std::int64_t illegal_transitions_max = 3;  // in any 20 ms
-  std::int64_t noise_edges_max = 100;        // edges beyond the net count, in any 20 ms
+  std::int64_t noise_edges_max = 40;         // edges beyond the net count, in any 20 ms
 
   template <typename Visitor>
   void visit(Visitor& v) {

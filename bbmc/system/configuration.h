@@ -24,7 +24,8 @@ struct SafetyConfiguration {
   double latency_s = 2.5e-3;        // from an end-stop's edge to braking torque, worst case
   double speed_margin_ratio = 1.1;  // run-time speed guard over what planning allows
   double start_tolerance_m = 1e-3;  // a reference must start where the axis stands
-  double link_timeout_s = 20e-3;    // no sample of an encoder for so long: link lost
+  double tracking_error_limit_m = 0.05;
+  double link_timeout_s = 20e-3;  // no sample of an encoder for so long: link lost
   bool amplifier_ready_fitted = true;
   double amplifier_ready_timeout_s = 0.1;
 
@@ -38,6 +39,8 @@ struct SafetyConfiguration {
             "speed at which the run-time guard acts, over the speed that planning allows");
     v.value("start_tolerance_m", start_tolerance_m, core::above(0.0),
             "largest distance between an axis and the start of its reference");
+    v.value("tracking_error_limit_m", tracking_error_limit_m, core::above(0.0),
+            "further from its reference an axis is stopped");
     v.value("link_timeout_s", link_timeout_s, core::between(1e-3, 10.0),
             "without a sample of an encoder for so long the link is lost");
     v.value("amplifier_ready_fitted", amplifier_ready_fitted, core::any_finite(),
@@ -101,5 +104,9 @@ struct Configuration {
 // What must hold between values and no single range can say: a sentence that names the key. Null
 // when all is well.
 [[nodiscard]] const char* inconsistency(const Configuration& configuration) noexcept;
+
+// How often the board is served: the longest part of the control period that is not above 1 ms and
+// a multiple of 100 us. The period itself is a multiple of 100 us.
+[[nodiscard]] core::Nanoseconds exchange_period_ns(core::Nanoseconds control_period_ns) noexcept;
 
 }  // namespace towbench::bbmc

@@ -17,11 +17,13 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 
 #include "bbmc/system/configuration.h"
+#include "bbmc/system/control_sample.h"
 #include "bbmc/system/data_log.h"
+#include "bbmc/system/device_io.h"
+#include "bbmc/system/motion_control.h"
 #include "bbmc/system/motion_request.h"
 #include "bbmc/system/perf_log.h"
 #include "bbmc/system/system_event.h"
@@ -29,19 +31,19 @@
 #include "bbmc/system/telemetry_row.h"
 #include "core/realtime.h"
 #include "core/result.h"
+#include "core/spsc_queue.h"
 
 namespace towbench::bbmc {
 
-class DeviceManager;
-
 class SystemManager {
  public:
-  // `configuration` is valid (inconsistency() is null). Devices and log storage outlive this.
+  // `configuration` is valid (inconsistency() is null). Devices and log storage outlive this, which
+  // is large: not for a stack.
   SystemManager(const Configuration& configuration, DeviceManager& devices,
                 std::span<DataLogRow> log_storage);
   SystemManager(const SystemManager&) = delete;
   SystemManager& operator=(const SystemManager&) = delete;
-  ~SystemManager();
+  ~SystemManager() = default;
 
   // Opens and initialises every device and starts the control timer. First of all calls.
   [[nodiscard]] core::Status start() noexcept;
@@ -100,8 +102,22 @@ class SystemManager {
   [[nodiscard]] std::uint64_t rows_lost() const noexcept;
 
  private:
-  class Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  // Why no motion can be asked for now; kNone when one can.
+  [[nodiscard]] core::ErrorCode why_not_now() const noexcept;
+  [[nodiscard]] core::Status order(const MotionOrder& order) noexcept;
+  void serve_interrupts() noexcept;
+
+  Configuration configuration_;
+  core::Nanoseconds exchange_ns_;
+  DeviceIo io_;
+  DataLog log_;
+  PerfLog perf_;
+  MotionControl motion_;
+  ControlSample sample_;
+  // Around the control path: what goes in and what comes out.
+  LineEdgeQueue line_edges_;
+  core::SpscQueue<ControlSample, 2> samples_;
+  core::SpscQueue<DriveCommand, 2> commands_;
 };
 
 }  // namespace towbench::bbmc

@@ -1,0 +1,145 @@
+#include "bbmc/system/axis_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace towbench::bbmc {
+
+AxisControl::AxisControl(const AxisConfiguration& axis, const SafetyConfiguration& safety,
+                         double control_rate_Hz, double exchange_rate_Hz) noexcept
+    : settings_(axis),
+      safety_(safety),
+      m_per_count_(axis.m_per_count()),
+      rad_per_m_(1.0 / axis.m_per_rad()),
+      ticks_per_Nm_(static_cast<double>(axis.drive.pwm_period_ticks) /
+                    axis.drive.full_duty_torque_Nm()),
+      torque_limit_Nm_(axis.drive.torque_limit_Nm()),
+      // Rounded down: a limit is a limit.
+      tick_limit_(std::min(static_cast<std::int32_t>(axis.drive.pwm_period_ticks),
+                           static_cast<std::int32_t>(torque_limit_Nm_ * ticks_per_Nm_ + 1e-6))),
+      standstill_count_per_s_(axis.braking.standstill_m_per_s * axis.counts_per_m()),
+      observer_(axis, exchange_rate_Hz),
+      velocity_(axis.velocity, control_rate_Hz),
+      pid_(axis.gains),
+      brake_(axis),
+      end_stops_(axis),
+      plausibility_(axis),
+      speed_limits_(axis, safety.latency_s) {}
+
+core::ErrorCode AxisControl::judge_encoder() noexcept {
+  // What the drive was told until now is what has moved the axis since the exchange before.
+  observer_.change().torque_Nm = static_cast<double>(ticks_) / ticks_per_Nm_;
+  const bool judged = is_driven(mode_) || mode_ == AxisMode::kBraking;
+  return plausibility_.update(observer_.change(), judged);
+}
+
+bool AxisControl::breaks_limits() const noexcept {
+  const double speed_m_per_s = observer_.speed_count_per_s() * m_per_count_;
+  const double magnitude = std::fabs(speed_m_per_s);
+  if (stands_still()) {
+    return false;
+  }
+  if (!calibrated_) {
+    return magnitude > safety_.speed_margin_ratio * speed_limits_.uncalibrated_m_per_s();
+  }
+  const int direction = speed_m_per_s > 0 ? 1 : -1;
+  const double here_m = position_m();
+  const bool beyond =
+      direction > 0 ? here_m > speed_limits_.guard_max_m() : here_m < speed_limits_.guard_min_m();
+  return beyond || magnitude > safety_.speed_margin_ratio *
+                                   speed_limits_.calibrated_m_per_s(here_m, direction);
+}
+
+bool AxisControl::amplifier_failed(core::Nanoseconds now_ns, bool ready) const noexcept {
+  return safety_.amplifier_ready_fitted && enabled_ && !ready &&
+         now_ns - enabled_ns_ > core::nanoseconds(safety_.amplifier_ready_timeout_s);
+}
+
+BrakeState AxisControl::serve_brake(core::Nanoseconds now_ns) noexcept {
+  const BrakeState state = brake_.update(now_ns, observer_.speed_count_per_s());
+  set_ticks(brake_.torque_Nm() * ticks_per_Nm_);
+  return state;
+}
+
+void AxisControl::estimate_velocity() noexcept {
+  velocity_.update(observer_.reading(), observer_.raw_count());
+}
+
+void AxisControl::follow(const Reference& reference, AxisMode mode, double step_s) noexcept {
+  mode_ = mode;
+  reference_ = reference;
+  const double speed_rad_per_s = reference.velocity_m_per_s * rad_per_m_;
+  const double torque_Nm = pid_.update(
+      {.error_rad = (reference.position_m - position_m()) * rad_per_m_,
+       .speed_error_rad_per_s = (reference.velocity_m_per_s - velocity_m_per_s()) * rad_per_m_,
+       .feed_forward_Nm = feed_forward_torque_Nm(settings_.feed_forward, speed_rad_per_s,
+                                                 reference.acceleration_m_per_s2 * rad_per_m_),
+       .limit_Nm = torque_limit_Nm_,
+       .step_s = step_s});
+  set_ticks(torque_Nm * ticks_per_Nm_);
+}
+
+void AxisControl::drive_duty(double duty_pct) noexcept {
+  reference_ = {.position_m = position_m()};
+  set_ticks(duty_pct / 100.0 * static_cast<double>(settings_.drive.pwm_period_ticks));
+}
+
+void AxisControl::begin(AxisMode mode, core::Nanoseconds now_ns) noexcept {
+  mode_ = mode;
+  enabled_ = true;
+  enabled_ns_ = now_ns;
+  start_count_ = observer_.count();
+  reference_ = {.position_m = position_m()};
+  pid_.reset();
+  end_stops_.arm(observer_.raw_count());
+}
+
+void AxisControl::begin_braking(core::Nanoseconds now_ns) noexcept {
+  mode_ = AxisMode::kBraking;
+  brake_.begin(now_ns, observer_.speed_count_per_s(), safety_.coasting_stop);
+}
+
+void AxisControl::power_off(AxisMode mode) noexcept {
+  mode_ = mode;
+  ticks_ = 0;
+  enabled_ = false;
+}
+
+bool AxisControl::stands_still() const noexcept {
+  return std::fabs(observer_.speed_count_per_s()) <= standstill_count_per_s_;
+}
+
+double AxisControl::duty_pct() const noexcept {
+  return 100.0 * static_cast<double>(ticks_) /
+         static_cast<double>(settings_.drive.pwm_period_ticks);
+}
+
+std::uint32_t AxisControl::take_edges() noexcept {
+  const std::uint32_t total = observer_.reading().edges;
+  const std::uint32_t since = total - edges_taken_;
+  edges_taken_ = total;
+  return since;
+}
+
+void AxisControl::declare_position(std::int64_t count) noexcept {
+  observer_.declare(count);
+  calibrated_ = true;
+}
+
+void AxisControl::set_velocity_estimation(const VelocityEstimation& velocity,
+                                          double control_rate_Hz) noexcept {
+  settings_.velocity = velocity;
+  velocity_ = VelocityEstimator(velocity, control_rate_Hz);
+}
+
+void AxisControl::set_ticks(double ticks) noexcept {
+  // A law that yields no number must not become one by a conversion.
+  if (!(std::fabs(ticks) < 1e9)) {
+    ticks_ = 0;
+    return;
+  }
+  const auto nearest = static_cast<std::int32_t>(ticks + (ticks < 0 ? -0.5 : 0.5));
+  ticks_ = std::clamp(nearest, -tick_limit_, tick_limit_);
+}
+
+}  // namespace towbench::bbmc

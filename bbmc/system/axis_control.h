@@ -1,0 +1,113 @@
+// One axis between its encoder and its PWM: what it knows, what it does, what may stop it. It knows
+// neither the other axis nor the motion as a whole (motion_control.h).
+#pragma once
+
+#include <cstdint>
+
+#include "bbmc/system/axis_observer.h"
+#include "bbmc/system/brake.h"
+#include "bbmc/system/configuration.h"
+#include "bbmc/system/control_sample.h"
+#include "bbmc/system/encoder_plausibility.h"
+#include "bbmc/system/end_stop_guard.h"
+#include "bbmc/system/pid.h"
+#include "bbmc/system/stopping_distance.h"
+#include "bbmc/system/telemetry_row.h"
+#include "bbmc/system/trajectory/reference.h"
+#include "bbmc/system/velocity_estimator.h"
+#include "core/error.h"
+#include "core/realtime.h"
+
+namespace towbench::bbmc {
+
+[[nodiscard]] constexpr bool is_driven(AxisMode mode) noexcept {
+  return mode == AxisMode::kOpenLoop || mode == AxisMode::kPosition || mode == AxisMode::kVelocity;
+}
+
+class AxisControl {
+ public:
+  AxisControl(const AxisConfiguration& axis, const SafetyConfiguration& safety,
+              double control_rate_Hz, double exchange_rate_Hz) noexcept;
+
+  // ---- once an exchange ----
+  TOWBENCH_REALTIME void observe(const Eqep::Reading& reading) noexcept {
+    observer_.observe(reading);
+  }
+  // Whether the encoder can be believed.
+  TOWBENCH_REALTIME [[nodiscard]] core::ErrorCode judge_encoder() noexcept;
+  // Whether the axis moves where or as fast as it must not, by count and speed alone.
+  TOWBENCH_REALTIME [[nodiscard]] bool breaks_limits() const noexcept;
+  TOWBENCH_REALTIME [[nodiscard]] bool amplifier_failed(core::Nanoseconds now_ns,
+                                                        bool ready) const noexcept;
+  // Goes on braking; the mode stays kBraking until the caller acts on the state returned.
+  TOWBENCH_REALTIME [[nodiscard]] BrakeState serve_brake(core::Nanoseconds now_ns) noexcept;
+
+  // ---- once a control tick ----
+  TOWBENCH_REALTIME void estimate_velocity() noexcept;
+  TOWBENCH_REALTIME void follow(const Reference& reference, AxisMode mode, double step_s) noexcept;
+  TOWBENCH_REALTIME void drive_duty(double duty_pct) noexcept;
+
+  // ---- changes of mode ----
+  void begin(AxisMode mode, core::Nanoseconds now_ns) noexcept;
+  void begin_braking(core::Nanoseconds now_ns) noexcept;
+  // No power from now on.
+  void power_off(AxisMode mode) noexcept;
+
+  // ---- what is known ----
+  [[nodiscard]] AxisMode mode() const noexcept { return mode_; }
+  [[nodiscard]] const AxisObserver& observer() const noexcept { return observer_; }
+  [[nodiscard]] EndStopGuard& end_stops() noexcept { return end_stops_; }
+  [[nodiscard]] const EndStopGuard& end_stops() const noexcept { return end_stops_; }
+  [[nodiscard]] const SpeedLimits& speed_limits() const noexcept { return speed_limits_; }
+  [[nodiscard]] bool stands_still() const noexcept;
+  [[nodiscard]] double position_m() const noexcept {
+    return settings_.position_m(observer_.count());
+  }
+  [[nodiscard]] double velocity_m_per_s() const noexcept {
+    return velocity_.counts_per_s() * m_per_count_;
+  }
+  [[nodiscard]] double velocity_count_per_s() const noexcept { return velocity_.counts_per_s(); }
+  [[nodiscard]] const Reference& reference() const noexcept { return reference_; }
+  [[nodiscard]] double duty_pct() const noexcept;
+  [[nodiscard]] AxisDrive drive() const noexcept { return {ticks_, enabled_}; }
+  [[nodiscard]] bool calibrated() const noexcept { return calibrated_; }
+  [[nodiscard]] std::int64_t start_count() const noexcept { return start_count_; }
+  // A and B edges since this was last asked.
+  [[nodiscard]] std::uint32_t take_edges() noexcept;
+
+  // ---- settings that change while the controller runs ----
+  void declare_position(std::int64_t count) noexcept;
+  void forget_calibration() noexcept { calibrated_ = false; }
+  void set_gains(const PidGains& gains) noexcept { pid_.set_gains(gains); }
+  void set_feed_forward(const FeedForward& model) noexcept { settings_.feed_forward = model; }
+  void set_velocity_estimation(const VelocityEstimation& velocity, double control_rate_Hz) noexcept;
+
+ private:
+  void set_ticks(double ticks) noexcept;
+
+  AxisConfiguration settings_;
+  SafetyConfiguration safety_;
+  double m_per_count_;
+  double rad_per_m_;
+  double ticks_per_Nm_;
+  double torque_limit_Nm_;
+  std::int32_t tick_limit_;
+  double standstill_count_per_s_;
+  AxisObserver observer_;
+  VelocityEstimator velocity_;
+  Pid pid_;
+  Brake brake_;
+  EndStopGuard end_stops_;
+  EncoderPlausibility plausibility_;
+  SpeedLimits speed_limits_;
+  Reference reference_;
+  AxisMode mode_ = AxisMode::kIdle;
+  core::Nanoseconds enabled_ns_ = 0;
+  std::int64_t start_count_ = 0;
+  std::uint32_t edges_taken_ = 0;
+  std::int32_t ticks_ = 0;
+  bool enabled_ = false;
+  bool calibrated_ = false;
+};
+
+}  // namespace towbench::bbmc

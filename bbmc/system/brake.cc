@@ -1,0 +1,50 @@
+#include "bbmc/system/brake.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bbmc/system/stopping_distance.h"
+
+namespace towbench::bbmc {
+namespace {
+
+// The chain can throw the light motor faster than the carriage ever was, but not twice as fast.
+constexpr double kRunawayRatio = 2.0;
+constexpr double kRunawaySlack_count_per_s = 40'000;
+
+}  // namespace
+
+Brake::Brake(const AxisConfiguration& axis) noexcept
+    : settings_(axis.braking),
+      limit_Nm_(braking_torque_Nm(axis)),
+      rad_per_count_(axis.rad_per_count()),
+      standstill_count_per_s_(axis.braking.standstill_m_per_s * axis.counts_per_m()) {}
+
+void Brake::begin(core::Nanoseconds now_ns, double speed_count_per_s, bool coasting) noexcept {
+  begun_ns_ = now_ns;
+  moved_ns_ = now_ns;
+  start_speed_count_per_s_ = std::fabs(speed_count_per_s);
+  torque_Nm_ = 0;
+  coasting_ = coasting;
+}
+
+BrakeState Brake::update(core::Nanoseconds now_ns, double speed_count_per_s) noexcept {
+  const double speed = std::fabs(speed_count_per_s);
+  if (speed > standstill_count_per_s_) {
+    moved_ns_ = now_ns;
+  }
+  BrakeState state = BrakeState::kBraking;
+  if (now_ns - moved_ns_ >= core::nanoseconds(settings_.standstill_time_s)) {
+    state = BrakeState::kStandstill;
+  } else if (now_ns - begun_ns_ >= core::nanoseconds(settings_.timeout_s)) {
+    state = BrakeState::kTimedOut;
+  } else if (speed > kRunawayRatio * start_speed_count_per_s_ + kRunawaySlack_count_per_s) {
+    state = BrakeState::kRanAway;
+  }
+  const double wanted = -settings_.speed_gain_Nm_s_per_rad * speed_count_per_s * rad_per_count_;
+  torque_Nm_ =
+      state != BrakeState::kBraking || coasting_ ? 0.0 : std::clamp(wanted, -limit_Nm_, limit_Nm_);
+  return state;
+}
+
+}  // namespace towbench::bbmc

@@ -1,0 +1,47 @@
+// The safety stop of one axis: active braking to standstill, then no power, in bounded time
+// (defect 3). Served once an exchange, whatever the control rate.
+//
+//   tau = -K_b omega, |tau| <= the smaller of drive limit and gear limit
+//
+// At speed that is full reverse torque; near standstill it holds the motor against the chain, which
+// takes the carriage's swing out instead of letting it run on. Standstill counts only when it
+// lasts, because the motor passes through zero while the carriage still swings.
+//
+// An encoder that lies makes this law push: when the speed grows well beyond what it was, the drive
+// is given up.
+#pragma once
+
+#include "bbmc/system/axis_configuration.h"
+#include "core/realtime.h"
+#include "core/time.h"
+
+namespace towbench::bbmc {
+
+enum class BrakeState : std::uint8_t { kBraking, kStandstill, kTimedOut, kRanAway };
+
+class Brake {
+ public:
+  explicit Brake(const AxisConfiguration& axis) noexcept;
+
+  // `coasting`: no torque, only the wait for standstill (for comparison, see SafetyConfiguration).
+  void begin(core::Nanoseconds now_ns, double speed_count_per_s, bool coasting) noexcept;
+
+  TOWBENCH_REALTIME [[nodiscard]] BrakeState update(core::Nanoseconds now_ns,
+                                                    double speed_count_per_s) noexcept;
+
+  // Motor torque to apply until the next update; 0 once it does not brake any more.
+  [[nodiscard]] double torque_Nm() const noexcept { return torque_Nm_; }
+
+ private:
+  BrakingConfiguration settings_;
+  double limit_Nm_;
+  double rad_per_count_;
+  double standstill_count_per_s_;
+  core::Nanoseconds begun_ns_ = 0;
+  core::Nanoseconds moved_ns_ = 0;  // last time above standstill
+  double start_speed_count_per_s_ = 0;
+  double torque_Nm_ = 0;
+  bool coasting_ = false;
+};
+
+}  // namespace towbench::bbmc

@@ -1,0 +1,144 @@
+#include "bbmc/system/encoder_plausibility.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace towbench::bbmc {
+namespace {
+
+using core::ErrorCode;
+
+// Below 1.25 x break-away no verdict is formed, at 1.5 x it takes less than 50 ms (controller.md
+// 5).
+constexpr double kPushThreshold = 1.25;
+// A rigid axis has moved so far, and a live encoder shows a tenth of it at the very least; a frozen
+// or half-dead one dithers by a count or two.
+constexpr double kStuckTravel_counts = 40;
+constexpr std::int64_t kStuckExcursion_counts = 3;
+constexpr double kReversedTravel_counts = 100;
+// Quantisation of two differences, and the encoder's phase error of half a count.
+constexpr double kRateSlack_counts = 4;
+constexpr core::Nanoseconds kBucket_ns = 10 * core::kNanosecondsPerMillisecond;
+
+}  // namespace
+
+EncoderPlausibility::EncoderPlausibility(const AxisConfiguration& axis) noexcept
+    : settings_(axis.plausibility),
+      breakaway_Nm_(axis.plausibility.worst_breakaway_Nm +
+                    axis.plausibility.external_load_N * axis.m_per_rad()),
+      inertia_kg_m2_(axis.braking.inertia_kg_m2),
+      rad_per_count_(axis.rad_per_count()),
+      max_acceleration_count_per_s2_(kTorqueMargin * axis.drive.torque_limit_Nm() /
+                                     axis.braking.rotor_inertia_kg_m2 / axis.rad_per_count()),
+      index_(axis.encoder_counts_per_rev, axis.plausibility.index_tolerance_counts) {}
+
+ErrorCode EncoderPlausibility::judge_kinematics(const EncoderChange& change) const noexcept {
+  const double expected = last_rate_count_per_s_ * change.elapsed_s;
+  const double moved = static_cast<double>(change.counts);
+  const double slack =
+      max_acceleration_count_per_s2_ * change.elapsed_s * change.elapsed_s + kRateSlack_counts;
+  if (std::fabs(moved - expected) <= slack) {
+    return ErrorCode::kNone;
+  }
+  if (std::fabs(moved + expected) <= slack) {
+    return ErrorCode::kFaultEncoderReversed;
+  }
+  return std::fabs(moved) < 0.5 * std::fabs(expected) ? ErrorCode::kFaultEncoderFrozen
+                                                      : ErrorCode::kFaultEncoderJump;
+}
+
+void EncoderPlausibility::begin_push(const EncoderChange& change, double direction) noexcept {
+  push_ = {.direction = direction,
+           .start_speed_count_per_s = change.speed_count_per_s,
+           .start_count = change.raw_count,
+           .lowest_count = change.raw_count,
+           .highest_count = change.raw_count};
+}
+
+ErrorCode EncoderPlausibility::judge_push(const EncoderChange& change) noexcept {
+  const double magnitude = std::fabs(change.torque_Nm);
+  if (magnitude <= kPushThreshold * breakaway_Nm_) {
+    push_.direction = 0;
+    return ErrorCode::kNone;
+  }
+  const double direction = change.torque_Nm > 0 ? 1.0 : -1.0;
+  if (push_.direction != direction) {
+    begin_push(change, direction);
+    return ErrorCode::kNone;
+  }
+  const double gained = (magnitude - breakaway_Nm_) / inertia_kg_m2_ * change.elapsed_s;
+  push_.model_travel_rad += (push_.model_speed_rad_per_s + 0.5 * gained) * change.elapsed_s;
+  push_.model_speed_rad_per_s += gained;
+  push_.lowest_count = std::min(push_.lowest_count, change.raw_count);
+  push_.highest_count = std::max(push_.highest_count, change.raw_count);
+
+  const double along = direction * static_cast<double>(change.raw_count - push_.start_count);
+  const double sped_up =
+      direction * (change.speed_count_per_s - push_.start_speed_count_per_s) * rad_per_count_;
+  if (push_.model_travel_rad >= kReversedTravel_counts * rad_per_count_ &&
+      along * rad_per_count_ <= -0.5 * push_.model_travel_rad &&
+      sped_up <= -0.5 * push_.model_speed_rad_per_s) {
+    return ErrorCode::kFaultEncoderReversed;
+  }
+  if (push_.model_travel_rad - push_.window_start_travel_rad >=
+      kStuckTravel_counts * rad_per_count_) {
+    if (push_.highest_count - push_.lowest_count <= kStuckExcursion_counts) {
+      return ErrorCode::kFaultEncoderFrozen;
+    }
+    push_.window_start_travel_rad = push_.model_travel_rad;
+    push_.lowest_count = change.raw_count;
+    push_.highest_count = change.raw_count;
+  }
+  return ErrorCode::kNone;
+}
+
+void EncoderPlausibility::count_events(const EncoderChange& change) noexcept {
+  if (change.time_ns - bucket_start_ns_ >= kBucket_ns) {
+    // After a long exchange (10 Hz without an interrupt path) the bucket before is too old to
+    // count.
+    const bool adjacent = change.time_ns - bucket_start_ns_ < 2 * kBucket_ns;
+    illegal_ = {.last = adjacent ? illegal_.current : 0};
+    noise_ = {.last = adjacent ? noise_.current : 0};
+    bucket_start_ns_ = change.time_ns;
+  }
+  illegal_.current += change.illegal_transitions;
+  if (change.edges_known) {
+    const std::int64_t net = change.counts < 0 ? -change.counts : change.counts;
+    noise_.current += std::max<std::int64_t>(0, static_cast<std::int64_t>(change.edges) - net);
+  }
+}
+
+ErrorCode EncoderPlausibility::update(const EncoderChange& change, bool judged) noexcept {
+  if (change.elapsed_s <= 0) {
+    return ErrorCode::kNone;
+  }
+  count_events(change);
+  const bool index_good =
+      index_.update(change.raw_count, change.counts, change.index_pulses, change.index_raw_count);
+  ErrorCode found = ErrorCode::kNone;
+  if (!settings_.enabled || !judged) {
+    push_.direction = 0;
+    if (!index_good) {
+      index_.forget();  // moved by hand past a fault that nobody judged: learn anew
+    }
+  } else if (found = judge_kinematics(change); found != ErrorCode::kNone) {
+  } else if (found = judge_push(change); found != ErrorCode::kNone) {
+  } else if (illegal_.sum() > settings_.illegal_transitions_max) {
+    found = ErrorCode::kFaultEncoderIllegalTransitions;
+  } else if (noise_.sum() > settings_.noise_edges_max) {
+    found = ErrorCode::kFaultEncoderNoise;
+  } else if (settings_.index_fitted && !index_good) {
+    found = ErrorCode::kFaultEncoderIndex;
+  }
+  last_rate_count_per_s_ = static_cast<double>(change.counts) / change.elapsed_s;
+  if (found != ErrorCode::kNone) {
+    // The next motion, after a reset, is judged from scratch.
+    push_.direction = 0;
+    illegal_ = {};
+    noise_ = {};
+    index_.forget();
+  }
+  return found;
+}
+
+}  // namespace towbench::bbmc

@@ -1,0 +1,53 @@
+// The end-stops of one axis: which edge of a hall switch stops the machine (defects 1 and 13).
+//
+// Armed in every motion, both ends, whatever the direction: a switch that is wired to the wrong end
+// must stop the axis too. The one exception is the switch that the axis is just leaving: it was
+// active when the motion began, and while it is left it may bounce.
+//
+// Besides the edges, levels are looked at: an axis that moves towards an active switch is stopped,
+// should its edge have been missed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "bbmc/system/axis_configuration.h"
+#include "core/error.h"
+#include "core/realtime.h"
+
+namespace towbench::bbmc {
+
+enum class End : std::uint8_t { kMin = 0, kMax = 1 };
+
+[[nodiscard]] constexpr core::ErrorCode end_stop_fault(End end) noexcept {
+  return end == End::kMin ? core::ErrorCode::kFaultEndStopMin : core::ErrorCode::kFaultEndStopMax;
+}
+
+class EndStopGuard {
+ public:
+  explicit EndStopGuard(const AxisConfiguration& axis) noexcept;
+
+  // A motion begins at `count`.
+  void arm(std::int64_t count) noexcept;
+
+  // An edge of the switch at `end` while the axis is at `count` with `speed`. True when it stops
+  // the machine, motion given.
+  TOWBENCH_REALTIME [[nodiscard]] bool edge(End end, bool active, std::int64_t count,
+                                            double speed_count_per_s) noexcept;
+  // Whether the axis moves towards an active switch; `end` says which.
+  TOWBENCH_REALTIME [[nodiscard]] bool moves_into(double speed_count_per_s,
+                                                  End& end) const noexcept;
+
+  [[nodiscard]] bool active(End end) const noexcept {
+    return active_[static_cast<std::size_t>(end)];
+  }
+
+ private:
+  std::array<bool, 2> active_{};
+  std::array<bool, 2> leaving_{};
+  std::int64_t start_count_ = 0;
+  std::int64_t leave_counts_;
+  double standstill_count_per_s_;
+};
+
+}  // namespace towbench::bbmc

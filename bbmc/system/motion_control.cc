@@ -1,0 +1,284 @@
+#include "bbmc/system/motion_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace towbench::bbmc {
+
+using core::Axis;
+using core::ErrorCode;
+using Kind = SystemEvent::Kind;
+
+MotionControl::MotionControl(const Configuration& configuration, core::Nanoseconds exchange_ns,
+                             DataLog& log) noexcept
+    : configuration_(configuration),
+      log_(&log),
+      period_ns_(configuration.control_period_ns()),
+      axes_{{AxisControl(configuration.axes[Axis::kY], configuration.safety,
+                         configuration.control_rate_Hz, 1.0 / core::seconds(exchange_ns)),
+             AxisControl(configuration.axes[Axis::kX], configuration.safety,
+                         configuration.control_rate_Hz, 1.0 / core::seconds(exchange_ns))}} {}
+
+void MotionControl::exchange(const ControlSample& sample, LineEdgeQueue& line_edges,
+                             DriveCommand& command) noexcept {
+  now_ns_ = sample.time_ns;
+  lines_ = sample.lines;
+  for (Axis which : core::kAxes) {
+    axes_[which].observe(sample.encoder[which]);
+  }
+  Aintc::Reading edge;
+  while (line_edges.pop(edge)) {
+    serve_line(edge);
+  }
+  watch(sample);
+  if (stop_requested_) {
+    stop_requested_ = false;
+    status_.stopped_by_user = true;
+    end_motion(ErrorCode::kNone);
+  }
+  if (sample.tick_due) {
+    tick(sample);
+  }
+  serve_brakes();
+  settle_after_fault();
+  finish_motion_when_at_rest();
+  if (sample.tick_due) {
+    record(sample);
+  }
+  publish();
+  for (Axis which : core::kAxes) {
+    command.axes[which] = axes_[which].drive();
+  }
+  command.tick = sample.tick_due;
+}
+
+void MotionControl::tick(const ControlSample& sample) noexcept {
+  ++status_.control_ticks;
+  status_.late_ticks += sample.ticks_missed;
+  const double step_s = core::seconds(last_tick_ns_ == 0 ? period_ns_ : now_ns_ - last_tick_ns_);
+  last_tick_ns_ = now_ns_;
+  for (Axis which : core::kAxes) {
+    axes_[which].estimate_velocity();
+  }
+  begin_waiting_order(now_ns_);
+  if (status_.motion == MotionKind::kNone || motion_ending_) {
+    return;
+  }
+  const double time_s = core::seconds(now_ns_ - motion_.start_ns);
+  status_.motion_time_s = time_s;
+  ErrorCode result = ErrorCode::kNone;
+  if (motion_is_over(time_s, result)) {
+    end_motion(result);
+    return;
+  }
+  for (Axis which : core::kAxes) {
+    if (is_driven(axes_[which].mode())) {
+      drive_axis(which, time_s, step_s);
+    }
+  }
+  check_tracking();
+}
+
+void MotionControl::begin_waiting_order(core::Nanoseconds now_ns) noexcept {
+  if (status_.motion != MotionKind::kNone || !orders_.pop(motion_.order)) {
+    return;
+  }
+  const MotionOrder& order = motion_.order;
+  status_.stopped_by_user = false;
+  motion_.start_ns = now_ns;
+  motion_.settled = false;
+  motion_.duration_s = 0;
+  status_.motion = order.kind;
+  motion_ending_ = false;
+  log_full_told_ = false;
+  if (status_.fault != ErrorCode::kNone || status_.kill_switch_pressed) {
+    // Between request and start the machine has stopped: nothing is powered.
+    motion_ending_ = true;
+    motion_result_ = status_.fault;
+    return;
+  }
+  const GotoConfiguration& go_to = configuration_.go_to;
+  for (Axis which : core::kAxes) {
+    if (!order.driven[which]) {
+      continue;
+    }
+    AxisControl& axis = axes_[which];
+    axis.begin(order.kind == MotionKind::kOpenLoop ? AxisMode::kOpenLoop : AxisMode::kPosition,
+               now_ns);
+    const double duration_s =
+        order.kind == MotionKind::kReference  ? order.trajectory[which].duration_s()
+        : order.kind == MotionKind::kOpenLoop ? order.program[which].duration_s()
+                                              : 0.0;
+    motion_.duration_s = std::max(motion_.duration_s, duration_s);
+    const double speed_count_per_s =
+        order.fast ? go_to.fast_speed_count_per_s : go_to.speed_count_per_s;
+    motion_.approach[which].begin(
+        axis.position_m(), order.target_m[which],
+        std::min(speed_count_per_s * configuration_.axes[which].m_per_count(),
+                 configuration_.axes[which].speed_limit_m_per_s),
+        go_to.acceleration_m_per_s2);
+    post(Kind::kMotionStarted, which, ErrorCode::kNone);
+    set_mode_event(which);
+  }
+}
+
+void MotionControl::drive_axis(Axis which, double time_s, double step_s) noexcept {
+  AxisControl& axis = axes_[which];
+  switch (motion_.order.kind) {
+    case MotionKind::kReference:
+      axis.follow(motion_.order.trajectory[which].at(time_s), AxisMode::kPosition, step_s);
+      break;
+    case MotionKind::kOpenLoop:
+      axis.drive_duty(motion_.order.program[which].duty_pct(time_s));
+      break;
+    case MotionKind::kGoto:
+      drive_approach(which, step_s);
+      break;
+    case MotionKind::kNone:
+      break;
+  }
+}
+
+void MotionControl::drive_approach(Axis which, double step_s) noexcept {
+  AxisControl& axis = axes_[which];
+  ApproachProfile& approach = motion_.approach[which];
+  const double final_m =
+      configuration_.go_to.final_distance_count * configuration_.axes[which].m_per_count();
+  const Reference reference = approach.step(step_s);
+  const AxisMode before = axis.mode();
+  axis.follow(reference,
+              std::fabs(approach.left_m()) > final_m ? AxisMode::kVelocity : AxisMode::kPosition,
+              step_s);
+  if (axis.mode() != before) {
+    set_mode_event(which);
+  }
+  if (!approach.arrived()) {
+    motion_.duration_s = core::seconds(now_ns_ - motion_.start_ns) + step_s;
+  }
+}
+
+bool MotionControl::motion_is_over(double time_s, ErrorCode& result) noexcept {
+  if (motion_.order.kind == MotionKind::kOpenLoop) {
+    return time_s >= motion_.duration_s || broke_away();
+  }
+  const bool must_settle = motion_.order.kind == MotionKind::kGoto || motion_.order.until_settled;
+  if (!must_settle) {
+    return time_s >= motion_.duration_s + configuration_.hold_time_s;
+  }
+  if (time_s < motion_.duration_s || time_s == 0) {
+    return false;
+  }
+  if (settled_long_enough()) {
+    return true;
+  }
+  if (time_s >= motion_.duration_s + configuration_.go_to.timeout_s) {
+    result = ErrorCode::kMotionNotSettled;
+    return true;
+  }
+  return false;
+}
+
+bool MotionControl::settled_long_enough() noexcept {
+  bool near = true;
+  for (Axis which : core::kAxes) {
+    if (is_driven(axes_[which].mode())) {
+      const double distance_m = axes_[which].reference().position_m - axes_[which].position_m();
+      const double allowed_m =
+          (static_cast<double>(configuration_.go_to.done_within_counts) + 0.5) *
+          configuration_.axes[which].m_per_count();
+      near = near && std::fabs(distance_m) <= allowed_m && axes_[which].stands_still();
+    }
+  }
+  if (!near) {
+    motion_.settled = false;
+    return false;
+  }
+  if (!motion_.settled) {
+    motion_.settled = true;
+    motion_.settled_since_ns = now_ns_;
+  }
+  return now_ns_ - motion_.settled_since_ns >=
+         core::nanoseconds(configuration_.go_to.settle_time_s);
+}
+
+bool MotionControl::broke_away() noexcept {
+  const double threshold = motion_.order.stop_speed_count_per_s;
+  if (threshold <= 0) {
+    return false;
+  }
+  for (Axis which : core::kAxes) {
+    const AxisControl& axis = axes_[which];
+    if (is_driven(axis.mode()) && std::fabs(axis.velocity_count_per_s()) > threshold) {
+      status_.axes[which].break_away_count = axis.observer().count();
+      status_.axes[which].break_away_duty_pct = axis.duty_pct();
+      return true;
+    }
+  }
+  return false;
+}
+
+void MotionControl::end_motion(ErrorCode result) noexcept {
+  if (status_.motion == MotionKind::kNone || motion_ending_) {
+    return;
+  }
+  motion_ending_ = true;
+  motion_result_ = result;
+  for (Axis which : core::kAxes) {
+    AxisControl& axis = axes_[which];
+    if (!is_driven(axis.mode())) {
+      continue;
+    }
+    if (axis.stands_still()) {
+      power_off(which, AxisMode::kIdle, result);
+    } else {
+      axis.begin_braking(now_ns_);
+      set_mode_event(which);
+    }
+  }
+}
+
+void MotionControl::finish_motion_when_at_rest() noexcept {
+  if (status_.motion == MotionKind::kNone || !motion_ending_ || any_powered()) {
+    return;
+  }
+  for (Axis which : core::kAxes) {
+    if (motion_.order.driven[which]) {
+      post(Kind::kMotionEnded, which, motion_result_);
+    }
+  }
+  status_.motion = MotionKind::kNone;
+  status_.motion_time_s = core::seconds(now_ns_ - motion_.start_ns);
+  status_.last_motion_result = motion_result_;
+  ++status_.motions_ended;
+  motion_ending_ = false;
+}
+
+void MotionControl::check_tracking() noexcept {
+  for (Axis which : core::kAxes) {
+    const AxisControl& axis = axes_[which];
+    if (axis.mode() != AxisMode::kPosition && axis.mode() != AxisMode::kVelocity) {
+      continue;
+    }
+    const double error_m = axis.reference().position_m - axis.position_m();
+    if (!(std::fabs(error_m) <= configuration_.safety.tracking_error_limit_m)) {
+      brake_all(ErrorCode::kFaultTrackingError, which);
+    }
+  }
+}
+
+bool MotionControl::any_powered() const noexcept {
+  return std::any_of(axes_.begin(), axes_.end(), [](const AxisControl& axis) {
+    return is_driven(axis.mode()) || axis.mode() == AxisMode::kBraking;
+  });
+}
+
+bool MotionControl::at_rest() const noexcept {
+  return status_.motion == MotionKind::kNone && orders_.empty() && !any_powered();
+}
+
+bool MotionControl::braking() const noexcept {
+  return std::any_of(axes_.begin(), axes_.end(),
+                     [](const AxisControl& axis) { return axis.mode() == AxisMode::kBraking; });
+}
+
+}  // namespace towbench::bbmc

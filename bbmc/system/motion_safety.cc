@@ -1,0 +1,201 @@
+// The safety subsystem: what stops the machine, how, and what stays latched afterwards.
+//
+//   kill switch, link lost            no power, both axes, at once
+//   encoder, amplifier of one axis    no power there (nothing to brake with), the other brakes
+//   end-stop, limit, tracking         both axes brake
+#include <cmath>
+
+#include "bbmc/system/motion_control.h"
+
+namespace towbench::bbmc {
+namespace {
+
+using core::Axis;
+using core::ErrorCode;
+using Kind = SystemEvent::Kind;
+
+// A tick so much later than due means the axis ran blind: 10 periods, but 20 ms at least.
+constexpr std::uint32_t kOverrunPeriods = 10;
+constexpr core::Nanoseconds kOverrun_ns = 20 * core::kNanosecondsPerMillisecond;
+
+struct HallLine {
+  Axis axis;
+  End end;
+};
+
+constexpr HallLine hall_of(Line line) noexcept {
+  return {line == Line::kHallYMin || line == Line::kHallYMax ? Axis::kY : Axis::kX,
+          line == Line::kHallYMin || line == Line::kHallXMin ? End::kMin : End::kMax};
+}
+
+}  // namespace
+
+void MotionControl::serve_line(const Aintc::Reading& edge) noexcept {
+  const auto number = static_cast<std::int64_t>(index_of(edge.line)) + 1;
+  post_at(edge.time_ns, Kind::kLineEdge, Axis::kY, ErrorCode::kNone,
+          edge.active ? number : -number);
+  if (edge.line == Line::kKillSwitch) {
+    status_.kill_switch_pressed = edge.active;
+    if (edge.active) {
+      cut_all(ErrorCode::kFaultKillSwitch, Axis::kY);
+    }
+    return;
+  }
+  if (index_of(edge.line) > index_of(Line::kHallXMax)) {
+    return;  // amplifier lines are judged by their level
+  }
+  const HallLine hall = hall_of(edge.line);
+  AxisControl& axis = axes_[hall.axis];
+  const bool stops = axis.end_stops().edge(hall.end, edge.active, axis.observer().raw_count(),
+                                           axis.observer().speed_count_per_s());
+  if (stops && any_powered()) {
+    brake_all(end_stop_fault(hall.end), hall.axis);
+  }
+}
+
+void MotionControl::watch(const ControlSample& sample) noexcept {
+  status_.kill_switch_pressed = (sample.lines & mask_of(Line::kKillSwitch)) != 0;
+  if (status_.kill_switch_pressed && status_.fault != ErrorCode::kFaultKillSwitch &&
+      any_powered()) {
+    cut_all(ErrorCode::kFaultKillSwitch, Axis::kY);  // its edge was missed
+  }
+  for (Axis which : core::kAxes) {
+    watch_axis(which, sample);
+  }
+  if (sample.tick_due && any_powered() && sample.ticks_missed >= kOverrunPeriods &&
+      sample.time_ns - sample.tick_due_ns > kOverrun_ns) {
+    brake_all(ErrorCode::kFaultControlOverrun, Axis::kY);
+  }
+}
+
+void MotionControl::watch_axis(Axis which, const ControlSample& sample) noexcept {
+  AxisControl& axis = axes_[which];
+  const ErrorCode encoder = axis.judge_encoder();
+  if (!is_driven(axis.mode()) && axis.mode() != AxisMode::kBraking) {
+    return;
+  }
+  const core::Nanoseconds age_ns = sample.time_ns - sample.encoder[which].time_ns;
+  if (age_ns > core::nanoseconds(configuration_.safety.link_timeout_s)) {
+    cut_all(ErrorCode::kFaultLinkLost, which);
+    return;
+  }
+  if (encoder != ErrorCode::kNone) {
+    cut_one(encoder, which);
+    return;
+  }
+  const bool ready = (sample.lines & mask_of(amplifier_ready_of(which))) != 0;
+  if (axis.amplifier_failed(sample.time_ns, ready)) {
+    cut_one(ErrorCode::kFaultAmplifierNotReady, which);
+    return;
+  }
+  End end = End::kMin;
+  if (axis.end_stops().moves_into(axis.observer().speed_count_per_s(), end)) {
+    brake_all(end_stop_fault(end), which);
+  } else if (is_driven(axis.mode()) && axis.breaks_limits()) {
+    brake_all(ErrorCode::kFaultSoftLimit, which);
+  }
+}
+
+void MotionControl::serve_brakes() noexcept {
+  for (Axis which : core::kAxes) {
+    AxisControl& axis = axes_[which];
+    if (axis.mode() != AxisMode::kBraking) {
+      continue;
+    }
+    switch (axis.serve_brake(now_ns_)) {
+      case BrakeState::kBraking:
+        break;
+      case BrakeState::kStandstill:
+        power_off(which, status_.fault == ErrorCode::kNone ? AxisMode::kIdle : AxisMode::kFaulted,
+                  status_.fault);
+        break;
+      case BrakeState::kTimedOut:
+        cut_one(ErrorCode::kFaultStopTimeout, which);
+        break;
+      case BrakeState::kRanAway:
+        cut_one(ErrorCode::kFaultEncoderReversed, which);
+        break;
+    }
+  }
+}
+
+void MotionControl::latch(ErrorCode code, Axis which) noexcept {
+  if (status_.fault == ErrorCode::kNone) {
+    status_.fault = code;
+    status_.fault_axis = which;
+    post(Kind::kFaultLatched, which, code);
+  }
+  if (status_.motion != MotionKind::kNone && !motion_ending_) {
+    motion_ending_ = true;
+    motion_result_ = code;
+  } else if (motion_ending_ && motion_result_ == ErrorCode::kNone) {
+    motion_result_ = code;
+  }
+}
+
+void MotionControl::brake_all(ErrorCode code, Axis which) noexcept {
+  latch(code, which);
+  for (Axis each : core::kAxes) {
+    if (is_driven(axes_[each].mode())) {
+      axes_[each].begin_braking(now_ns_);
+      set_mode_event(each);
+    }
+  }
+}
+
+void MotionControl::cut_one(ErrorCode code, Axis which) noexcept {
+  power_off(which, AxisMode::kFaulted, code);
+  brake_all(code, which);
+}
+
+void MotionControl::cut_all(ErrorCode code, Axis which) noexcept {
+  latch(code, which);
+  for (Axis each : core::kAxes) {
+    power_off(each, AxisMode::kFaulted, code);
+  }
+}
+
+void MotionControl::settle_after_fault() noexcept {
+  if (status_.fault == ErrorCode::kNone) {
+    return;
+  }
+  for (Axis which : core::kAxes) {
+    if (axes_[which].mode() == AxisMode::kIdle) {
+      power_off(which, AxisMode::kFaulted, status_.fault);
+    }
+  }
+}
+
+void MotionControl::power_off(Axis which, AxisMode mode, ErrorCode why) noexcept {
+  AxisControl& axis = axes_[which];
+  if (axis.mode() == mode) {
+    return;
+  }
+  const bool had_power = axis.drive().enable;
+  axis.power_off(mode);
+  if (had_power) {
+    post(Kind::kDutyZeroed, which, why);
+  }
+  set_mode_event(which);
+}
+
+void MotionControl::clear_fault() noexcept {
+  status_.fault = ErrorCode::kNone;
+  post(Kind::kReset, Axis::kY, ErrorCode::kNone);
+  for (Axis which : core::kAxes) {
+    if (axes_[which].mode() == AxisMode::kFaulted) {
+      power_off(which, AxisMode::kIdle, ErrorCode::kNone);
+    }
+  }
+  publish();
+}
+
+void MotionControl::link_lost(ErrorCode why, core::Nanoseconds now_ns) noexcept {
+  now_ns_ = now_ns;
+  post(Kind::kPeerLost, Axis::kY, why);
+  cut_all(why, Axis::kY);
+  finish_motion_when_at_rest();
+  publish();
+}
+
+}  // namespace towbench::bbmc

@@ -1,0 +1,47 @@
+#include "bbmc/system/stopping_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace towbench::bbmc {
+
+double braking_torque_Nm(const AxisConfiguration& axis) noexcept {
+  return std::min(axis.drive.torque_limit_Nm(),
+                  axis.braking.gear_torque_limit_Nm / axis.gear_ratio);
+}
+
+StoppingDistance::StoppingDistance(const AxisConfiguration& axis, double latency_s) noexcept
+    : lag_s_(latency_s + 1.0 / (2.0 * std::numbers::pi * axis.braking.held_motor_chain_Hz)),
+      deceleration_m_per_s2_(braking_torque_Nm(axis) / axis.braking.inertia_kg_m2 *
+                             axis.m_per_rad()) {}
+
+double StoppingDistance::speed_m_per_s(double distance_m) const noexcept {
+  if (!(distance_m > 0)) {
+    return 0.0;
+  }
+  const double a = deceleration_m_per_s2_;
+  return a * (std::sqrt(lag_s_ * lag_s_ + 2.0 * distance_m / a) - lag_s_);
+}
+
+SpeedLimits::SpeedLimits(const AxisConfiguration& axis, double latency_s) noexcept
+    : stopping_(axis, latency_s),
+      hall_min_m_(axis.position_m(axis.ends.hall_min_count)),
+      hall_max_m_(axis.position_m(axis.ends.hall_max_count)),
+      soft_min_m_(axis.position_m(axis.ends.soft_min_count)),
+      soft_max_m_(axis.position_m(axis.ends.soft_max_count)),
+      guard_min_m_(soft_min_m_ - (soft_min_m_ - hall_min_m_) / 4.0),
+      guard_max_m_(soft_max_m_ + (hall_max_m_ - soft_max_m_) / 4.0),
+      limit_m_per_s_(axis.speed_limit_m_per_s) {
+  const double beyond_min_m = hall_min_m_ - axis.position_m(axis.ends.hard_min_count);
+  const double beyond_max_m = axis.position_m(axis.ends.hard_max_count) - hall_max_m_;
+  uncalibrated_m_per_s_ =
+      std::min(limit_m_per_s_, stopping_.speed_m_per_s(std::min(beyond_min_m, beyond_max_m)));
+}
+
+double SpeedLimits::calibrated_m_per_s(double position_m, int direction) const noexcept {
+  const double distance_m = direction > 0 ? hall_max_m_ - position_m : position_m - hall_min_m_;
+  return std::min(limit_m_per_s_, stopping_.speed_m_per_s(distance_m));
+}
+
+}  // namespace towbench::bbmc
