@@ -13,6 +13,13 @@ if(TOWBENCH_SANITIZE)
   target_link_options(towbench_options INTERFACE -fsanitize=${TOWBENCH_SANITIZE})
 endif()
 
+if(TOWBENCH_FUZZ)
+  # Every source reports its coverage to the fuzzer; tests/fuzz adds the fuzzer's own main.
+  target_compile_options(towbench_options INTERFACE
+    -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+  target_link_options(towbench_options INTERFACE -fsanitize=address,undefined)
+endif()
+
 # towbench_library(NAME [DEPENDS targets...] [EXCLUDE regex...]): every .cc below the calling folder.
 function(towbench_library name)
   cmake_parse_arguments(arg "" "" "DEPENDS;EXCLUDE" ${ARGN})
