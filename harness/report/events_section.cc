@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
+#include "harness/report/event_words.h"
 #include "harness/report/html.h"
 #include "harness/report/quantity.h"
 #include "harness/report/sections.h"
@@ -14,40 +14,6 @@ using Json = nlohmann::json;
 
 bool is_index_pulse(const Json& event) {
   return text_at(event, "kind") == "index_pulse";
-}
-
-// The members that have no column of their own, as "value 0.5, energy_J 0.03".
-std::string other_members(const Json& event) {
-  static constexpr std::array<std::string_view, 6> kShown{"time_s", "side", "kind",
-                                                          "axis",   "code", "text"};
-  std::string text;
-  for (const auto& [key, value] : event.items()) {
-    if (std::find(kShown.begin(), kShown.end(), key) != kShown.end() || value.is_null()) {
-      continue;
-    }
-    text += text.empty() ? "" : ", ";
-    text += key + " ";
-    text += value.is_string()         ? value.get<std::string>()
-            : value.is_number_float() ? readable_number(value.get<double>())
-                                      : value.dump(-1, ' ', false, Json::error_handler_t::replace);
-  }
-  return text;
-}
-
-std::string what_happened(const Json& event) {
-  std::string kind = text_at(event, "kind");
-  std::replace(kind.begin(), kind.end(), '_', ' ');
-  std::string html = fmt::format("<strong>{}</strong>", escaped(kind));
-  if (const std::optional<double> code = number_at(event, "code"); code && *code != 0) {
-    html += fmt::format(" <code>{}</code>", escaped(readable_number(*code)));
-  }
-  const std::string text = text_at(event, "text");
-  if (!text.empty()) {
-    html += fmt::format(" {}", escaped(text));
-  }
-  const std::string others = other_members(event);
-  return html +
-         (others.empty() ? "" : fmt::format("<span class=\"meaning\">{}</span>", escaped(others)));
 }
 
 }  // namespace
@@ -81,7 +47,7 @@ std::string events_section(const RunContents& run, const std::vector<NumberedEve
           "<td data-label=\"Side\">{}</td><td data-label=\"Axis\">{}</td>"
           "<td data-label=\"What\" class=\"what\">{}</td></tr>\n",
           numbered.number, time_s ? fmt::format("{:.4f}", *time_s) : "unknown",
-          escaped(text_at(event, "side")), escaped(text_at(event, "axis")), what_happened(event));
+          escaped(text_at(event, "side")), escaped(text_at(event, "axis")), event_words(event));
     }
     html += "</tbody>\n</table>\n";
   }

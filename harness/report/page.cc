@@ -24,6 +24,20 @@ using Json = nlohmann::json;
 // What the plots of one page may take; the words around them are small beside it.
 constexpr std::size_t kPlotBytes = 5'000'000;
 
+// The rig's limits in the controller's frame, as the positions in the plots are.
+Json shifted_limits(const Json& limits, const core::PerAxis<double>& offset_m) {
+  Json shifted = Json::object();
+  for (const core::Axis axis : core::kAxes) {
+    const std::string name(core::name_of(axis));
+    for (const char* key : {"hall_min_m", "hall_max_m", "hard_min_m", "hard_max_m"}) {
+      if (const std::optional<double> limit = number_at(member(limits, name), key)) {
+        shifted[name][key] = *limit + offset_m[axis];
+      }
+    }
+  }
+  return shifted;
+}
+
 // What the script needs and the words do not carry.
 Json plot_data(const RunContents& run, const PlotTable& table,
                const std::vector<NumberedEvent>& events, std::size_t max_bytes) {
@@ -39,7 +53,7 @@ Json plot_data(const RunContents& run, const PlotTable& table,
   }
   return {{"table", packed(table, max_bytes)},
           {"events", std::move(marks)},
-          {"limits", member(run.result, "limits")},
+          {"limits", shifted_limits(member(run.result, "limits"), table.frame_offset_m)},
           {"windows", member(run.metrics, "windows")}};
 }
 

@@ -9,6 +9,7 @@
 
 #include "bbmc/system/telemetry_row.h"
 #include "core/axis.h"
+#include "harness/report/quantity.h"
 
 namespace towbench::harness::report {
 namespace {
@@ -63,21 +64,85 @@ std::vector<double> resampled(const std::vector<double>& time_s, const std::vect
   return result;
 }
 
-void add_truth(const CsvTable& truth, PlotTable& table) {
+// Of each row: the controller's count less the true one, from the row where the axis last began to
+// follow a reference (before the first such row, and without any, from the first that will do).
+std::vector<double> count_origins(const std::vector<double>& count,
+                                  const std::vector<double>& true_count,
+                                  const std::vector<double>* state) {
+  std::vector<double> origins(count.size(), kMissing);
+  double origin = kMissing;
+  bool was_following = false;
+  for (std::size_t row = 0; row < count.size(); ++row) {
+    const double here = count[row] - true_count[row];
+    const bool following = state == nullptr || (*state)[row] == kFollowing;
+    if (!std::isnan(here) && (std::isnan(origin) || (following && !was_following))) {
+      origin = here;
+    }
+    was_following = following;
+    origins[row] = origin;
+  }
+  return origins;
+}
+
+struct TruthSource {
+  const CsvTable& csv;
+  std::vector<std::size_t> rows;
+  std::vector<double> time_s;
+
+  // Empty when truth.csv has no such column.
+  [[nodiscard]] std::vector<double> at(const std::vector<double>& log_time_s,
+                                       const std::string& name) const {
+    const std::vector<double>* values = csv.find(name);
+    return values == nullptr ? std::vector<double>{}
+                             : resampled(time_s, picked(*values, rows), log_time_s);
+  }
+};
+
+void add_carriage(const TruthSource& truth, core::Axis axis, double metres_per_count,
+                  PlotTable& table) {
+  const auto name = [axis](std::string_view quantity) {
+    return fmt::format("{}_{}", core::name_of(axis), quantity);
+  };
+  const std::vector<double>& log_time_s = table.columns[0].values;
+  if (auto speed = truth.at(log_time_s, name("carriage_speed_m_per_s")); !speed.empty()) {
+    table.columns.push_back({name("carriage_speed_m_per_s"), std::move(speed)});
+  }
+  std::vector<double> carriage_m = truth.at(log_time_s, name("carriage_m"));
+  if (carriage_m.empty()) {
+    return;
+  }
+  const std::vector<double> true_count = truth.at(log_time_s, name("count"));
+  const std::vector<double>* count = table.find(name("count"));
+  if (count != nullptr && !true_count.empty() && metres_per_count > 0) {
+    const std::vector<double> origins =
+        count_origins(*count, true_count, table.find(name("state")));
+    for (std::size_t row = 0; row < carriage_m.size(); ++row) {
+      carriage_m[row] += origins[row] * metres_per_count;
+    }
+    const double offset_m = origins.back() * metres_per_count;
+    table.frame_offset_m[axis] = std::isfinite(offset_m) ? offset_m : 0;
+  }
+  table.columns.push_back({name("carriage_m"), std::move(carriage_m)});
+}
+
+void add_truth(const CsvTable& truth, const nlohmann::json& limits, PlotTable& table) {
   const std::vector<double>* time_s = truth.find("time_s");
   if (time_s == nullptr) {
     table.remarks.emplace_back("truth.csv has no time_s column and was left out.");
     return;
   }
   const std::vector<std::size_t> rows = rows_in_order(*time_s);
-  const std::vector<double> truth_s = picked(*time_s, rows);
+  const TruthSource source{truth, rows, picked(*time_s, rows)};
   for (const core::Axis axis : core::kAxes) {
-    for (const char* quantity : {"carriage_m", "carriage_speed_m_per_s"}) {
-      const std::string name = fmt::format("{}_{}", core::name_of(axis), quantity);
-      if (const std::vector<double>* values = truth.find(name)) {
-        table.columns.push_back(
-            {name, resampled(truth_s, picked(*values, rows), table.columns[0].values)});
-      }
+    const nlohmann::json& ends = member(limits, core::name_of(axis));
+    add_carriage(source, axis, number_at(ends, "metres_per_count").value_or(0), table);
+    // Less than this is a matter of when the two counts were sampled.
+    constexpr double kNoteworthy_m = 1e-4;
+    if (std::fabs(table.frame_offset_m[axis]) > kNoteworthy_m) {
+      table.remarks.push_back(fmt::format(
+          "The controller's zero of {} is not the machine's: {} lies between them. Carriage and "
+          "limits are shown in the controller's frame.",
+          core::name_of(axis), readable_quantity(std::fabs(table.frame_offset_m[axis]), "m")));
     }
   }
   if (rows.size() > table.rows + table.rows / 2) {
@@ -146,7 +211,7 @@ PlotTable plot_table(const RunContents& run) {
     }
   }
   if (run.truth) {
-    add_truth(*run.truth, table);
+    add_truth(*run.truth, member(run.result, "limits"), table);
   }
   for (const core::Axis axis : core::kAxes) {
     add_error(table, axis, "position_m", "error_m");

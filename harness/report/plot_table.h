@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/axis.h"
 #include "harness/report/csv_table.h"
 #include "harness/report/run_contents.h"
 
@@ -23,13 +24,18 @@ struct PlotTable {
   std::size_t rows = 0;
   std::size_t source_rows = 0;      // of log.csv
   std::size_t rows_per_bucket = 1;  // above 1: thinned, see thinned()
+  // What a position in the machine's frame (truth.csv, limits) becomes in the controller's by
+  // adding.
+  core::PerAxis<double> frame_offset_m;
   std::vector<std::string> remarks;
 
   [[nodiscard]] const std::vector<double>* find(std::string_view name) const;
 };
 
 // Tracking error, motor side: reference_m - position_m; carriage side: reference_m - carriage_m.
-// Both exist only while the axis follows a reference (log.csv's state is kPosition), since a
+// The carriage is shown in the controller's frame, whose origin is where the two counts agreed when
+// the axis last began to follow a reference; edges lost since then show as a carriage error. Both
+// errors exist only while the axis follows a reference (log.csv's state is kPosition), since a
 // difference from a reference that nobody follows is no tracking error.
 [[nodiscard]] PlotTable plot_table(const RunContents& run);
 

@@ -7,7 +7,7 @@ import type { Curve, Figure } from "./figures";
 import { drawEvents, drawGuides, drawSpans, drawUnit, drawWords, type Span } from "./marks";
 import { axisFont, currentTheme, dashes, lineSample, onThemeChange, widths } from "./theme";
 import type { TimeGroup } from "./time_group";
-import { type DisplayUnit, displayUnit, readableWithUnit } from "./units";
+import { type DisplayUnit, displayUnit, readableWithUnit, tickText } from "./units";
 
 export interface Marks {
   events: EventMark[];
@@ -39,10 +39,12 @@ function yRange(figure: Figure, guides: number[]): uPlot.Range.Function {
   };
 }
 
-function legendEntry(curve: Curve): { entry: HTMLElement; output: HTMLOutputElement } {
+// A curve that is alone needs no name beside the plot's own.
+function legendEntry(curve: Curve, alone: boolean): { entry: HTMLElement; output: HTMLOutputElement } {
   const entry = element("span", "entry");
   const output = element("output");
-  entry.append(lineSample(curve.role), element("span", "", curve.label), output);
+  if (!alone) entry.append(lineSample(curve.role), element("span", "", curve.label));
+  entry.append(output);
   return { entry, output };
 }
 
@@ -84,7 +86,7 @@ export function addTimePlot(host: HTMLElement, figure: Figure, group: TimeGroup,
   const unit = displayUnit(figure.unit, largest);
   const legend = element("span", "legend");
   const outputs = drawn.map((curve) => {
-    const { entry, output } = legendEntry(curve);
+    const { entry, output } = legendEntry(curve, drawn.length === 1);
     legend.append(entry);
     return output;
   });
@@ -148,8 +150,8 @@ function makePlot(
       y: { range: yRange(figure, guides.map((guide) => guide.value)) },
     },
     axes: [
-      { ...axis, size: 28, space: 64, values: (_p, splits) => splits.map((s) => `${+s.toFixed(6)} s`) },
-      { ...axis, size: 58, space: 36 },
+      { ...axis, size: 28, space: 64, values: (_p, splits) => splits.map((s) => `${tickText(s)} s`) },
+      { ...axis, size: 58, space: 36, values: (_p, splits) => splits.map(tickText) },
     ],
     series: [
       {},

@@ -37,6 +37,11 @@ export function readable(value: number): string {
   return (value < 0 ? "−" : "") + trimmed;
 }
 
+// An axis tick: a round number, which only needs to be freed of binary dust.
+export function tickText(value: number): string {
+  return String(+value.toFixed(6)).replace("-", "−");
+}
+
 export function readableWithUnit(value: number, unit: DisplayUnit): string {
   return unit.name === "" ? readable(value) : `${readable(value)}\u00a0${unit.name}`;
 }

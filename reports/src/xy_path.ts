@@ -14,6 +14,7 @@ import {
   widths,
 } from "./theme";
 import type { TimeGroup } from "./time_group";
+import { tickText } from "./units";
 
 const perMetre = 1e3; // shown in mm
 
@@ -166,8 +167,8 @@ function makePlot(canvasHost: HTMLElement, current: () => Path[]): uPlot {
       legend: { show: false },
       scales: { x: { time: false, auto: false, range: [0, 1] }, y: { auto: false, range: [0, 1] } },
       axes: [
-        { ...axis, size: 28, space: 64, values: (_p, splits) => splits.map((s) => `${+s.toFixed(6)} mm`) },
-        { ...axis, size: 58, space: 40 },
+        { ...axis, size: 28, space: 64, values: (_p, splits) => splits.map((s) => `${tickText(s)} mm`) },
+        { ...axis, size: 58, space: 40, values: (_p, splits) => splits.map(tickText) },
       ],
       series: [{}, { facets: [{ scale: "x" }, { scale: "y" }], paths: () => null }],
       cursor: { points: { show: false }, drag: { x: true, y: true, uni: 8, setScale: false } },
