@@ -18,12 +18,8 @@ const char* table_inconsistency(const PositionFriction& table) noexcept {
 
 bool every_mode_fits_the_tick(const AxisParameters& axis) noexcept {
   const DerivedMechanics mechanics = derive(axis);
-  for (std::size_t bits = 0; bits < 24; ++bits) {
-    ContinuousMode flow = continuous_mode(axis, mechanics,
-                                          {.winding = static_cast<Winding>(bits / 8),
-                                           .motor_moves = (bits & 1U) != 0,
-                                           .carriage_moves = (bits & 2U) != 0,
-                                           .end_pushes = (bits & 4U) != 0});
+  for (std::size_t index = 0; index < kModeCount; ++index) {
+    ContinuousMode flow = continuous_mode(axis, mechanics, ModeKey::of_index(index));
     DiscreteMode tick;
     if (!discretise(flow, core::kPlantTick_s, tick)) {
       return false;

@@ -23,10 +23,16 @@ struct ModeBuilder {
       return;
     }
     const double inductance = axis.winding.inductance_H + axis.winding.choke_inductance_H;
+    const double reset_rate_per_s =
+        mechanics.integral_gain_V_per_A_s / mechanics.proportional_gain_V_per_A;
     add(kCurrent, kCurrent, -axis.winding.resistance_ohm / inductance);
     add(kCurrent, kMotorSpeed, -axis.torque_constant_Nm_per_A / inductance);
-    if (how == Winding::kFixedVoltage) {
+    if (how != Winding::kCurrentLoop) {
       add(kCurrent, kElectricalInput, 1.0 / inductance);
+      if (how == Winding::kLimitedLoop) {
+        add(kIntegral, kElectricalInput, reset_rate_per_s);
+        add(kIntegral, kIntegral, -reset_rate_per_s);
+      }
       return;
     }
     add(kCurrent, kCurrent, -mechanics.proportional_gain_V_per_A / inductance);
@@ -124,17 +130,9 @@ AxisModel::AxisModel(const AxisParameters& axis, double tick_length_s) noexcept
       motor_is_dry(mechanics.motor.present() || (axis.chain.rigid && position_friction.present())),
       carriage_is_dry(!axis.chain.rigid &&
                       (mechanics.carriage.present() || position_friction.present())) {
-  for (const Winding winding :
-       {Winding::kCurrentLoop, Winding::kFixedVoltage, Winding::kFixedCurrent}) {
-    for (unsigned bits = 0; bits < 8; ++bits) {
-      const ModeKey key{.winding = winding,
-                        .motor_moves = (bits & 1U) != 0,
-                        .carriage_moves = (bits & 2U) != 0,
-                        .end_pushes = (bits & 4U) != 0};
-      ContinuousMode& flow = flows[key.index()];
-      flow = continuous_mode(axis, mechanics, key);
-      core::check(discretise(flow, tick_s, ticks[key.index()]));
-    }
+  for (std::size_t index = 0; index < kModeCount; ++index) {
+    flows[index] = continuous_mode(axis, mechanics, ModeKey::of_index(index));
+    core::check(discretise(flows[index], tick_s, ticks[index]));
   }
 }
 

@@ -1,7 +1,8 @@
 // What never changes during a run: one axis's derived mechanics, friction laws and linear modes.
 //
 //   winding    L i' = v - R i - K_T w                                   (3.13)
-//              v = K_p (i_ref - i) + q,  q' = K_i (i_ref - i)           current loop, kCurrentLoop
+//              v = sat(K_p (i_ref - i) + q),  q' = (v - q) K_i / K_p    current loop, kCurrentLoop;
+//                                                       v at the limit: kLimitedLoop
 //              v held, q' = 0                                           kFixedVoltage
 //              i' = 0, q' = 0                                           kFixedCurrent
 //   motor      J_m w' = K_T i - B_m w - r F_chain + tau                 (3.37), errata of plant.md
@@ -9,6 +10,11 @@
 //   chain      F_chain = K_s d + B_s d',  d = r theta - x,  d' = r w - v
 //   hard end   F_end = -K_e (x - x_end) - B_e v, only while it pushes
 //   rigid      J w' = K_T i - B w + tau + r (F + F_end),  v = r w       (3.33)
+//
+// The loop is a PI in its automatic-reset form: unlimited, q' = K_i (i_ref - i); at the limit q
+// settles to the limit and no further. So nothing winds up, and z' has no jump at the limit: with
+// an integrator that merely stops there it has one, and where the set-point cannot be reached the
+// axis would chatter between the two.
 //
 // tau and F are what is held during a step: dry friction, outside forces. A body that sticks has
 // its speed row zero.

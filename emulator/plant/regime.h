@@ -9,7 +9,7 @@ namespace towbench::emulator {
 // What the amplifier does with the winding.
 enum class Drive : std::uint8_t {
   kRegulated,       // current loop in control
-  kLimited,         // current loop at the output voltage limit, its integrator held (anti-windup)
+  kLimited,         // current loop at the output voltage limit
   kVoltage,         // voltage mode
   kCurrentLimited,  // voltage mode at the current limit
   kFreewheel,       // disabled, current flows back into the supply through the diodes
@@ -32,8 +32,8 @@ struct Regime {
 };
 
 // Linear modes differ in these only.
-enum class Winding : std::uint8_t { kCurrentLoop, kFixedVoltage, kFixedCurrent };
-inline constexpr std::size_t kModeCount = 3 * 2 * 2 * 2;
+enum class Winding : std::uint8_t { kCurrentLoop, kLimitedLoop, kFixedVoltage, kFixedCurrent };
+inline constexpr std::size_t kModeCount = 4 * 2 * 2 * 2;
 
 struct ModeKey {
   Winding winding = Winding::kFixedCurrent;
@@ -41,11 +41,18 @@ struct ModeKey {
   bool carriage_moves = false;
   bool end_pushes = false;
 
+  // 0 .. kModeCount - 1, and back.
   [[nodiscard]] constexpr std::size_t index() const noexcept {
     return ((static_cast<std::size_t>(winding) * 2 + (motor_moves ? 1U : 0U)) * 2 +
             (carriage_moves ? 1U : 0U)) *
                2 +
            (end_pushes ? 1U : 0U);
+  }
+  [[nodiscard]] static constexpr ModeKey of_index(std::size_t index) noexcept {
+    return {.winding = static_cast<Winding>(index / 8),
+            .motor_moves = (index & 4U) != 0,
+            .carriage_moves = (index & 2U) != 0,
+            .end_pushes = (index & 1U) != 0};
   }
 };
 
@@ -54,6 +61,7 @@ struct ModeKey {
     case Drive::kRegulated:
       return Winding::kCurrentLoop;
     case Drive::kLimited:
+      return Winding::kLimitedLoop;
     case Drive::kVoltage:
     case Drive::kFreewheel:
       return Winding::kFixedVoltage;

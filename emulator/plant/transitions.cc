@@ -3,13 +3,6 @@
 namespace towbench::emulator {
 namespace {
 
-double clamp(double value, double limit) noexcept {
-  if (value > limit) {
-    return limit;
-  }
-  return value < -limit ? -limit : value;
-}
-
 double sign_of(double value) noexcept {
   return value < 0 ? -1.0 : 1.0;
 }
@@ -24,10 +17,8 @@ void settle_disabled(Situation& s, StateVector& z) noexcept {
   regime.drive_sign = sign_of(z[kCurrent]);
 }
 
-void settle_current_mode(const AxisModel& model, Situation& s, StateVector& z) noexcept {
+void settle_current_mode(const AxisModel& model, Situation& s, const StateVector& z) noexcept {
   Regime& regime = s.regime;
-  // The integrator is a capacitor at an amplifier's output: it cannot hold more than that gives.
-  z[kIntegral] = clamp(z[kIntegral], s.held.limit_V);
   const double demanded_V =
       model.mechanics.proportional_gain_V_per_A * (s.held.set_point_A - z[kCurrent]) + z[kIntegral];
   const bool beyond = demanded_V > s.held.limit_V || demanded_V < -s.held.limit_V;
@@ -35,7 +26,7 @@ void settle_current_mode(const AxisModel& model, Situation& s, StateVector& z) n
   regime.drive_sign = sign_of(demanded_V);
 }
 
-void settle_voltage_mode(const AxisModel& model, Situation& s, StateVector& z) noexcept {
+void settle_voltage_mode(const AxisModel& model, Situation& s, const StateVector& z) noexcept {
   Regime& regime = s.regime;
   const auto& axis = model.parameters;
   const double sign = sign_of(z[kCurrent]);
