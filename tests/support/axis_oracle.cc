@@ -129,7 +129,9 @@ void AxisOracle::derivative(const State& y, State& rate) const {
                  : (terminal_V(y) - p_.winding.resistance_ohm * y[0] -
                     p_.torque_constant_Nm_per_A * y[3]) /
                        inductance;
-  rate[1] = drive_ == Drive::kLoop ? ki_ * (set_point_A_ - y[0]) : 0.0;
+  // The integrator of a PI whose reset is fed back from the limited output.
+  const bool loop = drive_ == Drive::kLoop || drive_ == Drive::kSaturated;
+  rate[1] = loop ? (terminal_V(y) - y[1]) * ki_ / kp_ : 0.0;
   rate[2] = y[3];
   rate[3] = motor_ == 0 ? 0.0 : (motor_load_Nm(y) - bm_ * y[3] - motor_ * motor_limit_Nm(y)) / jm_;
   rate[4] = y[5];
@@ -216,7 +218,6 @@ void AxisOracle::begin(const Input& input) {
       drive_sign_ = y_[0] < 0 ? -1 : 1;
     }
   } else if (p_.amplifier.mode == emulator::AmplifierMode::kCurrent) {
-    y_[1] = limited(y_[1], limit_V_);
     const double demanded = kp_ * (set_point_A_ - y_[0]) + y_[1];
     drive_ = std::abs(demanded) > limit_V_ ? Drive::kSaturated : Drive::kLoop;
     drive_sign_ = demanded < 0 ? -1 : 1;

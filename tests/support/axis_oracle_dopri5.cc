@@ -40,7 +40,7 @@ void AxisOracle::advance(const Input& input, double duration_s) {
     derivative(unscaled(s), raw);
     rate = scaled(raw);
   };
-  constexpr double kFirstStep_s = 2e-6;
+  constexpr double kFirstStep_s = 1e-5;
   constexpr double kLongestStep_s = 2e-5;  // so that no margin dips and comes back unseen
   while (now_s < duration_s) {
     auto stepper = odeint::make_dense_output(tolerance_, tolerance_, kLongestStep_s,
