@@ -33,18 +33,22 @@ constexpr Turn turn_of() noexcept {
 
 }  // namespace
 
+template <typename Writer, typename Reader>
 template <typename Message>
-void LockstepLink::Watch::handle(const Message& message) noexcept {
+void BasicLockstepLink<Writer, Reader>::Watch::handle(const Message& message) noexcept {
   to->on(message);
   if constexpr (kEndsTurn<Message>) {
     ++ended[index_of(turn_of<Message>())];
   }
 }
 
-LockstepLink::LockstepLink(ByteStream& stream, core::Nanoseconds silence_limit_ns) noexcept
+template <typename Writer, typename Reader>
+BasicLockstepLink<Writer, Reader>::BasicLockstepLink(ByteStream& stream,
+                                                     core::Nanoseconds silence_limit_ns) noexcept
     : stream_(stream), silence_limit_ns_(silence_limit_ns), writer_(stream) {}
 
-bool LockstepLink::take(Turn turn) noexcept {
+template <typename Writer, typename Reader>
+bool BasicLockstepLink<Writer, Reader>::take(Turn turn) noexcept {
   if (watch_.ended[index_of(turn)] == 0) {
     return false;
   }
@@ -52,7 +56,8 @@ bool LockstepLink::take(Turn turn) noexcept {
   return true;
 }
 
-core::Result<Turn> LockstepLink::wait(MessageSink& here) noexcept {
+template <typename Writer, typename Reader>
+core::Result<Turn> BasicLockstepLink<Writer, Reader>::wait(MessageSink& here) noexcept {
   std::optional<Turn> turn;
   const core::Status status = wait_until(
       [&] {
@@ -70,7 +75,9 @@ core::Result<Turn> LockstepLink::wait(MessageSink& here) noexcept {
   return *turn;
 }
 
-core::Status LockstepLink::wait_for(Turn expected, MessageSink& here) noexcept {
+template <typename Writer, typename Reader>
+core::Status BasicLockstepLink<Writer, Reader>::wait_for(Turn expected,
+                                                         MessageSink& here) noexcept {
   bool expected_came = false;
   const core::Status status = wait_until(
       [&] {
@@ -84,8 +91,10 @@ core::Status LockstepLink::wait_for(Turn expected, MessageSink& here) noexcept {
   return core::failure(core::ErrorCode::kPeerClosed);
 }
 
+template <typename Writer, typename Reader>
 template <typename Predicate>
-core::Status LockstepLink::wait_until(Predicate is_over, MessageSink& here) noexcept {
+core::Status BasicLockstepLink<Writer, Reader>::wait_until(Predicate is_over,
+                                                           MessageSink& here) noexcept {
   watch_.to = &here;
   if (is_over()) {
     return {};
@@ -109,8 +118,9 @@ core::Status LockstepLink::wait_until(Predicate is_over, MessageSink& here) noex
   return lost_;
 }
 
-core::Result<LockstepLink::Progress> LockstepLink::read_once(
-    core::Nanoseconds timeout_ns) noexcept {
+template <typename Writer, typename Reader>
+auto BasicLockstepLink<Writer, Reader>::read_once(core::Nanoseconds timeout_ns) noexcept
+    -> core::Result<Progress> {
   // A peer that has gone may have left a last word: read on. Any other failure to send is final.
   if (const auto sent = writer_.status(); !sent && sent.error() != core::ErrorCode::kPeerClosed) {
     return core::failure(sent.error());
@@ -127,5 +137,8 @@ core::Result<LockstepLink::Progress> LockstepLink::read_once(
   reader_.feed(std::span(received_).first(*size), watch_);
   return Progress::kBytes;
 }
+
+template class BasicLockstepLink<FrameWriter, FrameReader>;
+template class BasicLockstepLink<CobsWriter, CobsReader>;
 
 }  // namespace towbench::protocol

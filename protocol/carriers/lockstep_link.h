@@ -17,6 +17,7 @@
 #include "core/result.h"
 #include "core/time.h"
 #include "protocol/byte_stream.h"
+#include "protocol/cobs.h"
 #include "protocol/each_message.h"
 #include "protocol/frame.h"
 
@@ -26,11 +27,12 @@ namespace towbench::protocol {
 enum class Turn : std::uint8_t { kHello, kHelloReply, kAdvance, kAdvanced, kHeartbeat, kBye };
 inline constexpr std::size_t kTurnCount = 6;
 
-class LockstepLink {
+template <typename Writer, typename Reader>
+class BasicLockstepLink {
  public:
   // `stream` outlives this. `silence_limit_ns` is host time.
-  explicit LockstepLink(ByteStream& stream,
-                        core::Nanoseconds silence_limit_ns = core::kNanosecondsPerSecond) noexcept;
+  explicit BasicLockstepLink(ByteStream& stream, core::Nanoseconds silence_limit_ns =
+                                                     core::kNanosecondsPerSecond) noexcept;
 
   // Messages to the peer. A failure to send shows in the next wait.
   [[nodiscard]] MessageSink& peer() noexcept { return writer_; }
@@ -69,10 +71,17 @@ class LockstepLink {
   core::Status lost_;
   std::uint64_t bytes_received_ = 0;
   Watch watch_;
-  FrameWriter writer_;
-  FrameReader reader_;
+  Writer writer_;
+  Reader reader_;
   static constexpr std::size_t kReadSize = 65536;
   std::array<std::byte, kReadSize> received_;
 };
+
+extern template class BasicLockstepLink<FrameWriter, FrameReader>;
+extern template class BasicLockstepLink<CobsWriter, CobsReader>;
+
+// Over a stream that loses nothing, and over one that may.
+using LockstepLink = BasicLockstepLink<FrameWriter, FrameReader>;
+using SerialLockstepLink = BasicLockstepLink<CobsWriter, CobsReader>;
 
 }  // namespace towbench::protocol
