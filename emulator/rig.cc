@@ -37,7 +37,9 @@ RigAxis::RigAxis(Axis axis, const RigAxisParameters& p)
       plant_(p.plant, p.start_m),
       encoder_(p.encoder, plant_.state().motor_angle_rad),
       hall_min_(p.hall_min, TravelEnd::kMin, kHallMinLine[axis], p.start_m),
-      hall_max_(p.hall_max, TravelEnd::kMax, kHallMaxLine[axis], p.start_m) {}
+      hall_max_(p.hall_max, TravelEnd::kMax, kHallMaxLine[axis], p.start_m),
+      resistance_ohm_(p.plant.winding.resistance_ohm),
+      torque_constant_Nm_per_A_(p.plant.torque_constant_Nm_per_A) {}
 
 void RigAxis::step(core::Nanoseconds start_ns, const Surroundings& around,
                    LineChanges& changes) noexcept {
@@ -49,7 +51,7 @@ void RigAxis::step(core::Nanoseconds start_ns, const Surroundings& around,
   const AxisState before = plant_.state();
   plant_.step(input, segments_);
   encoder_.step(segments_, edges_);
-  const AxisState& after = plant_.state();
+  const AxisState after = plant_.state();
   const CarriageMotion motion{.before_m = before.carriage_m,
                               .before_m_per_s = before.carriage_speed_m_per_s,
                               .after_m = after.carriage_m,
@@ -59,7 +61,10 @@ void RigAxis::step(core::Nanoseconds start_ns, const Surroundings& around,
 }
 
 double RigAxis::output_power_W() const noexcept {
-  return plant_.forces().terminal_V * plant_.state().current_A;
+  const AxisState state = plant_.state();
+  return (resistance_ohm_ * state.current_A +
+          torque_constant_Nm_per_A_ * state.motor_speed_rad_per_s) *
+         state.current_A;
 }
 
 std::uint16_t RigAxis::hall_lines() const noexcept {
@@ -71,8 +76,8 @@ std::uint16_t RigAxis::hall_lines() const noexcept {
 }
 
 AxisTruth RigAxis::truth() const noexcept {
-  const AxisState& state = plant_.state();
-  const AxisForces& forces = plant_.forces();
+  const AxisState state = plant_.state();
+  const AxisForces forces = plant_.forces();
   return {.motor_angle_rad = state.motor_angle_rad,
           .motor_speed_rad_per_s = state.motor_speed_rad_per_s,
           .carriage_m = state.carriage_m,

@@ -44,6 +44,8 @@ class RigAxis {
   [[nodiscard]] const QuadratureEncoder& encoder() const noexcept { return encoder_; }
   // Of the last step.
   [[nodiscard]] const StepEdges& edges() const noexcept { return edges_; }
+  // What the amplifier puts into the winding: heat and back EMF. What the inductance borrows it
+  // gives back within a millisecond.
   [[nodiscard]] double output_power_W() const noexcept;
   [[nodiscard]] std::uint16_t hall_lines() const noexcept;
   [[nodiscard]] AxisTruth truth() const noexcept;
@@ -55,6 +57,8 @@ class RigAxis {
   HallSensor hall_max_;
   MotionSegments segments_;
   StepEdges edges_;
+  double resistance_ohm_;
+  double torque_constant_Nm_per_A_;
   double command_V_ = 0.0;
 };
 
