@@ -1,0 +1,45 @@
+// Every effect at every scale, as conditioned columns, and the best of each against a residual.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "harness/diagnose/evidence.h"
+#include "harness/diagnose/wald.h"
+
+namespace towbench::harness::diagnose {
+
+struct Candidate {
+  Term term;
+  Eigen::MatrixXd columns;  // conditioned
+  WaldTest test;
+  bool plausible = false;  // the sign is one that the physics allows
+};
+
+class Candidates {
+ public:
+  Candidates(const Dataset& data, const Context& context);
+
+  // For each effect that is not among `taken`: the scale that explains most of the corrected
+  // residual. The p-values are not yet multiplied by tried().
+  [[nodiscard]] std::vector<Candidate> best_of_each(const Evidence& evidence,
+                                                    const std::vector<Term>& taken);
+  // The scale moved off the grid to the least residual.
+  [[nodiscard]] Candidate refined(const Evidence& evidence, const Candidate& candidate) const;
+  // Groups looked at per selection round, grids and searched frequencies included.
+  [[nodiscard]] std::size_t tried() const noexcept { return tried_; }
+  [[nodiscard]] Eigen::MatrixXd columns(const Term& term) const;
+
+ private:
+  [[nodiscard]] std::vector<Scales> lines(const Effect& effect, const Evidence& evidence);
+  [[nodiscard]] const Eigen::MatrixXd& cached(const Effect& effect, const Scales& scales);
+
+  const Dataset& data_;
+  const Context& context_;
+  std::map<std::pair<const Effect*, Scales>, Eigen::MatrixXd> cache_;
+  std::size_t tried_ = 0;
+};
+
+[[nodiscard]] Candidate judge(const Evidence& evidence, Term term, Eigen::MatrixXd columns);
+
+}  // namespace towbench::harness::diagnose

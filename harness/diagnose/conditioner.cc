@@ -1,0 +1,66 @@
+#include "harness/diagnose/conditioner.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace towbench::harness::diagnose {
+namespace {
+
+// 1 where a row's value is touched by something that is not to be judged: the filter reaches about
+// half a period of its cut-off to either side.
+std::vector<char> tainted(const Signals& signals, const std::vector<char>& missing,
+                          Eigen::Index reach) {
+  const Eigen::Index n = signals.size();
+  std::vector<char> bad(static_cast<std::size_t>(n), 0);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (signals.standing[at] != 0 || missing[at] != 0) {
+      const Eigen::Index from = std::max<Eigen::Index>(0, i - reach);
+      const Eigen::Index to = std::min(n, i + reach + 1);
+      std::fill(bad.begin() + from, bad.begin() + to, char{1});
+    }
+  }
+  return bad;
+}
+
+}  // namespace
+
+Conditioner::Conditioner(const Signals& signals, const std::vector<char>& missing,
+                         const Conditioning& conditioning, const Wanted& wanted)
+    : filter_(ZeroPhaseFilter::sharp(conditioning.cutoff_Hz, 1 / signals.period_s)) {
+  const double rate_Hz = 1 / signals.period_s;
+  const auto stride = std::max<Eigen::Index>(
+      1, static_cast<Eigen::Index>(0.4 * rate_Hz / conditioning.cutoff_Hz + 1e-9));
+  const auto reach = static_cast<Eigen::Index>(0.5 * rate_Hz / conditioning.cutoff_Hz);
+  const auto bad = tainted(signals, missing, reach);
+  const Eigen::Index border = filter_.border();
+  const Eigen::Index count = std::max<Eigen::Index>(0, (signals.size() - 2 * border) / stride);
+  for (Eigen::Index row = 0; row < count; ++row) {
+    const Eigen::Index i = border + row * stride;
+    if (bad[static_cast<std::size_t>(i)] == 0 && wanted(row, count)) {
+      index_.push_back(i);
+    }
+  }
+}
+
+Eigen::VectorXd Conditioner::column(const Eigen::Ref<const Eigen::VectorXd>& raw) const {
+  return at_rows(filter_.apply(raw));
+}
+
+Eigen::MatrixXd Conditioner::columns(const Eigen::MatrixXd& raw) const {
+  Eigen::MatrixXd out(rows(), raw.cols());
+  for (Eigen::Index j = 0; j < raw.cols(); ++j) {
+    out.col(j) = column(raw.col(j));
+  }
+  return out;
+}
+
+Eigen::VectorXd Conditioner::at_rows(const Eigen::VectorXd& raw) const {
+  Eigen::VectorXd out(rows());
+  for (Eigen::Index row = 0; row < rows(); ++row) {
+    out[row] = raw[index_[static_cast<std::size_t>(row)]];
+  }
+  return out;
+}
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,71 @@
+// A physical effect as the diagnosis knows it: columns whose sum, with coefficients, is the force
+// that the command must make in addition to the nominal model's. One name each, part of the
+// interface. What it can be confused with is computed from the data, never listed.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/diagnose/dataset.h"
+#include "harness/diagnose/nominal_model.h"
+
+namespace towbench::harness::diagnose {
+
+// What an effect may know besides the signals: the model, its refit, and the data's ranges.
+struct Context {
+  NominalModel model;
+  Theta theta = Theta::Zero();  // refitted nominal structure
+  double top_speed_m_per_s = 0;
+  double stroke_min_m = 0;
+  double stroke_max_m = 0;
+  double resolution_m = 0;
+  double largest_input_N = 0;
+  double period_s = 0;
+  double cutoff_Hz = 0;
+  double duration_s = 0;
+
+  [[nodiscard]] Eigen::VectorXd model_force_N(const Signals& signals) const {
+    return base_columns(signals) * theta;
+  }
+};
+
+using Scales = std::vector<double>;
+enum class LineSearch { kNone, kPosition, kTime };
+
+struct Effect {
+  std::string name = {};
+  std::string cause = {};                      // in words, after "the model lacks"
+  std::vector<std::string> coefficients = {};  // names with units, one a column
+  std::vector<std::string> scales = {};        // names with units of what enters nonlinearly
+  bool first_is_positive = false;              // otherwise the physics allows both signs
+  bool differs_between_sessions = false;  // its phase hangs on where the encoder was switched on
+  LineSearch search = LineSearch::kNone;  // its one scale is a frequency sought in the residual
+  std::string needs = {};                 // the data that would show it
+  std::vector<Scales> (*grid)(const Context&) = nullptr;
+  Eigen::MatrixXd (*columns)(const Signals&, const Context&, std::span<const double>) = nullptr;
+};
+
+using Library = std::vector<Effect>;
+
+// Every effect, in the interface's order within each family.
+[[nodiscard]] const Library& effect_library();
+[[nodiscard]] const Effect* find_effect(std::string_view name);
+
+// The families; each lives in its own file below effects/.
+void add_friction_effects(Library& library);
+void add_low_speed_effects(Library& library);
+void add_drive_effects(Library& library);
+void add_mechanical_effects(Library& library);
+void add_position_effects(Library& library);
+void add_periodic_effects(Library& library);
+void add_session_effects(Library& library);
+
+// For effects whose columns need no scale.
+[[nodiscard]] inline std::vector<Scales> no_scale(const Context& /*context*/) {
+  return {{}};
+}
+
+}  // namespace towbench::harness::diagnose

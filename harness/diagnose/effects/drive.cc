@@ -1,0 +1,136 @@
+// Amplifier, command path and supply: what happens between the logged command and the force.
+#include <algorithm>
+#include <cmath>
+
+#include "harness/diagnose/effect.h"
+#include "harness/diagnose/zero_phase_filter.h"
+
+namespace towbench::harness::diagnose {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// The force that acts now was commanded d ago: F(t) = u(t - d), so u(t) - F(t) = F(t + d) - F(t).
+MatrixXd transport_delay(const Signals& s, const Context& c, std::span<const double> scale) {
+  const VectorXd force = c.model_force_N(s);
+  const double samples = scale[0] / s.period_s;
+  const auto whole = static_cast<Index>(samples);
+  const double part = samples - static_cast<double>(whole);
+  VectorXd column(s.size());
+  for (Index i = 0; i < s.size(); ++i) {
+    const Index at = std::min(i + whole, s.size() - 1);
+    const Index next = std::min(at + 1, s.size() - 1);
+    column[i] = ((1 - part) * force[at] + part * force[next] - force[i]) / scale[0];
+  }
+  return column;
+}
+
+std::vector<Scales> delay_grid(const Context& c) {
+  return {{0.5 * c.period_s}, {2 * c.period_s}, {5 * c.period_s}, {0.1 / c.cutoff_Hz}};
+}
+
+// tau F' + F = u.
+MatrixXd current_loop_lag(const Signals& s, const Context& c, std::span<const double>) {
+  return central_difference(c.model_force_N(s), s.period_s);
+}
+
+// (1 + g) u = F: everything scales by 1/(1+g); in the span of the refitted structure.
+MatrixXd amplifier_gain(const Signals& s, const Context& c, std::span<const double>) {
+  return c.model_force_N(s);
+}
+
+// Nothing happens until |u| > d: u = F + d sgn F.
+MatrixXd amplifier_deadband(const Signals& s, const Context& c, std::span<const double>) {
+  const double soft = 0.02 * c.largest_input_N;
+  return (s.input_N.array() / soft).tanh().matrix();
+}
+
+// The amplifier clips at a level below the logged command: u - F = excess of |u| over it.
+MatrixXd command_saturation(const Signals& s, const Context& c, std::span<const double> scale) {
+  const ArrayXd level = ArrayXd::Constant(s.size(), scale[0] * c.largest_input_N);
+  return ((s.input_N.array().abs() - level).max(0.0) * s.input_N.array().sign()).matrix();
+}
+
+// The same with a level that back-EMF lowers with speed in the direction of the force.
+MatrixXd voltage_saturation(const Signals& s, const Context& c, std::span<const double> scale) {
+  const ArrayXd sign = s.input_N.array().sign();
+  const ArrayXd along = s.speed_m_per_s.array() * sign / c.model.no_load_speed_m_per_s;
+  const ArrayXd level = scale[0] * c.model.force_limit_N * (1.0 - along).max(0.0);
+  return ((s.input_N.array().abs() - level).max(0.0) * sign).matrix();
+}
+
+std::vector<Scales> clip_grid(const Context& /*c*/) {
+  return {{0.3}, {0.4}, {0.5}, {0.6}, {0.7}, {0.8}, {0.9}, {0.95}};
+}
+
+std::vector<Scales> stall_grid(const Context& c) {
+  if (c.model.no_load_speed_m_per_s <= 0 || c.model.force_limit_N <= 0) {
+    return {};
+  }
+  return {{0.2}, {0.3}, {0.4}, {0.5}, {0.6}, {0.7}, {0.8}, {0.9}};
+}
+
+// A constant force, whatever the motion.
+MatrixXd constant_bias(const Signals& s, const Context& /*c*/, std::span<const double>) {
+  return MatrixXd::Ones(s.size(), 1);
+}
+
+}  // namespace
+
+void add_drive_effects(Library& library) {
+  library.push_back({.name = "transport_delay",
+                     .cause = "a delay between command and force",
+                     .coefficients = {"delay_s"},
+                     .scales = {"spacing_s"},
+                     .first_is_positive = true,
+                     .needs = "fast accelerations",
+                     .grid = delay_grid,
+                     .columns = transport_delay});
+  library.push_back({.name = "current_loop_lag",
+                     .cause = "a first-order lag between command and force",
+                     .coefficients = {"time_constant_s"},
+                     .first_is_positive = true,
+                     .needs = "fast accelerations",
+                     .grid = no_scale,
+                     .columns = current_loop_lag});
+  library.push_back({.name = "amplifier_gain",
+                     .cause = "an amplifier gain other than stated",
+                     .coefficients = {"relative_loss_ratio"},
+                     .needs = "a known mass or force, or a force channel",
+                     .grid = no_scale,
+                     .columns = amplifier_gain});
+  library.push_back({.name = "amplifier_deadband",
+                     .cause = "an amplifier that ignores small commands",
+                     .coefficients = {"deadband_N"},
+                     .first_is_positive = true,
+                     .needs = "coasting and braking as well as driving",
+                     .grid = no_scale,
+                     .columns = amplifier_deadband});
+  library.push_back({.name = "command_saturation",
+                     .cause = "an amplifier that clips below the logged command",
+                     .coefficients = {"clipped_share_ratio"},
+                     .scales = {"level_ratio"},
+                     .first_is_positive = true,
+                     .needs = "commands up to the limit",
+                     .grid = clip_grid,
+                     .columns = command_saturation});
+  library.push_back({.name = "voltage_saturation",
+                     .cause = "a supply too low for the force at speed",
+                     .coefficients = {"clipped_share_ratio"},
+                     .scales = {"stall_ratio"},
+                     .first_is_positive = true,
+                     .needs = "large force at high speed",
+                     .grid = stall_grid,
+                     .columns = voltage_saturation});
+  library.push_back({.name = "constant_bias",
+                     .cause = "a constant force on the axis",
+                     .coefficients = {"force_N"},
+                     .needs = "motion in both directions",
+                     .grid = no_scale,
+                     .columns = constant_bias});
+}
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,117 @@
+#include "harness/diagnose/evidence.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <cmath>
+
+#include "harness/diagnose/wald.h"
+
+namespace towbench::harness::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Index columns_of(const std::vector<Term>& terms) {
+  Index columns = kBaseColumns;
+  for (const Term& term : terms) {
+    columns += static_cast<Index>(term.effect->coefficients.size());
+  }
+  return columns;
+}
+
+VectorXd least_squares(const MatrixXd& x, const VectorXd& y) {
+  const VectorXd scale = x.colwise().norm().transpose().cwiseMax(1e-300);
+  const MatrixXd scaled = x.array().rowwise() / scale.transpose().array();
+  return scaled.colPivHouseholderQr().solve(y).cwiseQuotient(scale);
+}
+
+struct Processed {
+  VectorXd y;
+  MatrixXd x;
+  ControlLaw::Kind law = ControlLaw::Kind::kFitted;
+};
+
+// The twins of all runs, through the same filter and at the same rows as the data.
+Processed process_twins(const Dataset& data, const Context& context, const std::vector<Term>& terms,
+                        const VectorXd& coefficients, const std::vector<ControlLaw>& laws,
+                        std::uint64_t seed) {
+  Processed out{VectorXd(data.rows()), MatrixXd(data.rows(), columns_of(terms))};
+  Index at = 0;
+  for (std::size_t i = 0; i < data.members.size(); ++i) {
+    const Dataset::Member& member = data.members[i];
+    const MatrixXd raw = raw_columns(member.signals, context, terms);
+    const Index extra_columns = raw.cols() - kBaseColumns;
+    const VectorXd extra = raw.rightCols(extra_columns) * coefficients.tail(extra_columns);
+    const Theta theta = coefficients.head<kBaseColumns>();
+    const Twin twin = simulate_twin(member, theta, extra, laws[i], data.input_is_held, seed + i);
+    if (twin.law == ControlLaw::Kind::kTracking) {
+      out.law = twin.law;
+    }
+    const Signals signals = make_signals(twin.run, data.conditioning, data.input_is_held);
+    const Index rows = member.conditioner.rows();
+    out.y.segment(at, rows) = member.conditioner.column(signals.input_N);
+    out.x.middleRows(at, rows) = member.conditioner.columns(raw_columns(signals, context, terms));
+    at += rows;
+  }
+  return out;
+}
+
+MatrixXd hac_of_coefficients(const Evidence& e) {
+  const VectorXd scale = e.x.colwise().norm().transpose().cwiseMax(1e-300);
+  const MatrixXd scaled = e.x.array().rowwise() / scale.transpose().array();
+  const MatrixXd gram = scaled.transpose() * scaled;
+  const MatrixXd bread = gram.ldlt().solve(MatrixXd::Identity(gram.rows(), gram.cols()));
+  const MatrixXd scores = scaled.array().colwise() * e.corrected.array();
+  const MatrixXd v = bread * hac_covariance(scores, e.starts) * bread;
+  return scale.cwiseInverse().asDiagonal() * v * scale.cwiseInverse().asDiagonal();
+}
+
+}  // namespace
+
+MatrixXd raw_columns(const Signals& signals, const Context& context,
+                     const std::vector<Term>& terms) {
+  MatrixXd raw(signals.size(), columns_of(terms));
+  raw.leftCols(kBaseColumns) = base_columns(signals);
+  Index at = kBaseColumns;
+  for (const Term& term : terms) {
+    const auto count = static_cast<Index>(term.effect->coefficients.size());
+    raw.middleCols(at, count) = term.effect->columns(signals, context, term.scales);
+    at += count;
+  }
+  return raw;
+}
+
+MatrixXd design_matrix(const Dataset& data, const Context& context,
+                       const std::vector<Term>& terms) {
+  return data.stack([&](const Signals& s) { return raw_columns(s, context, terms); });
+}
+
+Evidence weigh(const Dataset& data, const Context& context, const std::vector<Term>& terms,
+               const std::vector<ControlLaw>& laws, int rounds, std::uint64_t seed) {
+  Evidence e;
+  e.starts = data.starts();
+  e.y = data.stack([](const Signals& s) -> MatrixXd { return s.input_N; });
+  e.x = design_matrix(data, context, terms);
+  const VectorXd plain = least_squares(e.x, e.y);
+  e.coefficients = plain;
+  VectorXd twin_residual = VectorXd::Zero(e.y.size());
+  for (int round = 0; round < rounds; ++round) {
+    const Processed twin = process_twins(data, context, terms, e.coefficients, laws, seed);
+    e.law = twin.law;
+    // theta <- theta + theta_hat(data) - theta_hat(twin(theta))
+    const VectorXd bias = least_squares(twin.x, twin.y) - e.coefficients;
+    twin_residual = twin.y - twin.x * e.coefficients;
+    e.coefficients = plain - bias;
+  }
+  e.residual = e.y - e.x * e.coefficients;
+  e.corrected = e.residual - twin_residual;
+  e.twin_rms_N = std::sqrt(twin_residual.squaredNorm() /
+                           static_cast<double>(std::max<Index>(1, twin_residual.size())));
+  e.basis = orthonormal(e.x);
+  e.covariance = hac_of_coefficients(e);
+  return e;
+}
+
+}  // namespace towbench::harness::diagnose

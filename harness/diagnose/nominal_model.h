@@ -1,0 +1,31 @@
+// The model under trial, brought to the load side: M a + B v + C sgn v + b = F.
+//
+// Source: (3.33) with the errata of (3.39)-(3.41): M = J (n/R)^2, B = B_m (n/R)^2, C = C_m n/R,
+// and F = K_T K_amp V_pwm (n/R) duty / 100 %.
+#pragma once
+
+#include <string>
+
+namespace towbench::harness::diagnose {
+
+struct NominalModel {
+  std::string axis = "y";
+  double mass_kg = 0;
+  double viscous_N_s_per_m = 0;
+  double coulomb_N = 0;
+  double bias_N = 0;
+  // What one motor radian moves the carriage: R/n. A direct drive has no motor side: 0.
+  double metres_per_motor_rad = 0;
+  double sprocket_radius_m = 0;      // 0: none
+  double metres_per_count = 0;       // 0: positions are given in metres
+  double newton_per_duty_pct = 0;    // 0: the log's input is a force
+  double newton_per_volt = 0;        // of a log in controller volts
+  double force_limit_N = 0;          // current limit; 0: none
+  double no_load_speed_m_per_s = 0;  // back-EMF equals supply; 0: not known
+  // True when mass, friction levels come from a file; false: fitted only, nothing was supplied.
+  bool supplied = true;
+  // The log's input is held from its own sample to the next, so it acts half a period late.
+  bool input_is_held = true;
+};
+
+}  // namespace towbench::harness::diagnose

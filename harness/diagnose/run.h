@@ -1,0 +1,25 @@
+// One recording as the diagnosis uses it: uniform in time, SI, load side.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace towbench::harness::diagnose {
+
+struct Run {
+  std::string name;
+  double period_s = 0;          // between samples
+  Eigen::VectorXd position_m;   // carriage, by the rigid gear
+  Eigen::VectorXd input_N;      // force that the nominal model says the command makes
+  Eigen::VectorXd reference_m;  // empty when the log has none
+  // The other axis of the machine, empty when the log has none.
+  Eigen::VectorXd other_position_m;
+  std::vector<char> missing;  // 1 where the sample is an interpolation
+  double resolution_m = 0;    // smallest step of the position; 0 when it has none
+  double input_step_N = 0;    // smallest step of the input; 0 when it has none
+
+  [[nodiscard]] Eigen::Index size() const noexcept { return position_m.size(); }
+};
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,16 @@
+// From a table to a run: units, uniform time, gaps, steps, with what is odd told by name.
+#pragma once
+
+#include <string>
+
+#include "harness/diagnose/column_map.h"
+#include "harness/diagnose/run.h"
+
+namespace towbench::harness::diagnose {
+
+// Named findings: time_not_rising, jittered_time, missing_samples, not_a_number, constant_position,
+// constant_input, too_short, bad_rows. After a fatal one the run is unusable.
+[[nodiscard]] Run make_run(const Table& table, const ColumnMap& map, std::string name,
+                           Findings& findings);
+
+}  // namespace towbench::harness::diagnose

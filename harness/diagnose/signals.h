@@ -1,0 +1,43 @@
+// What the effects see of a run, at its full rate: motion and input, lightly smoothed.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "harness/diagnose/nominal_model.h"
+#include "harness/diagnose/run.h"
+
+namespace towbench::harness::diagnose {
+
+struct Signals {
+  double period_s = 0;
+  Eigen::VectorXd time_s;  // from the run's own start
+  Eigen::VectorXd position_m;
+  Eigen::VectorXd speed_m_per_s;
+  Eigen::VectorXd acceleration_m_per_s2;
+  Eigen::VectorXd input_N;           // as it acts: the hold's half period is in it
+  Eigen::VectorXd direction;         // +1, -1, and what it was last while standing
+  Eigen::VectorXd since_reversal_m;  // path travelled since the direction last changed
+  Eigen::VectorXd since_reversal_s;
+  Eigen::VectorXd other_speed_m_per_s;  // of the other axis; empty when unknown
+  Eigen::VectorXd other_acceleration_m_per_s2;
+  std::vector<char> standing;  // 1 while the axis dwells: friction is not determined there
+
+  [[nodiscard]] Eigen::Index size() const noexcept { return time_s.size(); }
+};
+
+// How columns are filtered and thinned out; one for all runs of a diagnosis.
+struct Conditioning {
+  double cutoff_Hz = 40;
+  double smoothing_Hz = 100;  // of the position before it is differentiated
+};
+
+// The widest band (40 Hz at most, a fifth of the sampling rate at most) in which the encoder's
+// steps make at most 3 % of the input's rms look like force:
+//   M rms(a) = M (step / sqrt 12) sqrt(2 T) (2 pi)^2 sqrt(fc^5 / 5)
+[[nodiscard]] Conditioning choose_conditioning(const std::vector<Run>& runs, double mass_kg);
+
+[[nodiscard]] Signals make_signals(const Run& run, const Conditioning& conditioning,
+                                   bool input_is_held);
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,119 @@
+#include "harness/diagnose/twin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/random.h"
+
+namespace towbench::harness::diagnose {
+namespace {
+
+constexpr double kLongestStep_s = 2.5e-4;
+constexpr double kTrackingBandwidth_Hz = 15;
+// A fitted law whose twin strays further than this from the log, relative to the stroke, is
+// dropped.
+constexpr double kMostStray = 0.02;
+
+double quantised(double x, double step, double phase) {
+  return step > 0 ? (std::floor(x / step + phase) + 0.5 - phase) * step : x;
+}
+
+double rounded(double x, double step) {
+  return step > 0 ? std::round(x / step) * step : x;
+}
+
+struct Body {
+  double position_m;
+  double speed_m_per_s;
+
+  void step(const Theta& theta, double force_N, double h_s) {
+    const double mass = std::max(theta[kMass], 1e-9);
+    const double drive = force_N - theta[kBias];
+    // Viscous friction implicitly: stable for any B h / M.
+    const double free =
+        (speed_m_per_s + h_s * drive / mass) / (1 + h_s * std::max(0.0, theta[kViscous]) / mass);
+    const double loss = h_s * std::max(0.0, theta[kCoulomb]) / mass;
+    const double next = std::copysign(std::max(std::abs(free) - loss, 0.0), free);
+    position_m += 0.5 * h_s * (speed_m_per_s + next);
+    speed_m_per_s = next;
+  }
+};
+
+class Simulation {
+ public:
+  Simulation(const Dataset::Member& member, const Theta& theta, const Eigen::VectorXd& extra_N,
+             bool input_is_held, std::uint64_t seed)
+      : log_(member.run),
+        signals_(member.signals),
+        theta_(theta),
+        extra_(extra_N),
+        held_(input_is_held) {
+    core::Random random(seed);
+    phase_ = random.uniform();
+    feed_forward_ = base_columns(signals_) * theta_ + extra_;
+  }
+
+  Run through(const ControlLaw& law) {
+    Run twin = log_;
+    Body body{signals_.position_m[0], signals_.speed_m_per_s[0]};
+    LawState state;
+    const auto steps = std::max(1, static_cast<int>(std::ceil(log_.period_s / kLongestStep_s)));
+    const double h = log_.period_s / steps;
+    for (Eigen::Index k = 0; k < log_.size(); ++k) {
+      twin.position_m[k] = quantised(body.position_m, log_.resolution_m, phase_);
+      const double demand = law.kind == ControlLaw::Kind::kFitted
+                                ? law.gains.dot(state.terms(log_, k, twin.position_m[k]))
+                                : tracking(body, k);
+      twin.input_N[k] = rounded(demand, log_.input_step_N);
+      const double slope = held_ || k == 0 ? 0.0 : twin.input_N[k] - twin.input_N[k - 1];
+      const Eigen::Index next = std::min(k + 1, log_.size() - 1);
+      for (int i = 0; i < steps; ++i) {
+        const double w = (i + 0.5) / steps;
+        const double extra = (1 - w) * extra_[k] + w * extra_[next];
+        body.step(theta_, twin.input_N[k] + w * slope - extra, h);
+      }
+    }
+    return twin;
+  }
+
+ private:
+  // The model's force along the measured motion, and a spring and damper that holds the twin to it.
+  [[nodiscard]] double tracking(const Body& body, Eigen::Index k) const {
+    const double w = 2 * std::numbers::pi * std::min(kTrackingBandwidth_Hz, 0.05 / log_.period_s);
+    const double mass = theta_[kMass];
+    return feed_forward_[k] + mass * w * w * (signals_.position_m[k] - body.position_m) +
+           1.4 * mass * w * (signals_.speed_m_per_s[k] - body.speed_m_per_s);
+  }
+
+  const Run& log_;
+  const Signals& signals_;
+  const Theta& theta_;
+  const Eigen::VectorXd& extra_;
+  bool held_;
+  Eigen::VectorXd feed_forward_;
+  double phase_ = 0;
+};
+
+bool strays(const Run& twin, const Run& log) {
+  const double stroke = log.position_m.maxCoeff() - log.position_m.minCoeff();
+  const double off = (twin.position_m - log.position_m).cwiseAbs().maxCoeff();
+  return !(off < kMostStray * stroke);
+}
+
+}  // namespace
+
+Twin simulate_twin(const Dataset::Member& member, const Theta& theta,
+                   const Eigen::VectorXd& extra_N, const ControlLaw& law, bool input_is_held,
+                   std::uint64_t seed) {
+  Simulation simulation(member, theta, extra_N, input_is_held, seed);
+  if (law.kind == ControlLaw::Kind::kFitted) {
+    Twin twin{simulation.through(law), law.kind};
+    if (!strays(twin.run, member.run)) {
+      return twin;
+    }
+  }
+  return {simulation.through(ControlLaw{}), ControlLaw::Kind::kTracking};
+}
+
+}  // namespace towbench::harness::diagnose

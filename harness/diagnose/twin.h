@@ -1,0 +1,31 @@
+// The twin: the model under trial, run through the same experiment, measured with the same encoder.
+//
+// Everything that the processing does to a perfect model (differentiated counts, smoothed signs,
+// noise fed back by the controller) it does to the twin too, so it drops out of
+//   r_c = (Y - X theta) - (Y_twin - X_twin theta).
+//
+// Dry friction acts as a clamp on the step's speed, so the twin truly sticks:
+//   v* = v + h (F - B v - b) / M,  v' = sgn(v*) max(|v*| - h C / M, 0).
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "harness/diagnose/control_law.h"
+#include "harness/diagnose/dataset.h"
+
+namespace towbench::harness::diagnose {
+
+struct Twin {
+  Run run;
+  ControlLaw::Kind law = ControlLaw::Kind::kTracking;  // the one that was used in the end
+};
+
+// `extra_N`: force that the accepted effects demand at each sample, taken along the measured
+// motion. An input that the baseline does not hold is continued along its last slope: no delay to
+// first order. `seed` places the encoder's grating under the start.
+[[nodiscard]] Twin simulate_twin(const Dataset::Member& member, const Theta& theta,
+                                 const Eigen::VectorXd& extra_N, const ControlLaw& law,
+                                 bool input_is_held, std::uint64_t seed);
+
+}  // namespace towbench::harness::diagnose
