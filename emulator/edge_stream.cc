@@ -3,6 +3,22 @@
 #include <algorithm>
 
 namespace towbench::emulator {
+namespace {
+
+// Lines that toggle an odd number of times. The exclusive or of all edges holds the parity of B in
+// bit 30 and of the index in bit 31; what is left is A's. A loop of exclusive ors vectorises.
+[[nodiscard]] unsigned toggled_lines(std::span<const TimedEdge> edges) noexcept {
+  std::uint32_t parity = 0;
+  for (const TimedEdge edge : edges) {
+    parity ^= edge.packed();
+  }
+  const unsigned b = (parity >> 30U) & 1U;
+  const unsigned index = parity >> 31U;
+  const unsigned a = (static_cast<unsigned>(edges.size()) & 1U) ^ b ^ index;
+  return a | (b << 1U) | (index << 2U);
+}
+
+}  // namespace
 
 void EdgeStream::begin(core::Nanoseconds start_ns) noexcept {
   message_.start_ns = start_ns;
@@ -57,11 +73,7 @@ void EdgeStream::append(core::Nanoseconds step_start_ns,
   }
   size_ += edges.size();
   last_edge_ns_ = step_start_ns + edges.back().time_ns();
-  unsigned toggles = 0;
-  for (const TimedEdge edge : edges) {
-    toggles ^= 1U << (edge.packed() >> 30U);
-  }
-  levels_ = static_cast<protocol::EncoderLevels>(levels_ ^ toggles);
+  levels_ = static_cast<protocol::EncoderLevels>(levels_ ^ toggled_lines(edges));
 }
 
 void EdgeStream::finish(core::Nanoseconds end_ns, protocol::MessageSink& sink) noexcept {
