@@ -29,13 +29,14 @@ AxisForces AxisPlant::forces() const noexcept {
   const Regime& regime = situation_.regime;
   const DerivedMechanics& m = model.mechanics;
   const double x = carriage_position_m(model, z_);
+  std::size_t interval = situation_.position_interval;
   AxisForces f;
   f.terminal_V = terminal_V(model, situation_, z_);
   f.motor_torque_Nm = model.parameters.torque_constant_Nm_per_A * z_[kCurrent];
   f.motor_sticks = regime.motor_direction == 0;
   f.motor_friction_Nm = f.motor_sticks
                             ? -motor_load_Nm(model, situation_, z_, 1.0)
-                            : -regime.motor_direction * motor_level_Nm(model, z_[kMotorSpeed], x) -
+                            : -regime.motor_direction * motor_level_Nm(model, z_[kMotorSpeed], x, interval) -
                                   m.motor_viscous_Nm_s_per_rad * z_[kMotorSpeed];
   f.external_force_N = situation_.held.carriage_force_N;
   if (regime.end == HardEnd::kPushing) {
@@ -51,7 +52,7 @@ AxisForces AxisPlant::forces() const noexcept {
   f.carriage_friction_N =
       f.carriage_sticks
           ? -carriage_load_N(model, situation_, z_, 1.0)
-          : -regime.carriage_direction * carriage_level_N(model, z_[kCarriageSpeed], x) -
+          : -regime.carriage_direction * carriage_level_N(model, z_[kCarriageSpeed], x, interval) -
                 m.carriage_viscous_N_s_per_m * z_[kCarriageSpeed];
   return f;
 }

@@ -64,14 +64,24 @@ Crossing first_event(const AxisModel& model, const Situation& s, const TaylorFlo
   return first;
 }
 
-bool append(MotionSegments& segments, double start_s, double end_s, const StateVector& start,
+void append(MotionSegments& segments, double start_s, double end_s, const StateVector& start,
             const StateVector& end) noexcept {
-  return segments.push_back({.start_s = start_s,
+  core::check(segments.push_back({.start_s = start_s,
                              .end_s = end_s,
                              .start_angle_rad = start[kMotorAngle],
                              .start_speed_rad_per_s = start[kMotorSpeed],
                              .end_angle_rad = end[kMotorAngle],
-                             .end_speed_rad_per_s = end[kMotorSpeed]});
+                             .end_speed_rad_per_s = end[kMotorSpeed]}));
+}
+
+// Whether dry friction does not depend on speed here, for a tick at least.
+bool friction_has_settled(const AxisModel& model, const Situation& s,
+                          const StateVector& z) noexcept {
+  const auto faded = [&](const DryFriction& law, double direction, double speed) {
+    return direction == 0 || model.stribeck.has_faded(std::fabs(speed) * law.inverse_speed);
+  };
+  return faded(model.mechanics.motor, s.regime.motor_direction, z[kMotorSpeed]) &&
+         faded(model.mechanics.carriage, s.regime.carriage_direction, z[kCarriageSpeed]);
 }
 
 }  // namespace
@@ -80,6 +90,7 @@ AxisPlant::AxisPlant(const AxisParameters& parameters, double carriage_m, double
     : model_(std::make_shared<const AxisModel>(parameters, tick_s)) {
   z_[kMotorAngle] = carriage_m / model_->mechanics.metres_per_radian;
   settle(*model_, situation_, z_);
+  mode_index_ = mode_of(situation_.regime).index();
 }
 
 void AxisPlant::take(const AxisInput& input) noexcept {
@@ -94,6 +105,7 @@ void AxisPlant::take(const AxisInput& input) noexcept {
   held.carriage_force_N = input.carriage_force_N;
   input_ = input;
   settle(*model_, situation_, z_);
+  mode_index_ = mode_of(situation_.regime).index();
 }
 
 void AxisPlant::step(const AxisInput& input, MotionSegments& segments) noexcept {
@@ -109,51 +121,52 @@ void AxisPlant::step(const AxisInput& input, MotionSegments& segments) noexcept 
 
 // Dry friction at the middle of a piece of motion, where it stands for the piece's mean to second
 // order in its length.
-void AxisPlant::update_friction(const StateVector& start, const StateVector& end) noexcept {
+void AxisPlant::update_friction(double motor_rad_per_s, double carriage_m_per_s,
+                                double carriage_m) noexcept {
   const AxisModel& model = *model_;
-  const double middle_m =
-      0.5 * (carriage_position_m(model, start) + carriage_position_m(model, end));
-  if (model.motor_is_dry && situation_.regime.motor_direction != 0) {
-    situation_.motor_friction_Nm =
-        motor_level_Nm(model, 0.5 * (start[kMotorSpeed] + end[kMotorSpeed]), middle_m);
+  Situation& s = situation_;
+  if (model.motor_is_dry && s.regime.motor_direction != 0) {
+    s.motor_friction_Nm = motor_level_Nm(model, motor_rad_per_s, carriage_m, s.position_interval);
   }
-  if (model.carriage_is_dry && situation_.regime.carriage_direction != 0) {
-    situation_.carriage_friction_N =
-        carriage_level_N(model, 0.5 * (start[kCarriageSpeed] + end[kCarriageSpeed]), middle_m);
+  if (model.carriage_is_dry && s.regime.carriage_direction != 0) {
+    s.carriage_friction_N =
+        carriage_level_N(model, carriage_m_per_s, carriage_m, s.position_interval);
   }
 }
 
-// The whole tick by its matrices, with the friction of the tick before; the difference to the
-// friction at this tick's middle is added afterwards, which a linear mode allows. False, and
-// nothing changed but the friction levels, when an event lies inside.
+// The whole tick by its matrices. Friction is taken where the tick's middle will be if the speed
+// stays; where it depends on speed, what that missed is added afterwards, as a linear mode allows.
+// False, and nothing changed but friction levels, when an event lies inside.
 bool AxisPlant::step_without_event(MotionSegments& segments) noexcept {
   const AxisModel& model = *model_;
-  const Regime& regime = situation_.regime;
-  const DiscreteMode& mode = model.ticks[mode_of(regime).index()];
-  const double motor_before_Nm = situation_.motor_friction_Nm;
-  const double carriage_before_N = situation_.carriage_friction_N;
-  StateVector next = emulator::step(mode, z_, held_inputs(model, situation_));
-  update_friction(z_, next);
-  const double torque_Nm =
-      -regime.motor_direction * (situation_.motor_friction_Nm - motor_before_Nm);
-  const double force_N =
-      -regime.carriage_direction * (situation_.carriage_friction_N - carriage_before_N);
-  for (std::size_t row = 0; row < kStateCount; ++row) {
-    next[row] +=
-        mode.input[kMotorTorque][row] * torque_Nm + mode.input[kCarriageForce][row] * force_N;
+  const DiscreteMode& mode = model.ticks[mode_index_];
+  const double half_tick_s = 0.5 * model.tick_s;
+  const double middle_m = carriage_position_m(model, z_) + half_tick_s * z_[kCarriageSpeed];
+  update_friction(z_[kMotorSpeed], z_[kCarriageSpeed], middle_m);
+  const InputVector inputs = held_inputs(model, situation_);
+  StateVector next = emulator::step(mode, z_, inputs);
+  if (!friction_has_settled(model, situation_, z_)) {
+    update_friction(0.5 * (z_[kMotorSpeed] + next[kMotorSpeed]),
+                    0.5 * (z_[kCarriageSpeed] + next[kCarriageSpeed]), middle_m);
+    const InputVector refined = held_inputs(model, situation_);
+    add_input(mode, kMotorTorque, refined[kMotorTorque] - inputs[kMotorTorque], next);
+    add_input(mode, kCarriageForce, refined[kCarriageForce] - inputs[kCarriageForce], next);
   }
   if (!regime_holds(model, situation_, next)) {
     return false;
   }
-  core::check(append(segments, 0.0, model.tick_s, z_, next));
+  append(segments, 0.0, model.tick_s, z_, next);
   z_ = next;
   return true;
 }
 
 TaylorFlow AxisPlant::flow_from_here(double span_s) noexcept {
-  const ContinuousMode& mode = model_->flows[mode_of(situation_.regime).index()];
+  const ContinuousMode& mode = model_->flows[mode_index_];
   const TaylorFlow guess(mode, z_, held_inputs(*model_, situation_), span_s);
-  update_friction(z_, guess.at(1.0));
+  const StateVector end = guess.at(1.0);
+  update_friction(0.5 * (z_[kMotorSpeed] + end[kMotorSpeed]),
+                  0.5 * (z_[kCarriageSpeed] + end[kCarriageSpeed]),
+                  0.5 * (carriage_position_m(*model_, z_) + carriage_position_m(*model_, end)));
   return {mode, z_, held_inputs(*model_, situation_), span_s};
 }
 
@@ -183,7 +196,7 @@ void AxisPlant::step_through_events(MotionSegments& segments) noexcept {
     const StateVector start = z_;
     z_ = flow.at(crossing.fraction);
     if (end_s > time_s) {
-      core::check(append(segments, time_s, end_s, start, z_));
+      append(segments, time_s, end_s, start, z_);
     }
     time_s = end_s;
     if (!crossing.found) {
@@ -193,6 +206,7 @@ void AxisPlant::step_through_events(MotionSegments& segments) noexcept {
       record_contact(time_s, crossing.sign);
     }
     cross(model, crossing.event, crossing.sign, situation_, z_);
+    mode_index_ = mode_of(situation_.regime).index();
   }
 }
 

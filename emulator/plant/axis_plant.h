@@ -85,12 +85,13 @@ class AxisPlant {
   [[nodiscard]] bool step_without_event(MotionSegments& segments) noexcept;
   void step_through_events(MotionSegments& segments) noexcept;
   [[nodiscard]] TaylorFlow flow_from_here(double span_s) noexcept;
-  void update_friction(const StateVector& start, const StateVector& end) noexcept;
+  void update_friction(double motor_rad_per_s, double carriage_m_per_s, double carriage_m) noexcept;
   void record_contact(double time_s, double sign) noexcept;
 
   std::shared_ptr<const AxisModel> model_;
   StateVector z_{};
   Situation situation_;
+  std::size_t mode_index_ = 0;  // of situation_.regime
   AxisInput input_;  // of the step before
   HardEndContact contact_;
 };

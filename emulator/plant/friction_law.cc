@@ -1,5 +1,8 @@
 #include "emulator/plant/friction_law.h"
 
+#include <limits>
+
+#include "core/check.h"
 #include "core/deterministic_math.h"
 
 namespace towbench::emulator {
@@ -26,30 +29,30 @@ StribeckCurve::StribeckCurve(StribeckForm form) noexcept : form_(form) {
 }
 
 PositionFrictionCurve::PositionFrictionCurve(const PositionFriction& table, double scale) noexcept
-    : position_m_(table.position_m) {
-  for (std::size_t i = 0; i < table.friction_Nm.size(); ++i) {
-    core::check(level_.push_back(table.friction_Nm[i] * scale));
+    : present_(!table.position_m.empty()) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (!present_) {
+    add(-kInfinity, kInfinity, 0.0, 0.0, 0.0);
+    return;
   }
-  for (std::size_t i = 0; i + 1 < level_.size(); ++i) {
-    core::check(slope_per_m_.push_back((level_[i + 1] - level_[i]) /
-                                       (position_m_[i + 1] - position_m_[i])));
+  const auto& x = table.position_m;
+  const auto& f = table.friction_Nm;
+  const std::size_t last = x.size() - 1;
+  add(-kInfinity, x[0], x[0], f[0] * scale, 0.0);
+  for (std::size_t i = 0; i < last; ++i) {
+    add(x[i], x[i + 1], x[i], f[i] * scale, scale * (f[i + 1] - f[i]) / (x[i + 1] - x[i]));
   }
+  add(x[last], kInfinity, x[last], f[last] * scale, 0.0);
 }
 
-double PositionFrictionCurve::operator()(double carriage_m) const noexcept {
-  const std::size_t knots = position_m_.size();
-  if (knots == 0) {
-    return 0.0;
-  }
-  if (!(carriage_m > position_m_[0])) {
-    return level_[0];
-  }
-  for (std::size_t i = 0; i + 1 < knots; ++i) {
-    if (carriage_m < position_m_[i + 1]) {
-      return level_[i] + slope_per_m_[i] * (carriage_m - position_m_[i]);
-    }
-  }
-  return level_[knots - 1];
+void PositionFrictionCurve::add(double start_m, double end_m, double reference_m, double level,
+                                double slope_per_m) noexcept {
+  core::check(count_ < pieces_.size());
+  pieces_[count_++] = {.start_m = start_m,
+                       .end_m = end_m,
+                       .reference_m = reference_m,
+                       .level = level,
+                       .slope_per_m = slope_per_m};
 }
 
 }  // namespace towbench::emulator

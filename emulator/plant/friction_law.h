@@ -52,13 +52,35 @@ class PositionFrictionCurve {
   // `scale` turns the table's motor-side torque into this body's unit.
   PositionFrictionCurve(const PositionFriction& table, double scale) noexcept;
 
-  [[nodiscard]] bool present() const noexcept { return !position_m_.empty(); }
-  TOWBENCH_REALTIME [[nodiscard]] double operator()(double carriage_m) const noexcept;
+  [[nodiscard]] bool present() const noexcept { return present_; }
+  // `interval` remembers where x was last: a carriage seldom changes it. Any value from 0 up that
+  // this curve left there will do to start with.
+  TOWBENCH_REALTIME [[nodiscard]] double operator()(double carriage_m,
+                                                    std::size_t& interval) const noexcept {
+    while (carriage_m >= pieces_[interval].end_m) {
+      ++interval;
+    }
+    while (carriage_m < pieces_[interval].start_m) {
+      --interval;
+    }
+    const Piece& piece = pieces_[interval];
+    return piece.level + piece.slope_per_m * (carriage_m - piece.reference_m);
+  }
 
  private:
-  PositionFriction::Table position_m_;
-  PositionFriction::Table level_;
-  PositionFriction::Table slope_per_m_;
+  struct Piece {
+    double start_m;
+    double end_m;
+    double reference_m;  // where `level` holds; finite, as start_m of the first piece is not
+    double level;
+    double slope_per_m;
+  };
+  void add(double start_m, double end_m, double reference_m, double level,
+           double slope_per_m) noexcept;
+
+  bool present_;
+  std::size_t count_ = 0;
+  std::array<Piece, 33> pieces_{};  // a table of 32 knots has 31 intervals and two ends
 };
 
 }  // namespace towbench::emulator

@@ -118,7 +118,7 @@ TOWBENCH_REALTIME [[nodiscard]] inline bool regime_holds(const AxisModel& model,
                                                          const StateVector& z) noexcept {
   bool holds = true;
   visit_guards(model, s, z, 1.0,
-               [&holds](Event, double, double margin) { holds = holds && margin >= 0.0; });
+               [&holds](Event, double, double margin) { holds &= margin >= 0.0; });
   return holds;
 }
 

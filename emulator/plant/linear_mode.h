@@ -56,7 +56,9 @@ inline constexpr int kMaxTaylorTerms = 72;
 TOWBENCH_REALTIME [[nodiscard]] inline StateVector step(const DiscreteMode& mode,
                                                         const StateVector& z,
                                                         const InputVector& u) noexcept {
+  // Two sums side by side: one would make each addition wait for the last.
   StateVector next{};
+  StateVector driven{};
   for (std::size_t column = 0; column < kStateCount; ++column) {
     for (std::size_t row = 0; row < kStateCount; ++row) {
       next[row] += mode.state[column][row] * z[column];
@@ -64,10 +66,21 @@ TOWBENCH_REALTIME [[nodiscard]] inline StateVector step(const DiscreteMode& mode
   }
   for (std::size_t column = 0; column < kInputCount; ++column) {
     for (std::size_t row = 0; row < kStateCount; ++row) {
-      next[row] += mode.input[column][row] * u[column];
+      driven[row] += mode.input[column][row] * u[column];
     }
   }
+  for (std::size_t row = 0; row < kStateCount; ++row) {
+    next[row] += driven[row];
+  }
   return next;
+}
+
+// z(t + h) moved by what `change` of one input would have made of it.
+TOWBENCH_REALTIME inline void add_input(const DiscreteMode& mode, InputIndex input, double change,
+                                        StateVector& next) noexcept {
+  for (std::size_t row = 0; row < kStateCount; ++row) {
+    next[row] += mode.input[input][row] * change;
+  }
 }
 
 }  // namespace towbench::emulator

@@ -25,6 +25,7 @@ struct Situation {
   // at which it breaks away. N m and N.
   double motor_friction_Nm = 0;
   double carriage_friction_N = 0;
+  std::size_t position_interval = 0;  // of the position friction, where the carriage was last
 };
 
 [[nodiscard]] inline double carriage_position_m(const AxisModel& model,
@@ -87,15 +88,16 @@ struct Situation {
 }
 
 [[nodiscard]] inline double motor_level_Nm(const AxisModel& model, double speed_rad_per_s,
-                                           double carriage_m) noexcept {
+                                           double carriage_m, std::size_t& interval) noexcept {
   const double level = friction_level(model, model.mechanics.motor, speed_rad_per_s);
-  return model.parameters.chain.rigid ? level + model.position_friction(carriage_m) : level;
+  return model.parameters.chain.rigid ? level + model.position_friction(carriage_m, interval)
+                                      : level;
 }
 
 [[nodiscard]] inline double carriage_level_N(const AxisModel& model, double speed_m_per_s,
-                                             double carriage_m) noexcept {
+                                             double carriage_m, std::size_t& interval) noexcept {
   return friction_level(model, model.mechanics.carriage, speed_m_per_s) +
-         model.position_friction(carriage_m);
+         model.position_friction(carriage_m, interval);
 }
 
 [[nodiscard]] inline double electrical_input(const Situation& s) noexcept {
