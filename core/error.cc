@@ -119,6 +119,8 @@ std::string_view describe(ErrorCode code) noexcept {
       return "transport failed";
     case ErrorCode::kSequence:
       return "message repeated, lost or out of order";
+    case ErrorCode::kCarrierOverloaded:
+      return "carrier is too slow for the worst case";
     case ErrorCode::kBothChannelsActive:
       return "both PWM channels active";
     case ErrorCode::kHardEndContact:

@@ -74,6 +74,7 @@ enum class ErrorCode : std::uint16_t {
   kPeerSilent = 421,
   kTransportFailed = 422,
   kSequence = 423,
+  kCarrierOverloaded = 424,
 
   // 5xx: what the emulator reports of the machine or of how it is driven.
   kBothChannelsActive = 500,

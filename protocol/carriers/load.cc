@@ -1,0 +1,78 @@
+#include "protocol/carriers/load.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "protocol/carriers/serial_port.h"
+#include "protocol/cobs.h"
+
+namespace towbench::protocol {
+namespace {
+
+// A payload of `size` bytes as a frame, however its bytes need stuffing.
+double cobs_frame_bits(std::size_t size) noexcept {
+  const std::size_t body = size + kCrcSize;
+  return static_cast<double>((body + cobs_overhead(body) + 1) * kBitsPerSerialByte);
+}
+
+template <typename Message>
+double cobs_bits() noexcept {
+  return cobs_frame_bits(encoded_size(Message{}));
+}
+
+// All edges of one axis in one exchange; full messages first.
+double edges_bits(double edges) noexcept {
+  const double full = std::floor(edges / static_cast<double>(kMaxEdgesPerMessage));
+  const auto rest =
+      static_cast<std::size_t>(edges - full * static_cast<double>(kMaxEdgesPerMessage));
+  return full * cobs_frame_bits(kMaxPayloadSize) +
+         cobs_frame_bits(kEdgesHeaderSize + kBytesPerEdge * rest);
+}
+
+std::string rounded(double value) {
+  return std::to_string(std::llround(value));
+}
+
+}  // namespace
+
+double Load::fraction() const noexcept {
+  const double worst = is_shared ? to_plant_bit_per_s + to_controller_bit_per_s
+                                 : std::max(to_plant_bit_per_s, to_controller_bit_per_s);
+  return worst / capacity_bit_per_s;
+}
+
+Load serial_load(const Traffic& traffic, std::uint32_t baud) noexcept {
+  const double exchange_s = core::seconds(traffic.exchange_ns);
+  const double axes = traffic.axes;
+  const double edges = std::ceil(traffic.edges_per_s * exchange_s);
+
+  double to_plant = axes * cobs_bits<PwmDuty>() + cobs_bits<DigitalOutputs>();
+  double to_controller = cobs_bits<DigitalInputs>();
+  to_controller += axes * (traffic.fidelity == Fidelity::kEdges ? edges_bits(edges)
+                                                                : cobs_bits<EncoderReport>());
+  to_controller += traffic.force_samples ? cobs_bits<ForceSample>() : 0.0;
+  to_controller += traffic.current_samples ? axes * cobs_bits<CurrentSample>() : 0.0;
+  if (traffic.lockstep) {
+    to_plant += cobs_bits<Advance>();
+    to_controller += cobs_bits<Advanced>();
+  }
+  return {.to_plant_bit_per_s = to_plant / exchange_s,
+          .to_controller_bit_per_s = to_controller / exchange_s,
+          .capacity_bit_per_s = static_cast<double>(baud)};
+}
+
+CarrierResult<void> accept_load(const Load& load, const std::string& carrier_name) {
+  // Written so that a load that is not a number is refused too.
+  if (load.fraction() <= kMaxLoad) {
+    return {};
+  }
+  return carrier_failure(
+      core::ErrorCode::kCarrierOverloaded,
+      carrier_name + ": the worst case is " + rounded(100.0 * load.fraction()) + " % of " +
+          rounded(load.capacity_bit_per_s) + " bit/s (" + rounded(load.to_plant_bit_per_s) +
+          " bit/s to the plant, " + rounded(load.to_controller_bit_per_s) +
+          " bit/s to the controller); at most " + rounded(100.0 * kMaxLoad) + " % is allowed");
+}
+
+}  // namespace towbench::protocol
