@@ -19,6 +19,8 @@ constexpr char kInterrupt = 0x03;
 // Steps of one poll: enough for every reply, and a bound whatever is typed.
 constexpr int kStepsPerPoll = 4096;
 constexpr std::size_t kWhySize = 256;
+// Numbers below are refusals and results, from here on latched faults (core/error.h).
+constexpr std::uint16_t kFirstFault = 300;
 
 }  // namespace
 
@@ -227,7 +229,9 @@ void Application::end_motion() noexcept {
   const bool ended = status.motions_ended != motions_before_;
   const ErrorCode result = ended ? status.last_motion_result : status.fault;
   if (result != ErrorCode::kNone) {
-    outbox_.text("stopped: fault ").integer(core::number_of(result)).text(" ");
+    const bool is_fault = core::number_of(result) >= kFirstFault;
+    outbox_.text(is_fault ? "stopped: fault " : "stopped: ");
+    outbox_.integer(core::number_of(result)).text(" ");
     outbox_.text(core::describe(result)).end_line();
     finish(result, {});
     return;

@@ -40,10 +40,11 @@ class Application {
   // Serves the console as of `now`. Not real-time: it runs beside the control path, never in it.
   void poll(core::Nanoseconds now) noexcept;
 
-  // No motion runs that a command began, nothing read from the UART is unserved, nothing waits for
-  // the UART to take it.
+  // Until something is typed there is nothing to do: no motion runs that a command began, nothing
+  // read from the UART is unserved, nothing waits for the UART to take it.
   [[nodiscard]] bool idle() const noexcept {
-    return stage_ == Stage::kReading && typed_.empty() && outbox_sent_ == outbox_.view().size();
+    return (stage_ == Stage::kReading || stage_ == Stage::kAsking) && typed_.empty() &&
+           outbox_sent_ == outbox_.view().size();
   }
   // True after `quit`.
   [[nodiscard]] bool quit_requested() const noexcept { return settings_.quit; }

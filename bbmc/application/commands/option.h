@@ -45,6 +45,8 @@ struct OptionSpec {
   std::string_view bare_unit{};  // what a bare number means
   core::Range range{};           // SI, % for duty
   double default_value = 0;      // SI; the index of a choice; the index of an axis
+  std::string_view
+      default_text{};  // instead, where the SI value depends on the axis: "1000counts/s"
   std::string_view choices{};
   CountsOf counts_of = CountsOf::kNoAxis;
   AskedBy asked_by = AskedBy::kNobody;

@@ -122,6 +122,16 @@ double counts_per_m(const CommandSpec& command, const OptionSpec& option,
   return 0;
 }
 
+double default_of(const CommandSpec& command, const OptionSpec& option,
+                  const Configuration& configuration, const Arguments& arguments) noexcept {
+  if (option.default_text.empty()) {
+    return option.default_value;
+  }
+  return parse_quantity(option.default_text, option.dimension, option.bare_unit,
+                        counts_per_m(command, option, configuration, arguments))
+      .value_or(option.default_value);
+}
+
 // Out of range or not a value at all: the same sentence.
 ErrorCode refuse(ErrorCode code, const OptionSpec& option, std::string_view text,
                  TextWriter& why) noexcept {
@@ -246,7 +256,7 @@ ErrorCode parse_arguments(const CommandSpec& command, const Tokens& words,
           write_allowed(why, option);
           return ErrorCode::kRequestMissingArgument;
         }
-        arguments.set_default(i, option.default_value);
+        arguments.set_default(i, default_of(command, option, configuration, arguments));
         continue;
       }
       const ErrorCode code = parse_option(command, i, texts[i], configuration, arguments, why);

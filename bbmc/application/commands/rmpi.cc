@@ -146,7 +146,7 @@ constexpr std::array<OptionSpec, kOptionCount> kOptions{{
      .dimension = Dimension::kSpeed,
      .bare_unit = "counts/s",
      .range = core::between(1e-5, 0.1),
-     .default_value = 0.00224,
+     .default_text = "1000counts/s",
      .counts_of = CountsOf::kDof,
      .meaning = "faster than this is motion"},
     {.name = "--limit",

@@ -6,14 +6,15 @@
 namespace towbench::bbmc {
 namespace {
 
-constexpr std::size_t kMeaningColumn = 26;
+constexpr std::size_t kMeaningColumn = 32;
 constexpr std::size_t kOptionColumn = 22;
 
 // "run -trapez [DOF]", "goto Y X".
 void write_title(TextWriter& out, const CommandSpec& command) noexcept {
   out.text(command.word);
   if (!command.sub.empty()) {
-    out.text(" ").text(command.sub);
+    out.text(command.is_default ? " [" : " ").text(command.sub);
+    out.text(command.is_default ? "]" : "");
   }
   for (const OptionSpec& option : command.options) {
     if (option.is_positional()) {
@@ -35,11 +36,17 @@ void write_option(TextWriter& out, const OptionSpec& option) noexcept {
   }
   if (option.presence == Presence::kDefault && option.kind != OptionKind::kFlag) {
     out.text(", default ");
-    write_value(out, option, option.default_value);
+    if (option.default_text.empty()) {
+      write_value(out, option, option.default_value);
+    } else {
+      out.text(option.default_text);
+    }
   }
   if (option.kind == OptionKind::kQuantity && !option.bare_unit.empty() &&
       option.bare_unit != display_unit(option.dimension).name) {
-    out.text(", bare number in ").text(option.bare_unit);
+    const bool gain = option.bare_unit == kBbmcGainUnit;
+    out.text(gain ? ", bare number as in BBMC 0.5" : ", bare number in ");
+    out.text(gain ? "" : option.bare_unit);
   }
   out.end_line();
 }
