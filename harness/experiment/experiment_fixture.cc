@@ -138,6 +138,38 @@ Experiment read_experiment(TableReader& reader) {
   return experiment;
 }
 
+// Where the carriage stands at the start: of the experiment, not of the machine.
+void place_carriage(TableReader& reader, RigFixture& rig) {
+  auto start = reader.subtable("start");
+  if (!start) {
+    return;
+  }
+  for (const auto which : core::kAxes) {
+    auto& axis = rig.parameters.axes[which];
+    const auto key = std::string(core::name_of(which)) + "_m";
+    start->value(key, axis.start_m,
+                 core::between(axis.plant.hard_ends.min_m, axis.plant.hard_ends.max_m),
+                 "carriage position at time 0, between the hard ends");
+  }
+  start->finish();
+  rig.hash = canonical_hash(rig.parameters);
+  rig.parameters.fixture_hash = rig.hash;
+}
+
+void check_axes_agree(const ExperimentFixture& fixture) {
+  for (const auto which : core::kAxes) {
+    const bool in_rig = fixture.rig.parameters.axes[which].exists;
+    const bool in_controller = fixture.controller.configuration.axes[which].exists;
+    if (in_rig != in_controller) {
+      throw FixtureError({fixture.controller_file.string(), 0,
+                          "axis." + std::string(core::name_of(which)) + ".exists"},
+                         in_controller ? "true" : "false",
+                         std::string(in_rig ? "true" : "false") + ", as the rig " +
+                             fixture.rig_file.string() + " has it");
+    }
+  }
+}
+
 void check_name(const TableReader& reader, const std::string& name) {
   const bool plain =
       !name.empty() && name.size() <= 60 && std::all_of(name.begin(), name.end(), [](char c) {
@@ -166,13 +198,16 @@ ExperimentFixture load_experiment(const std::filesystem::path& path) {
   for (const char* key : {"name", "rig", "controller", "duration_limit_s"}) {
     reader.require(key);
   }
+  reader.permit("start");
   reader.finish();
   check_name(reader, fixture.experiment.name);
 
   fixture.rig_file = file.resolve(rig, reader.place_of("rig"));
   fixture.controller_file = file.resolve(controller, reader.place_of("controller"));
   fixture.rig = load_rig(fixture.rig_file, fixture.sources);
+  place_carriage(reader, fixture.rig);
   fixture.controller = load_controller(fixture.controller_file, fixture.sources);
+  check_axes_agree(fixture);
   CanonicalHash hash;
   hash.add(file.text());
   fixture.hash = hash.value();

@@ -1,0 +1,22 @@
+// The verbs of towbench. Each adds itself to the command line and, when it is chosen, runs and says
+// with which code the process ends (conventions.md).
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace towbench::harness {
+
+// `exit_code` outlives the parse.
+void add_demo(CLI::App& app, int& exit_code);
+void add_run(CLI::App& app, int& exit_code);
+void add_list(CLI::App& app, int& exit_code);
+void add_validate(CLI::App& app, int& exit_code);
+void add_emulate(CLI::App& app, int& exit_code);
+void add_control(CLI::App& app, int& exit_code);
+void add_replay(CLI::App& app, int& exit_code);
+void add_report(CLI::App& app, int& exit_code);
+
+// The whole command line. Never throws.
+[[nodiscard]] int run_command_line(int argc, char** argv) noexcept;
+
+}  // namespace towbench::harness

@@ -1,0 +1,180 @@
+// towbench control: the controller as a process of its own, with its console on this terminal.
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "harness/bench/in_process_plant.h"
+#include "harness/bench/linked_plant.h"
+#include "harness/bench/lockstep_bench.h"
+#include "harness/bench/unrecorded_plant.h"
+#include "harness/commands/command.h"
+#include "harness/commands/local_address.h"
+#include "harness/commands/stop_signal.h"
+#include "harness/commands/terminal.h"
+#include "harness/fixtures/controller_fixture.h"
+#include "harness/fixtures/rig_fixture.h"
+#include "harness/judge/check.h"
+#include "harness/record/plant_recorder.h"
+#include "protocol/carriers/local_socket.h"
+
+namespace towbench::harness {
+namespace {
+
+struct Options {
+  std::string controller;
+  std::string connect;
+  std::string rig;
+  std::string out;
+  bool fast = false;
+};
+
+constexpr char kEndOfTransmission = 4;  // Ctrl-D on a terminal ends the session
+
+// Feeds what a person or a pipe types. A pipe's lines are fed one at a time, each when the one
+// before has been served, so that a file of commands runs as it would by hand.
+class Typist {
+ public:
+  void feed(bbmc::ControllerNode& controller) {
+    buffer_ += terminal_.read();
+    if (terminal_.is_terminal()) {
+      const auto end = buffer_.find(kEndOfTransmission);
+      ended_ = ended_ || end != std::string::npos;
+      buffer_.erase(0, controller.type(std::string_view(buffer_).substr(0, end)));
+      return;
+    }
+    if (line_.empty() && controller.idle()) {
+      const auto end = buffer_.find('\n');
+      if (end != std::string::npos) {
+        line_ = buffer_.substr(0, end) + "\r";
+        buffer_.erase(0, end + 1);
+      }
+    }
+    line_.erase(0, controller.type(line_));
+    ended_ = terminal_.at_end() && line_.empty() && buffer_.find('\n') == std::string::npos;
+  }
+  [[nodiscard]] bool ended() const noexcept { return ended_; }
+
+ private:
+  Terminal terminal_;
+  std::string buffer_;
+  std::string line_;
+  bool ended_ = false;
+};
+
+class Session {
+ public:
+  Session(LockstepBench& bench, ControllerRecorder* recorder, bool paced)
+      : bench_(bench), recorder_(recorder), paced_(paced) {}
+
+  int run() {
+    if (const auto agreed = bench_.start(); !agreed) {
+      return lost("the machine refused", agreed.error());
+    }
+    const auto start = std::chrono::steady_clock::now();
+    Typist typist;
+    while (!over(typist)) {
+      if (const auto alive = bench_.advance(); !alive) {
+        return lost("the machine is gone; drive removed", alive.error());
+      }
+      if (paced_) {
+        std::this_thread::sleep_until(start + std::chrono::nanoseconds(bench_.now_ns()));
+      }
+    }
+    bench_.finish();
+    flush();
+    return kExitPass;
+  }
+
+ private:
+  bool over(Typist& typist) {
+    typist.feed(bench_.controller());
+    const auto text = bench_.serve();
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    std::fflush(stdout);
+    return bench_.controller().quit_requested() || stop_requested() ||
+           (typist.ended() && bench_.controller().idle());
+  }
+
+  int lost(const char* what, core::ErrorCode code) {
+    flush();
+    std::fprintf(stderr, "\r\ncontroller: %s: %s (%u)\r\n", what,
+                 std::string(core::describe(code)).c_str(), core::number_of(code));
+    return kExitRuntime;
+  }
+
+  void flush() {
+    if (recorder_ != nullptr) {
+      recorder_->flush();
+    }
+  }
+
+  LockstepBench& bench_;
+  ControllerRecorder* recorder_;
+  bool paced_;
+};
+
+std::unique_ptr<protocol::LocalSocket> connect_to(const std::string& address) {
+  auto socket = protocol::LocalSocket::connect(local_path("--connect", address));
+  if (!socket) {
+    throw std::runtime_error(socket.error().message);
+  }
+  return std::move(*socket);
+}
+
+int execute(const Options& options) {
+  SourceFiles sources;
+  const auto controller = load_controller(options.controller, sources);
+  UnrecordedPlant unrecorded;
+  std::unique_ptr<ControllerRecorder> recorder;
+  std::unique_ptr<PlantRecorder> plant_recorder;
+  if (!options.out.empty()) {
+    std::filesystem::create_directories(options.out);
+    recorder = std::make_unique<ControllerRecorder>(options.out);
+  }
+  std::unique_ptr<protocol::LocalSocket> stream;
+  std::unique_ptr<PlantEnd> plant;
+  if (!options.connect.empty()) {
+    stream = connect_to(options.connect);
+    plant = std::make_unique<LinkedPlant>(*stream);
+  } else {
+    const auto rig = load_rig(options.rig, sources);
+    plant_recorder = options.out.empty() ? nullptr : std::make_unique<PlantRecorder>(options.out);
+    emulator::PlantObserver& observer =
+        plant_recorder ? static_cast<emulator::PlantObserver&>(*plant_recorder) : unrecorded;
+    plant = std::make_unique<InProcessPlant>(rig.parameters, 1,
+                                             std::span<const emulator::ScheduledEvent>{}, observer);
+  }
+  // The rig's hash is not known to somebody who only has the controller: 0 accepts any.
+  LockstepBench bench(controller.configuration, 0, *plant, recorder.get());
+  return Session(bench, recorder.get(), !options.fast).run();
+}
+
+}  // namespace
+
+void add_control(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto* verb = app.add_subcommand("control", "the controller, with its console on this terminal");
+  verb->add_option("--controller", options->controller, "controller file")->required();
+  auto* connect =
+      verb->add_option("--connect", options->connect, "local:PATH, where `towbench emulate` waits");
+  auto* rig = verb->add_option("--rig", options->rig, "instead: a rig emulated in this process");
+  connect->excludes(rig);
+  verb->add_option("--out", options->out, "folder for log.csv and the other records");
+  verb->add_flag("--fast", options->fast, "as fast as it goes, not at the wall clock's pace");
+  verb->footer(
+      "Example: towbench control --controller fixtures/controllers/bbmc-tuned.toml "
+      "--rig fixtures/rigs/macs-nominal.toml\n"
+      "Type `help`; Ctrl-C stops a motion, Ctrl-D or `quit` ends the session.");
+  verb->callback([options, &exit_code] {
+    if (options->connect.empty() == options->rig.empty()) {
+      throw CLI::RequiredError("--connect or --rig");
+    }
+    exit_code = execute(*options);
+  });
+}
+
+}  // namespace towbench::harness

@@ -1,0 +1,63 @@
+// towbench demo: the four experiments that show what the bench does, one table, one report.
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include "harness/commands/command.h"
+#include "harness/commands/exit_codes.h"
+#include "harness/commands/experiment_options.h"
+#include "harness/commands/fixture_paths.h"
+#include "harness/commands/verdict_table.h"
+#include "harness/record/run_folder.h"
+#include "harness/report/report.h"
+
+namespace towbench::harness {
+namespace {
+
+constexpr std::array kDemo{"trapezoid-400", "circle", "pulses", "endstop-y-max"};
+
+int execute(const ExperimentOptions& options) {
+  std::vector<ExperimentFixture> fixtures;
+  for (const char* name : kDemo) {
+    fixtures.push_back(load_experiment(find_experiment(name)));
+  }
+  int exit_code = kExitPass;
+  std::vector<std::filesystem::path> folders;
+  for (const auto& fixture : fixtures) {
+    const auto run = run_with_options(fixture, options);
+    exit_code = graver(exit_code, run.exit_code);
+    folders.push_back(run.folder);
+    std::fputs(verdict_table(fixture.experiment.name, run, !options.quiet).c_str(), stdout);
+    std::fflush(stdout);
+    if (!run.complete) {
+      break;
+    }
+  }
+  const auto page = std::filesystem::path(options.out) / (utc_now_compact() + "-demo.html");
+  const auto written = write_combined_report(folders, page);
+  if (!written) {
+    std::fprintf(stderr, "towbench: no report: %s\n", written.error().c_str());
+    return graver(exit_code, kExitRuntime);
+  }
+  std::printf("%s\n", written->c_str());
+  return exit_code;
+}
+
+}  // namespace
+
+void add_demo(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<ExperimentOptions>();
+  auto* verb = app.add_subcommand(
+      "demo", "trapezoid, circle, open-loop pulses and an end-stop, judged in one report");
+  verb->add_option("--out", options->out, "folder below which the run folders are made")
+      ->capture_default_str();
+  verb->add_option("--carrier", options->carrier, "in-process or local")
+      ->check(CLI::IsMember({"in-process", "local"}))
+      ->capture_default_str();
+  verb->add_flag("-q,--quiet", options->quiet, "print failures and the report's path only");
+  verb->footer("Example: towbench demo");
+  verb->callback([options, &exit_code] { exit_code = execute(*options); });
+}
+
+}  // namespace towbench::harness

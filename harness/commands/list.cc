@@ -1,0 +1,75 @@
+// towbench list: the experiments there are, or the metrics that a budget may name.
+#include <cstdio>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/commands/command.h"
+#include "harness/commands/fixture_paths.h"
+#include "harness/experiment/experiment_fixture.h"
+#include "harness/judge/check.h"
+#include "harness/judge/metric.h"
+
+namespace towbench::harness {
+namespace {
+
+struct Options {
+  bool metrics = false;
+  bool json = false;
+};
+
+int list_metrics(bool json) {
+  auto array = nlohmann::json::array();
+  for (const auto& metric : all_metrics()) {
+    if (json) {
+      array.push_back({{"name", metric.name}, {"unit", metric.unit}, {"meaning", metric.meaning}});
+    } else {
+      std::printf("%-36s %-5s %s\n", metric.name.c_str(), metric.unit.c_str(),
+                  metric.meaning.c_str());
+    }
+  }
+  if (json) {
+    std::printf("%s\n", array.dump(2).c_str());
+  }
+  return kExitPass;
+}
+
+int list_experiments(bool json) {
+  auto array = nlohmann::json::array();
+  int exit_code = kExitPass;
+  for (const auto& path : toml_files_in(fixtures_directory() / "experiments")) {
+    try {
+      const auto fixture = load_experiment(path);
+      if (json) {
+        array.push_back({{"name", fixture.experiment.name},
+                         {"title", fixture.experiment.title},
+                         {"file", path.string()}});
+      } else {
+        std::printf("%-28s %s\n", fixture.experiment.name.c_str(),
+                    fixture.experiment.title.c_str());
+      }
+    } catch (const FixtureError& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      exit_code = kExitBadInput;
+    }
+  }
+  if (json) {
+    std::printf("%s\n", array.dump(2).c_str());
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+void add_list(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto* verb = app.add_subcommand("list", "list the experiments, or the metrics for budgets");
+  verb->add_flag("--metrics", options->metrics, "the metrics that a [[budget]] may name");
+  verb->add_flag("--json", options->json, "print JSON");
+  verb->footer("Example: towbench list --metrics");
+  verb->callback([options, &exit_code] {
+    exit_code = options->metrics ? list_metrics(options->json) : list_experiments(options->json);
+  });
+}
+
+}  // namespace towbench::harness

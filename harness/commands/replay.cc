@@ -1,0 +1,133 @@
+// towbench replay: runs a folder's inputs again and compares the records byte for byte.
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "harness/bench/experiment_run.h"
+#include "harness/commands/command.h"
+#include "harness/commands/stop_signal.h"
+
+namespace towbench::harness {
+namespace {
+
+struct Options {
+  std::string folder;
+  std::string out;
+  std::string carrier = "in-process";
+};
+
+struct Recorded {
+  std::filesystem::path experiment;
+  std::uint64_t seed = 0;
+};
+
+Recorded recorded_in(const std::filesystem::path& folder) {
+  std::ifstream stream(folder / "result.json");
+  if (!stream) {
+    throw FixtureError({(folder / "result.json").string()}, "no such file", "a run folder");
+  }
+  const auto result = nlohmann::json::parse(stream, nullptr, false);
+  try {
+    if (result.at("status") != "complete") {
+      throw FixtureError({(folder / "result.json").string(), 0, "status"},
+                         result.at("status").dump(),
+                         "\"complete\": a run that was cut short has no whole record to compare");
+    }
+    return {folder / result.at("experiment").at("file").get<std::string>(),
+            result.at("seed").get<std::uint64_t>()};
+  } catch (const nlohmann::json::exception& error) {
+    throw FixtureError({(folder / "result.json").string()}, error.what(), "a run's result.json");
+  }
+}
+
+// "" when equal, else a sentence about the first line that is not.
+std::string first_difference(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::ifstream first(a, std::ios::binary);
+  std::ifstream second(b, std::ios::binary);
+  if (!first || !second) {
+    return fmt::format("{} cannot be read", (first ? b : a).string());
+  }
+  std::string line_a;
+  std::string line_b;
+  for (std::size_t line = 1;; ++line) {
+    const bool more_a = static_cast<bool>(std::getline(first, line_a));
+    const bool more_b = static_cast<bool>(std::getline(second, line_b));
+    if (!more_a && !more_b) {
+      return {};
+    }
+    if (more_a != more_b || line_a != line_b || first.eof() != second.eof()) {
+      return fmt::format("{} differs at line {}:\n  recorded: {}\n  replayed: {}",
+                         a.filename().string(), line, more_a ? line_a : "(end)",
+                         more_b ? line_b : "(end)");
+    }
+  }
+}
+
+std::filesystem::path make_temporary_folder() {
+  auto pattern = (std::filesystem::temp_directory_path() / "towbench-replay-XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) {
+    throw std::filesystem::filesystem_error("cannot create", pattern,
+                                            std::error_code(errno, std::generic_category()));
+  }
+  return pattern;
+}
+
+int compare(const std::filesystem::path& recorded, const RunResult& run) {
+  if (!run.complete) {
+    std::fprintf(stderr, "towbench: the replay did not finish: %s\n", run.reason.c_str());
+    return kExitRuntime;
+  }
+  int exit_code = kExitPass;
+  for (const char* file : {"log.csv", "truth.csv", "events.jsonl"}) {
+    if (const auto difference = first_difference(recorded / file, run.folder / file);
+        !difference.empty()) {
+      std::printf("%s\n", difference.c_str());
+      exit_code = kExitFail;
+    } else {
+      std::printf("%-13s identical\n", file);
+    }
+  }
+  return exit_code;
+}
+
+int execute(const Options& options) {
+  const std::filesystem::path folder = options.folder;
+  const auto recorded = recorded_in(folder);
+  const auto fixture = load_experiment(recorded.experiment);
+  const bool temporary = options.out.empty();
+  RunOptions run_options;
+  run_options.out = temporary ? make_temporary_folder() : std::filesystem::path(options.out);
+  run_options.seed = recorded.seed;
+  run_options.carrier = options.carrier == "local" ? Carrier::kLocal : Carrier::kInProcess;
+  run_options.watchers.stop = &stop_requested();
+  const auto run = run_experiment(fixture, run_options);
+  const int exit_code = compare(folder, run);
+  if (temporary) {
+    std::filesystem::remove_all(run_options.out);
+  } else {
+    std::printf("%s\n", run.folder.c_str());
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto* verb = app.add_subcommand("replay", "run a folder's inputs again and compare the records");
+  verb->add_option("folder", options->folder, "a complete run folder")->required();
+  verb->add_option("--out", options->out, "keep the replayed run below this folder");
+  verb->add_option("--carrier", options->carrier, "in-process or local")
+      ->check(CLI::IsMember({"in-process", "local"}))
+      ->capture_default_str();
+  verb->footer("Example: towbench replay runs/20250131T120000Z-circle-1a2b3c4d");
+  verb->callback([options, &exit_code] { exit_code = execute(*options); });
+}
+
+}  // namespace towbench::harness

@@ -1,0 +1,53 @@
+// towbench report: writes report.html of run folders anew.
+#include "harness/report/report.h"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/commands/command.h"
+#include "harness/judge/check.h"
+
+namespace towbench::harness {
+namespace {
+
+struct Options {
+  std::vector<std::string> folders;
+  std::string combined;
+};
+
+int tell(const ReportResult& written) {
+  if (!written) {
+    std::fprintf(stderr, "towbench: no report: %s\n", written.error().c_str());
+    return kExitRuntime;
+  }
+  std::printf("%s\n", written->c_str());
+  return kExitPass;
+}
+
+int execute(const Options& options) {
+  if (!options.combined.empty()) {
+    const std::vector<std::filesystem::path> folders(options.folders.begin(),
+                                                     options.folders.end());
+    return tell(write_combined_report(folders, options.combined));
+  }
+  int exit_code = kExitPass;
+  for (const auto& folder : options.folders) {
+    exit_code = std::max(exit_code, tell(write_report(folder)));
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto* verb = app.add_subcommand("report", "write the report of a run folder again");
+  verb->add_option("folder", options->folders, "run folders")->required();
+  verb->add_option("--combined", options->combined, "one page about all of them, written to FILE");
+  verb->footer("Example: towbench report runs/20250131T120000Z-circle-1a2b3c4d");
+  verb->callback([options, &exit_code] { exit_code = execute(*options); });
+}
+
+}  // namespace towbench::harness

@@ -1,0 +1,76 @@
+// towbench run: one or several experiments, judged.
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/commands/command.h"
+#include "harness/commands/exit_codes.h"
+#include "harness/commands/experiment_options.h"
+#include "harness/commands/fixture_paths.h"
+#include "harness/commands/verdict_table.h"
+
+namespace towbench::harness {
+namespace {
+
+struct Options {
+  std::vector<std::string> experiments;
+  ExperimentOptions shared;
+};
+
+nlohmann::json result_of(const RunResult& run) {
+  std::ifstream stream(run.folder / "result.json");
+  auto result = nlohmann::json::parse(stream);
+  result["folder"] = run.folder.string();
+  return result;
+}
+
+int execute(const Options& options) {
+  // All fixtures first: a slip in the last file is told before the first run.
+  std::vector<ExperimentFixture> fixtures;
+  for (const auto& named : options.experiments) {
+    fixtures.push_back(load_experiment(find_experiment(named)));
+  }
+  int exit_code = kExitPass;
+  auto results = nlohmann::json::array();
+  for (const auto& fixture : fixtures) {
+    const auto run = run_with_options(fixture, options.shared);
+    exit_code = graver(exit_code, run.exit_code);
+    if (options.shared.json) {
+      results.push_back(result_of(run));
+      continue;
+    }
+    const bool say = !options.shared.quiet || run.exit_code != kExitPass;
+    if (say) {
+      std::fputs(verdict_table(fixture.experiment.name, run, !options.shared.quiet).c_str(),
+                 stdout);
+    }
+    const auto last = options.shared.no_report ? run.folder : run.folder / "report.html";
+    std::printf("%s\n", last.c_str());
+    std::fflush(stdout);
+    if (!run.complete) {
+      break;
+    }
+  }
+  if (options.shared.json) {
+    std::printf("%s\n", (results.size() == 1 ? results[0] : results).dump(2).c_str());
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto* verb = app.add_subcommand("run", "run experiments and judge them");
+  verb->add_option("experiment", options->experiments,
+                   "name of an experiment of fixtures/experiments, or a path")
+      ->required();
+  add_experiment_options(*verb, options->shared);
+  verb->footer("Example: towbench run trapezoid-400 --carrier local --out runs");
+  verb->callback([options, &exit_code] { exit_code = execute(*options); });
+}
+
+}  // namespace towbench::harness

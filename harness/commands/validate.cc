@@ -1,0 +1,67 @@
+// towbench validate: reads fixtures as a run would and says what is wrong with them.
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/commands/command.h"
+#include "harness/commands/fixture_paths.h"
+#include "harness/experiment/experiment_fixture.h"
+#include "harness/judge/check.h"
+
+namespace towbench::harness {
+namespace {
+
+// The kind of a fixture follows from the keys that only it may have.
+void read_by_kind(const std::filesystem::path& path) {
+  SourceFiles sources;
+  const auto file = FixtureFile::load(path);
+  const auto& table = file.table();
+  if (table.contains("rig") || table.contains("console") || table.contains("budget")) {
+    (void)load_experiment(path);
+  } else if (table.contains("plants")) {
+    (void)load_rig(path, sources);
+  } else if (table.contains("control_rate_Hz") || table.contains("safety") ||
+             path.parent_path().filename() == "controllers") {
+    (void)load_controller(path, sources);
+  } else {
+    (void)load_plant(path, sources);
+  }
+}
+
+int execute(const std::vector<std::string>& named) {
+  std::vector<std::filesystem::path> paths;
+  for (const auto& name : named) {
+    paths.push_back(find_experiment(name));
+  }
+  if (paths.empty()) {
+    for (const char* kind : {"plants", "rigs", "controllers", "experiments"}) {
+      for (auto& path : toml_files_in(fixtures_directory() / kind)) {
+        paths.push_back(std::move(path));
+      }
+    }
+  }
+  int exit_code = kExitPass;
+  for (const auto& path : paths) {
+    try {
+      read_by_kind(path);
+      std::printf("ok  %s\n", path.c_str());
+    } catch (const FixtureError& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      exit_code = kExitBadInput;
+    }
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+void add_validate(CLI::App& app, int& exit_code) {
+  auto files = std::make_shared<std::vector<std::string>>();
+  auto* verb = app.add_subcommand("validate", "check fixtures without running anything");
+  verb->add_option("file", *files, "fixtures; all of the project's when none is named");
+  verb->footer("Example: towbench validate my-plant.toml");
+  verb->callback([files, &exit_code] { exit_code = execute(*files); });
+}
+
+}  // namespace towbench::harness
