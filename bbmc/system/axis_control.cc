@@ -29,8 +29,10 @@ AxisControl::AxisControl(const AxisConfiguration& axis, const SafetyConfiguratio
 core::ErrorCode AxisControl::judge_encoder() noexcept {
   // What the drive was told until now is what has moved the axis since the exchange before.
   observer_.change().torque_Nm = static_cast<double>(ticks_) / ticks_per_Nm_;
-  const bool judged = is_driven(mode_) || mode_ == AxisMode::kBraking;
-  return plausibility_.update(observer_.change(), judged);
+  const auto scope = is_driven(mode_)              ? EncoderPlausibility::Scope::kEverything
+                     : mode_ == AxisMode::kBraking ? EncoderPlausibility::Scope::kSignals
+                                                   : EncoderPlausibility::Scope::kNothing;
+  return plausibility_.update(observer_.change(), scope);
 }
 
 bool AxisControl::breaks_limits() const noexcept {

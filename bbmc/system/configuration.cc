@@ -7,7 +7,7 @@ namespace {
 
 constexpr core::Nanoseconds kGrid_ns = 100 * core::kNanosecondsPerMicrosecond;
 
-const char* inconsistency_of(const AxisConfiguration& axis) noexcept {
+const char* inconsistency_of(const AxisConfiguration& axis, double control_rate_Hz) noexcept {
   const EndsConfiguration& ends = axis.ends;
   if (!(ends.hard_min_count <= ends.hall_min_count && ends.hall_min_count < ends.soft_min_count &&
         ends.soft_min_count < ends.soft_max_count && ends.soft_max_count < ends.hall_max_count &&
@@ -16,6 +16,10 @@ const char* inconsistency_of(const AxisConfiguration& axis) noexcept {
   }
   if (axis.braking.rotor_inertia_kg_m2 > axis.braking.inertia_kg_m2) {
     return "braking.rotor_inertia_kg_m2: is part of inertia_kg_m2 and cannot exceed it";
+  }
+  if (gains_are_unstable(axis, axis.gains, control_rate_Hz)) {
+    return "gains.derivative_Nm_s_per_rad: the sampled loop is unstable from 2 x inertia x control "
+           "rate on";
   }
   const double tick_ns = 1e9 / axis.velocity.capture_clock_Hz;
   if (std::fabs(tick_ns - std::round(tick_ns)) > 1e-6) {
@@ -26,6 +30,13 @@ const char* inconsistency_of(const AxisConfiguration& axis) noexcept {
 
 }  // namespace
 
+// Speed fed back once a period T to a mass J by a difference over T: z^2 + (g/2 - 1) z + g/2 with
+// g = K_D T / J leaves the unit circle at g = 2. The elastic chain only makes it worse.
+bool gains_are_unstable(const AxisConfiguration& axis, const PidGains& gains,
+                        double control_rate_Hz) noexcept {
+  return gains.derivative_Nm_s_per_rad >= 2.0 * axis.braking.inertia_kg_m2 * control_rate_Hz;
+}
+
 const char* inconsistency(const Configuration& configuration) noexcept {
   const double period_ns = 1e9 / configuration.control_rate_Hz;
   if (configuration.control_period_ns() % kGrid_ns != 0 ||
@@ -33,7 +44,7 @@ const char* inconsistency(const Configuration& configuration) noexcept {
     return "control_rate_Hz: the control period must be a multiple of 100 us";
   }
   for (const AxisConfiguration& axis : configuration.axes) {
-    if (const char* found = inconsistency_of(axis)) {
+    if (const char* found = inconsistency_of(axis, configuration.control_rate_Hz)) {
       return found;
     }
   }

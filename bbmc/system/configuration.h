@@ -101,6 +101,10 @@ struct Configuration {
   }
 };
 
+// Gains with which the sampled loop cannot be stable at a control rate, whatever the load.
+[[nodiscard]] bool gains_are_unstable(const AxisConfiguration& axis, const PidGains& gains,
+                                      double control_rate_Hz) noexcept;
+
 // What must hold between values and no single range can say: a sentence that names the key. Null
 // when all is well.
 [[nodiscard]] const char* inconsistency(const Configuration& configuration) noexcept;

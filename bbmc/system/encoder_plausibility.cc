@@ -30,6 +30,7 @@ EncoderPlausibility::EncoderPlausibility(const AxisConfiguration& axis) noexcept
       rad_per_count_(axis.rad_per_count()),
       max_acceleration_count_per_s2_(kTorqueMargin * axis.drive.torque_limit_Nm() /
                                      axis.braking.rotor_inertia_kg_m2 / axis.rad_per_count()),
+      chain_(axis),
       index_(axis.encoder_counts_per_rev, axis.plausibility.index_tolerance_counts) {}
 
 ErrorCode EncoderPlausibility::judge_kinematics(const EncoderChange& change) const noexcept {
@@ -56,12 +57,13 @@ void EncoderPlausibility::begin_push(const EncoderChange& change, double directi
 }
 
 ErrorCode EncoderPlausibility::judge_push(const EncoderChange& change) noexcept {
-  const double magnitude = std::fabs(change.torque_Nm);
+  const double pushing_Nm = change.torque_Nm - chain_torque_Nm_;
+  const double magnitude = std::fabs(pushing_Nm);
   if (magnitude <= kPushThreshold * breakaway_Nm_) {
     push_.direction = 0;
     return ErrorCode::kNone;
   }
-  const double direction = change.torque_Nm > 0 ? 1.0 : -1.0;
+  const double direction = pushing_Nm > 0 ? 1.0 : -1.0;
   if (push_.direction != direction) {
     begin_push(change, direction);
     return ErrorCode::kNone;
@@ -108,21 +110,24 @@ void EncoderPlausibility::count_events(const EncoderChange& change) noexcept {
   }
 }
 
-ErrorCode EncoderPlausibility::update(const EncoderChange& change, bool judged) noexcept {
+ErrorCode EncoderPlausibility::update(const EncoderChange& change, Scope scope) noexcept {
   if (change.elapsed_s <= 0) {
     return ErrorCode::kNone;
   }
   count_events(change);
+  chain_torque_Nm_ = chain_.update(change.raw_count, change.counts, change.elapsed_s);
   const bool index_good =
       index_.update(change.raw_count, change.counts, change.index_pulses, change.index_raw_count);
-  ErrorCode found = ErrorCode::kNone;
-  if (!settings_.enabled || !judged) {
+  if (scope != Scope::kEverything) {
     push_.direction = 0;
+  }
+  ErrorCode found = ErrorCode::kNone;
+  if (!settings_.enabled || scope == Scope::kNothing) {
     if (!index_good) {
       index_.forget();  // moved by hand past a fault that nobody judged: learn anew
     }
   } else if (found = judge_kinematics(change); found != ErrorCode::kNone) {
-  } else if (found = judge_push(change); found != ErrorCode::kNone) {
+  } else if (scope == Scope::kEverything && (found = judge_push(change)) != ErrorCode::kNone) {
   } else if (illegal_.sum() > settings_.illegal_transitions_max) {
     found = ErrorCode::kFaultEncoderIllegalTransitions;
   } else if (noise_.sum() > settings_.noise_edges_max) {

@@ -12,12 +12,14 @@
 //   index       an index pulse off its place, or none for 1.1 turns: edges lost, index lost
 //
 // "Break-away" is worst_breakaway_Nm plus what external_load_N asks at the motor, so that a load
-// that is allowed to be held is no fault.
+// that is allowed to be held is no fault. What the carriage swinging on its chain asks of the motor
+// (chain_observer.h) is taken off the drive first: a motor that holds against it does not push.
 #pragma once
 
 #include <cstdint>
 
 #include "bbmc/system/axis_configuration.h"
+#include "bbmc/system/chain_observer.h"
 #include "bbmc/system/index_watch.h"
 #include "core/error.h"
 #include "core/realtime.h"
@@ -44,10 +46,16 @@ class EncoderPlausibility {
  public:
   explicit EncoderPlausibility(const AxisConfiguration& axis) noexcept;
 
-  // kNone, or the fault. `judged` is false while the axis is not driven: then the memory is kept
-  // up to date and nothing is found.
+  enum class Scope : std::uint8_t {
+    kNothing,     // not driven: memory is kept up to date, nothing is found
+    kSignals,     // braking: all but stuck and reversed. The drive follows the speed there, so a
+                  // frozen encoder gets no torque, and a motor that holds the carriage is not stuck
+    kEverything,  // driven
+  };
+
+  // kNone, or the fault.
   TOWBENCH_REALTIME [[nodiscard]] core::ErrorCode update(const EncoderChange& change,
-                                                         bool judged) noexcept;
+                                                         Scope scope) noexcept;
 
   static constexpr double kTorqueMargin = 2.5;
 
@@ -82,6 +90,8 @@ class EncoderPlausibility {
   double rad_per_count_;
   double max_acceleration_count_per_s2_;
   Push push_;
+  ChainObserver chain_;
+  double chain_torque_Nm_ = 0;
   IndexWatch index_;
   Bucket illegal_;
   Bucket noise_;

@@ -34,6 +34,8 @@ class EndStopGuard {
   // the machine, motion given.
   TOWBENCH_REALTIME [[nodiscard]] bool edge(End end, bool active, std::int64_t count,
                                             double speed_count_per_s) noexcept;
+  // Levels as they are, for switches that were active before anybody listened for edges.
+  void see(bool min_active, bool max_active) noexcept { active_ = {min_active, max_active}; }
   // Whether the axis moves towards an active switch; `end` says which.
   TOWBENCH_REALTIME [[nodiscard]] bool moves_into(double speed_count_per_s,
                                                   End& end) const noexcept;

@@ -55,11 +55,12 @@ void MotionControl::serve_line(const Aintc::Reading& edge) noexcept {
 
 void MotionControl::watch(const ControlSample& sample) noexcept {
   status_.kill_switch_pressed = (sample.lines & mask_of(Line::kKillSwitch)) != 0;
-  if (status_.kill_switch_pressed && status_.fault != ErrorCode::kFaultKillSwitch &&
-      any_powered()) {
-    cut_all(ErrorCode::kFaultKillSwitch, Axis::kY);  // its edge was missed
+  if (status_.kill_switch_pressed && (status_.fault == ErrorCode::kNone || any_powered())) {
+    cut_all(ErrorCode::kFaultKillSwitch, Axis::kY);  // pressed before anybody listened for edges
   }
   for (Axis which : core::kAxes) {
+    axes_[which].end_stops().see((sample.lines & mask_of(hall_min_of(which))) != 0,
+                                 (sample.lines & mask_of(hall_max_of(which))) != 0);
     watch_axis(which, sample);
   }
   if (sample.tick_due && any_powered() && sample.ticks_missed >= kOverrunPeriods &&

@@ -197,6 +197,9 @@ core::Status SystemManager::set_gains(Axis axis, const PidGains& gains) noexcept
       return failure(ErrorCode::kRequestOutOfRange);
     }
   }
+  if (gains_are_unstable(configuration_.axes[axis], gains, configuration_.control_rate_Hz)) {
+    return failure(ErrorCode::kRequestOutOfRange);
+  }
   configuration_.axes[axis].gains = gains;
   motion_.axis(axis).set_gains(gains);
   return {};
@@ -236,7 +239,11 @@ core::Status SystemManager::set_control_rate(double rate_Hz) noexcept {
   }
   const core::Nanoseconds period_ns = core::nanoseconds(1.0 / rate_Hz);
   // The board is served every exchange; ticks fall on those.
-  if (period_ns % exchange_ns_ != 0) {
+  bool possible = period_ns % exchange_ns_ == 0;
+  for (const AxisConfiguration& axis : configuration_.axes) {
+    possible = possible && !gains_are_unstable(axis, axis.gains, rate_Hz);
+  }
+  if (!possible) {
     return failure(ErrorCode::kRequestOutOfRange);
   }
   if (auto status = io_.set_period(period_ns); !status) {

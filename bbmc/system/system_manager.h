@@ -74,6 +74,7 @@ class SystemManager {
   // Only with no motion.
   [[nodiscard]] core::Status set_feed_forward(core::Axis axis, const FeedForward& model) noexcept;
   [[nodiscard]] core::Status set_velocity_method(core::Axis axis, VelocityMethod method) noexcept;
+  // Also refused: a period that is no multiple of the exchange, gains unstable at that rate.
   [[nodiscard]] core::Status set_control_rate(double rate_Hz) noexcept;
 
   // ---- what is known ----
