@@ -43,6 +43,18 @@ export function onThemeChange(react: () => void): void {
   }
 }
 
+// Keeps a plot as wide as its host. On paper the host's width is known too late, so plots take this one.
+const paperWidth = 680;
+
+export function fitWidth(host: HTMLElement, current: () => number, resize: (w: number) => void): void {
+  const fit = (width: number) => {
+    if (width > 0 && width !== current()) resize(width);
+  };
+  new ResizeObserver(() => fit(host.clientWidth)).observe(host);
+  addEventListener("beforeprint", () => fit(Math.min(paperWidth, host.clientWidth)));
+  addEventListener("afterprint", () => fit(host.clientWidth));
+}
+
 // The sample of a line in a legend, as it is drawn in the plot.
 export function lineSample(role: LineRole): SVGSVGElement {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");

@@ -5,7 +5,7 @@ import { extentOf, type EventMark } from "./data";
 import { element, missingNote } from "./dom";
 import type { Curve, Figure } from "./figures";
 import { drawEvents, drawGuides, drawSpans, drawUnit, drawWords, type Span } from "./marks";
-import { axisFont, currentTheme, dashes, lineSample, onThemeChange, widths } from "./theme";
+import { axisFont, currentTheme, dashes, fitWidth, lineSample, onThemeChange, widths } from "./theme";
 import type { TimeGroup } from "./time_group";
 import { type DisplayUnit, displayUnit, readableWithUnit, tickText } from "./units";
 
@@ -110,10 +110,8 @@ export function addTimePlot(host: HTMLElement, figure: Figure, group: TimeGroup,
     });
   });
   box.addEventListener("keydown", (event) => onKey(event, plot, group));
-  new ResizeObserver(() => {
-    const width = canvasHost.clientWidth;
-    if (width > 0 && width !== plot.width) plot.setSize({ width, height: height(width) });
-  }).observe(canvasHost);
+  const resize = (width: number) => plot.setSize({ width, height: height(width) });
+  fitWidth(canvasHost, () => plot.width, resize);
   onThemeChange(() => plot.redraw(false, true));
 }
 

@@ -8,6 +8,7 @@ import {
   axisFont,
   currentTheme,
   dashes,
+  fitWidth,
   lineSample,
   type LineRole,
   onThemeChange,
@@ -203,12 +204,11 @@ function makePlot(canvasHost: HTMLElement, current: () => Path[]): uPlot {
   };
   plot.over.addEventListener("dblclick", showAll);
   canvasHost.addEventListener("reset", showAll);
-  new ResizeObserver(() => {
-    const available = canvasHost.clientWidth;
-    if (available === 0 || available === plot.width) return;
+  const resize = (available: number) => {
     plot.setSize({ width: available, height: heightFor(available) });
     fit(plot);
-  }).observe(canvasHost);
+  };
+  fitWidth(canvasHost, () => plot.width, resize);
   fit(plot);
   return plot;
 }

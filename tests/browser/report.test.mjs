@@ -167,6 +167,7 @@ await withBrowser(async (context) => {
   });
 
   const paper = await openPage(context, report, { colorScheme: "dark" });
+  await paper.page.emulateMedia({ media: null, colorScheme: "dark" });
   await paper.page.pdf({ path: join(shots, "print.pdf"), format: "A4", margin: { top: "15mm", bottom: "15mm", left: "15mm", right: "15mm" } });
   await paper.page.emulateMedia({ media: "print" });
   await paper.page.setViewportSize({ width: 720, height: 1000 });
