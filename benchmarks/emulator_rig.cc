@@ -36,7 +36,7 @@ int pulse(std::uint32_t ms, int ticks) {
 }
 
 void rig_step(benchmark::State& state) {
-  emulator::Rig rig(rig_in_the_middle());
+  emulator::Rig rig(rig_in_the_middle(), 1);
   const int ticks = static_cast<int>(state.range(0));
   for (const Axis axis : core::kAxes) {
     rig.axis(axis)->enable_line = true;

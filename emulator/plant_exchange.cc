@@ -7,18 +7,14 @@ namespace towbench::emulator {
 using core::Axis;
 using core::ErrorCode;
 
-namespace {
-
-constexpr std::uint32_t kMaxFaultsPerExchange = 16;
-
-}  // namespace
-
-PlantExchange::PlantExchange(const RigParameters& rig, std::uint64_t /*seed*/,
+PlantExchange::PlantExchange(const RigParameters& rig, std::uint64_t seed,
                              std::span<const ScheduledEvent> events, PlantObserver& observer)
-    : rig_(rig),
+    : rig_(rig, seed),
       fixture_hash_(rig.fixture_hash),
-      events_(events.begin(), events.end()),
-      observer_(&observer) {
+      script_(events),
+      observer_(&observer),
+      faults_(observer),
+      watch_(observer) {
   for (const Axis which : core::kAxes) {
     if (const RigAxis* axis = rig_.axis(which)) {
       const protocol::EncoderLevels levels = axis->encoder().levels();
@@ -143,7 +139,7 @@ void PlantExchange::advance(const protocol::Advance& advance) noexcept {
     report(wrong, Axis::kY, 0);
     return;
   }
-  faults_in_exchange_ = 0;
+  faults_.begin_exchange();
   if (advance.until_ns > now_ns()) {
     for (auto& output : outputs_) {
       if (output) {
@@ -160,25 +156,36 @@ void PlantExchange::advance(const protocol::Advance& advance) noexcept {
 }
 
 void PlantExchange::tick() noexcept {
-  fire_due_events();
+  script_.fire_due(rig_, *observer_);
   const core::Nanoseconds start_ns = now_ns();
   rig_.step();
   for (const Axis which : core::kAxes) {
-    const RigAxis* axis = rig_.axis(which);
-    if (axis == nullptr) {
-      continue;
+    if (const RigAxis* axis = rig_.axis(which)) {
+      AxisOutputs& output = *outputs_[which];
+      if (sends_edges_) {
+        output.edges.add(start_ns, axis->edges(), *sink_);
+      } else {
+        output.digest.add(start_ns, axis->edges());
+      }
     }
-    AxisOutputs& output = *outputs_[which];
-    if (sends_edges_) {
-      output.edges.add(start_ns, axis->edges(), *sink_);
-    } else {
-      output.digest.add(start_ns, axis->edges());
-    }
-    watch_contact(which);
-    watch_rate(which);
   }
-  collect_lines();
-  watch_supply();
+  if (!rig_.line_changes().empty()) {
+    collect_lines();
+  }
+  send_samples();
+  watch_.look(rig_, faults_);
+}
+
+void PlantExchange::send_samples() noexcept {
+  for (const Axis which : core::kAxes) {
+    const RigAxis* axis = rig_.axis(which);
+    if (axis != nullptr && axis->current_sample()) {
+      sink_->on(*axis->current_sample());
+    }
+  }
+  if (rig_.force_sample()) {
+    sink_->on(*rig_.force_sample());
+  }
 }
 
 void PlantExchange::send_outputs() noexcept {
@@ -209,95 +216,22 @@ void PlantExchange::collect_lines() noexcept {
     }
     (void)pending_lines_.push_back(
         {.lines = sent_lines_, .change_ns = change.time_ns, .sequence = line_sequence_++});
-    observe({.time_ns = change.time_ns,
-             .kind = PlantEventKind::kInputLineChanged,
-             .lines = sent_lines_,
-             .value = static_cast<double>(change.line)});
+    observer_->on_event({.time_ns = change.time_ns,
+                         .kind = PlantEventKind::kInputLineChanged,
+                         .lines = sent_lines_,
+                         .value = static_cast<double>(change.line)});
   }
-}
-
-// --- what happens to the machine -----------------------------------------------------------------
-
-void PlantExchange::fire_due_events() noexcept {
-  const core::Nanoseconds end_ns = now_ns() + core::kPlantTick_ns;
-  for (; next_event_ < events_.size() && events_[next_event_].time_ns < end_ns; ++next_event_) {
-    const ScheduledEvent& event = events_[next_event_];
-    const core::Nanoseconds time_ns = event.time_ns < now_ns() ? now_ns() : event.time_ns;
-    if (!fire(event, time_ns)) {
-      return;  // no room in this tick: the next one takes it
-    }
-    observe({.time_ns = time_ns,
-             .kind = PlantEventKind::kScheduledEventFired,
-             .axis = event.axis,
-             .value = static_cast<double>(next_event_)});
-  }
-}
-
-bool PlantExchange::fire(const ScheduledEvent& event, core::Nanoseconds time_ns) noexcept {
-  switch (event.kind) {
-    case ScheduledEventKind::kPressKillSwitch:
-      return rig_.set_kill_switch(true, time_ns);
-    case ScheduledEventKind::kReleaseKillSwitch:
-      return rig_.set_kill_switch(false, time_ns);
-    case ScheduledEventKind::kPushCarriage:
-      rig_.push_carriage(event.axis, event.value, time_ns);
-      return true;
-  }
-  return true;
-}
-
-void PlantExchange::watch_contact(Axis which) noexcept {
-  const HardEndContact& contact = rig_.axis(which)->plant().contact();
-  if (!contact.occurred) {
-    return;
-  }
-  observe({.time_ns = now_ns() - core::kPlantTick_ns + core::nanoseconds(contact.time_s),
-           .kind = PlantEventKind::kHardEndContact,
-           .axis = which,
-           .code = ErrorCode::kHardEndContact,
-           .lines = contact.at_max ? std::uint16_t{1} : std::uint16_t{0},
-           .value = contact.speed_m_per_s,
-           .energy_J = contact.energy_J});
-}
-
-void PlantExchange::watch_rate(Axis which) noexcept {
-  const bool too_fast = rig_.axis(which)->encoder().too_fast();
-  if (too_fast && !outputs_[which]->too_fast) {
-    report(ErrorCode::kEncoderRateExceeded, which, static_cast<std::uint32_t>(which));
-  }
-  outputs_[which]->too_fast = too_fast;
-}
-
-void PlantExchange::watch_supply() noexcept {
-  const Supply& supply = rig_.supply();
-  if (supply.tripped() && !supply_was_tripped_) {
-    report(ErrorCode::kSupplyOverCurrent, Axis::kY, 0);
-  }
-  if (supply.cut_out() && !supply_was_cut_out_) {
-    report(ErrorCode::kSupplyUnderVoltage, Axis::kY, 0);
-  }
-  supply_was_tripped_ = supply.tripped();
-  supply_was_cut_out_ = supply.cut_out();
 }
 
 // --- trouble and the end -------------------------------------------------------------------------
 
-void PlantExchange::report(ErrorCode code, Axis axis, std::uint32_t detail) noexcept {
-  if (faults_in_exchange_ == kMaxFaultsPerExchange) {
-    return;
-  }
-  ++faults_in_exchange_;
-  observe({.time_ns = now_ns(), .kind = PlantEventKind::kFault, .axis = axis, .code = code});
-  sink_->on(protocol::Fault{.code = code, .time_ns = now_ns(), .detail = detail});
-}
-
 void PlantExchange::remove_drive(ErrorCode why) noexcept {
   rig_.remove_drive();
-  observe({.time_ns = now_ns(), .kind = PlantEventKind::kDriveRemoved, .code = why});
+  observer_->on_event({.time_ns = now_ns(), .kind = PlantEventKind::kDriveRemoved, .code = why});
 }
 
 void PlantExchange::note_fault(const protocol::Fault& fault) noexcept {
-  observe({.time_ns = now_ns(), .kind = PlantEventKind::kFault, .code = fault.code});
+  observer_->on_event({.time_ns = now_ns(), .kind = PlantEventKind::kFault, .code = fault.code});
 }
 
 void PlantExchange::end(const protocol::Bye& /*bye*/) noexcept {
@@ -306,7 +240,7 @@ void PlantExchange::end(const protocol::Bye& /*bye*/) noexcept {
   }
   remove_drive(ErrorCode::kNone);
   finished_ = true;
-  observe({.time_ns = now_ns(), .kind = PlantEventKind::kFinished});
+  observer_->on_event({.time_ns = now_ns(), .kind = PlantEventKind::kFinished});
   sink_->on(protocol::Bye{.time_ns = now_ns()});
 }
 
@@ -314,7 +248,7 @@ void PlantExchange::peer_lost(ErrorCode why) noexcept {
   if (finished_) {
     return;
   }
-  observe({.time_ns = now_ns(), .kind = PlantEventKind::kPeerLost, .code = why});
+  observer_->on_event({.time_ns = now_ns(), .kind = PlantEventKind::kPeerLost, .code = why});
   remove_drive(why);
   greeted_ = false;
   finished_ = true;

@@ -1,20 +1,22 @@
 // One conversation with a controller: handshake, then exchanges in lockstep, then the end. What
 // PlantNode does, without its face.
 //
-// An exchange, at Advance{T + dt} (docs/design/0001-walls.md): step the rig from T to T + dt, then
-// send EncoderEdges (or EncoderReport) of each axis in the order Y, X, then DigitalInputs of each
-// change in the order of time, then Advanced. Whatever a controller sends that makes no sense is
-// counted, answered by a Fault, and changes nothing.
+// An exchange, at Advance{T + dt} (docs/design/0001-walls.md): step the rig from T to T + dt,
+// sending CurrentSample and ForceSample as they are taken, then EncoderEdges (or EncoderReport) of
+// each axis in the order Y, X, then DigitalInputs of each change in the order of time, then
+// Advanced. Whatever a controller sends that makes no sense is counted, answered by a Fault, and
+// changes nothing.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "core/bounded_vector.h"
 #include "emulator/edge_stream.h"
+#include "emulator/event_script.h"
+#include "emulator/fault_reporter.h"
+#include "emulator/machine_watch.h"
 #include "emulator/plant_node.h"
 #include "emulator/rig.h"
 #include "emulator/sensors/encoder_digest.h"
@@ -29,7 +31,10 @@ class PlantExchange {
   PlantExchange(const RigParameters& rig, std::uint64_t seed,
                 std::span<const ScheduledEvent> events, PlantObserver& observer);
 
-  void connect(protocol::MessageSink& controller) noexcept { sink_ = &controller; }
+  void connect(protocol::MessageSink& controller) noexcept {
+    sink_ = &controller;
+    faults_.connect(controller);
+  }
 
   void greet(const protocol::Hello& hello) noexcept;
   TOWBENCH_REALTIME void drive(const protocol::PwmDuty& duty) noexcept;
@@ -46,7 +51,6 @@ class PlantExchange {
   struct AxisOutputs {
     EdgeStream edges;
     EncoderDigest digest;
-    bool too_fast = false;
   };
 
   [[nodiscard]] protocol::Hello own_hello(const protocol::Hello& theirs) const noexcept;
@@ -55,24 +59,20 @@ class PlantExchange {
   void remove_drive(core::ErrorCode why) noexcept;
 
   void tick() noexcept;
-  void fire_due_events() noexcept;
-  [[nodiscard]] bool fire(const ScheduledEvent& event, core::Nanoseconds time_ns) noexcept;
   void collect_lines() noexcept;
-  void watch_contact(core::Axis which) noexcept;
-  void watch_rate(core::Axis which) noexcept;
-  void watch_supply() noexcept;
+  void send_samples() noexcept;
   void send_outputs() noexcept;
   void send_lines() noexcept;
-
-  // Something wrong, for the record of both sides.
-  void report(core::ErrorCode code, core::Axis axis, std::uint32_t detail) noexcept;
-  void observe(PlantEvent event) noexcept { observer_->on_event(event); }
+  void report(core::ErrorCode code, core::Axis axis, std::uint32_t detail) noexcept {
+    faults_.report(now_ns(), code, axis, detail);
+  }
 
   Rig rig_;
   std::uint64_t fixture_hash_;
-  std::vector<ScheduledEvent> events_;
-  std::size_t next_event_ = 0;
+  EventScript script_;
   PlantObserver* observer_;
+  FaultReporter faults_;
+  MachineWatch watch_;
   protocol::MessageSink* sink_ = nullptr;
   core::PerAxis<std::optional<AxisOutputs>> outputs_;
 
@@ -87,10 +87,6 @@ class PlantExchange {
   bool sends_edges_ = false;
   bool sends_digest_ = false;
   bool finished_ = false;
-  bool supply_was_tripped_ = false;
-  bool supply_was_cut_out_ = false;
-  // A peer that babbles gets a bounded number of answers per exchange.
-  std::uint32_t faults_in_exchange_ = 0;
 };
 
 }  // namespace towbench::emulator

@@ -32,14 +32,18 @@ void sort_by_time(LineChanges& changes) noexcept {
 
 }  // namespace
 
-RigAxis::RigAxis(Axis axis, const RigAxisParameters& p)
+RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, std::uint64_t seed)
     : command(p.command),
       plant_(p.plant, p.start_m),
       encoder_(p.encoder, plant_.state().motor_angle_rad),
       hall_min_(p.hall_min, TravelEnd::kMin, kHallMinLine[axis], p.start_m),
       hall_max_(p.hall_max, TravelEnd::kMax, kHallMaxLine[axis], p.start_m),
       resistance_ohm_(p.plant.winding.resistance_ohm),
-      torque_constant_Nm_per_A_(p.plant.torque_constant_Nm_per_A) {}
+      torque_constant_Nm_per_A_(p.plant.torque_constant_Nm_per_A) {
+  if (p.current_monitor.fitted) {
+    current_monitor_.emplace(p.current_monitor, axis, seed);
+  }
+}
 
 void RigAxis::step(core::Nanoseconds start_ns, const Surroundings& around,
                    LineChanges& changes) noexcept {
@@ -58,6 +62,14 @@ void RigAxis::step(core::Nanoseconds start_ns, const Surroundings& around,
                               .after_m_per_s = after.carriage_speed_m_per_s};
   hall_min_.step(start_ns, motion, changes);
   hall_max_.step(start_ns, motion, changes);
+  acceleration_m_per_s2_ =
+      (after.carriage_speed_m_per_s - before.carriage_speed_m_per_s) / core::kPlantTick_s;
+  if (current_monitor_) {
+    protocol::CurrentSample sample;
+    const bool taken =
+        current_monitor_->step(start_ns + core::kPlantTick_ns, after.current_A, sample);
+    current_sample_ = taken ? std::optional(sample) : std::nullopt;
+  }
 }
 
 double RigAxis::output_power_W() const noexcept {
@@ -92,11 +104,20 @@ AxisTruth RigAxis::truth() const noexcept {
           .edges_total = encoder_.edges_total()};
 }
 
-Rig::Rig(const RigParameters& parameters) : parameters_(parameters), supply_(parameters.supply) {
+Rig::Rig(const RigParameters& parameters, std::uint64_t seed)
+    : parameters_(parameters), supply_(parameters.supply) {
+  // One stream of seeds in a fixed order, so that fitting one sensor leaves the others' noise
+  // alone.
+  core::Random seeds(seed);
+  const core::PerAxis<std::uint64_t> axis_seed{{seeds.bits(), seeds.bits()}};
+  const std::uint64_t force_seed = seeds.bits();
+  if (parameters.force_sensor.fitted) {
+    force_sensor_.emplace(parameters.force_sensor, force_seed);
+  }
   unsigned lines = 0;
   for (const Axis which : core::kAxes) {
     if (parameters_.axes[which].exists) {
-      axes_[which].emplace(which, parameters_.axes[which]);
+      axes_[which].emplace(which, parameters_.axes[which], axis_seed[which]);
       lines |= axes_[which]->hall_lines();
       lines |= supply_.ready() ? protocol::mask_of(kReadyLine[which]) : 0U;
     }
@@ -177,12 +198,26 @@ void Rig::step() noexcept {
   supply_.step(power_W);
   now_ns_ += core::kPlantTick_ns;
   kill_changes_.clear();
+  if (force_sensor_) {
+    measure_force();
+  }
   if (supply_.ready() != was_ready) {
     update_ready_lines();
   }
   if (!changes_.empty()) {
     apply_changes();
   }
+}
+
+// A push acts on the load, below the sensor (FR-3).
+void Rig::measure_force() noexcept {
+  core::PerAxis<double> acceleration{};
+  for (const Axis which : core::kAxes) {
+    acceleration[which] = axes_[which] ? axes_[which]->carriage_acceleration_m_per_s2() : 0.0;
+  }
+  protocol::ForceSample sample;
+  const bool taken = force_sensor_->step(now_ns_, push_N_, acceleration, sample);
+  force_sample_ = taken ? std::optional(sample) : std::nullopt;
 }
 
 // The amplifiers notice the supply at the end of the tick: its last nanosecond.

@@ -15,6 +15,8 @@
 #include "emulator/command_path.h"
 #include "emulator/plant/axis_plant.h"
 #include "emulator/rig_parameters.h"
+#include "emulator/sensors/current_monitor.h"
+#include "emulator/sensors/force_sensor.h"
 #include "emulator/sensors/hall_sensor.h"
 #include "emulator/sensors/line_change.h"
 #include "emulator/sensors/quadrature_encoder.h"
@@ -26,7 +28,7 @@ namespace towbench::emulator {
 // One axis with everything that hangs on it.
 class RigAxis {
  public:
-  RigAxis(core::Axis axis, const RigAxisParameters& parameters);
+  RigAxis(core::Axis axis, const RigAxisParameters& parameters, std::uint64_t seed);
 
   struct Surroundings {
     double supply_V = 0;
@@ -44,6 +46,14 @@ class RigAxis {
   [[nodiscard]] const QuadratureEncoder& encoder() const noexcept { return encoder_; }
   // Of the last step.
   [[nodiscard]] const StepEdges& edges() const noexcept { return edges_; }
+  // Taken at the end of the last step, if one was due.
+  [[nodiscard]] const std::optional<protocol::CurrentSample>& current_sample() const noexcept {
+    return current_sample_;
+  }
+  // Mean over the last step.
+  [[nodiscard]] double carriage_acceleration_m_per_s2() const noexcept {
+    return acceleration_m_per_s2_;
+  }
   // What the amplifier puts into the winding: heat and back EMF. What the inductance borrows it
   // gives back within a millisecond.
   [[nodiscard]] double output_power_W() const noexcept;
@@ -55,17 +65,20 @@ class RigAxis {
   QuadratureEncoder encoder_;
   HallSensor hall_min_;
   HallSensor hall_max_;
+  std::optional<CurrentMonitor> current_monitor_;
+  std::optional<protocol::CurrentSample> current_sample_;
   MotionSegments segments_;
   StepEdges edges_;
   double resistance_ohm_;
   double torque_constant_Nm_per_A_;
   double command_V_ = 0.0;
+  double acceleration_m_per_s2_ = 0.0;
 };
 
 class Rig {
  public:
-  // Consistent parameters only (rig_parameters.h).
-  explicit Rig(const RigParameters& parameters);
+  // Consistent parameters only (rig_parameters.h). `seed` feeds noise and biases.
+  Rig(const RigParameters& parameters, std::uint64_t seed);
 
   // The axis, or null when the machine has none.
   [[nodiscard]] RigAxis* axis(core::Axis which) noexcept;
@@ -87,9 +100,14 @@ class Rig {
   [[nodiscard]] std::uint16_t lines() const noexcept { return lines_; }
   [[nodiscard]] const LineChanges& line_changes() const noexcept { return changes_; }
   [[nodiscard]] const Supply& supply() const noexcept { return supply_; }
+  // Taken at the end of the last tick, if one was due.
+  [[nodiscard]] const std::optional<protocol::ForceSample>& force_sample() const noexcept {
+    return force_sample_;
+  }
   [[nodiscard]] TruthRow truth() const noexcept;
 
  private:
+  void measure_force() noexcept;
   void update_ready_lines() noexcept;
   void apply_changes() noexcept;
   [[nodiscard]] double cross_axis_force_N(core::Axis which) const noexcept;
@@ -97,6 +115,8 @@ class Rig {
   RigParameters parameters_;
   core::PerAxis<std::optional<RigAxis>> axes_;
   Supply supply_;
+  std::optional<ForceSensor> force_sensor_;
+  std::optional<protocol::ForceSample> force_sample_;
   core::Nanoseconds now_ns_ = 0;
   std::uint16_t lines_ = 0;
   LineChanges changes_;

@@ -35,6 +35,16 @@ void place_halls(RigAxisParameters& axis, double min_counts, double max_counts) 
   axis.hall_max.position_m = max_counts * metres_per_count(axis);
 }
 
+[[nodiscard]] bool whole_ticks(double period_s) noexcept {
+  return core::nanoseconds(period_s) % core::kPlantTick_ns == 0;
+}
+
+// (3.39) the other way round: what of the effective inertia moves with the carriage.
+[[nodiscard]] double carriage_mass_kg(const AxisParameters& p) noexcept {
+  const double motor_rad_per_m = p.gear_ratio / p.sprocket_radius_m;
+  return (p.inertia_kg_m2 - p.rotor_inertia_kg_m2) * motor_rad_per_m * motor_rad_per_m;
+}
+
 const char* inconsistency(const RigAxisParameters& axis) noexcept {
   if (!axis.exists) {
     return nullptr;
@@ -65,6 +75,9 @@ const char* inconsistency(const RigAxisParameters& axis) noexcept {
       axis.hall_min.position_m >= axis.hall_max.position_m) {
     return "hall_min.position_m must be below hall_max.position_m";
   }
+  if (axis.current_monitor.fitted && !whole_ticks(axis.current_monitor.sample_period_s)) {
+    return "current_monitor.sample_period_s must be a whole number of 100 us ticks";
+  }
   return nullptr;
 }
 
@@ -91,12 +104,19 @@ const char* inconsistency(const RigParameters& rig) noexcept {
     if (const char* found = inconsistency(axis)) {
       return found;
     }
+    if (axis.exists && rig.force_sensor.fitted &&
+        rig.force_sensor.load_mass_kg > carriage_mass_kg(axis.plant)) {
+      return "force_sensor.load_mass_kg is more than an axis moves";
+    }
   }
   if (!any_axis) {
     return "axis.y.exists and axis.x.exists are both false";
   }
   if (rig.supply.voltage_V < rig.supply.cut_out_V) {
     return "supply.voltage_V is below supply.cut_out_V";
+  }
+  if (rig.force_sensor.fitted && !whole_ticks(rig.force_sensor.sample_period_s)) {
+    return "force_sensor.sample_period_s must be a whole number of 100 us ticks";
   }
   return nullptr;
 }

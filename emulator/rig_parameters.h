@@ -38,6 +38,7 @@ struct RigAxisParameters {
   EncoderParameters encoder;
   HallParameters hall_min;
   HallParameters hall_max;
+  CurrentMonitorParameters current_monitor;
   double start_m = 0.0;  // carriage at rest there at time 0, chain relaxed
   double cross_axis_force_ratio = 0.0;
 
@@ -54,6 +55,7 @@ struct RigAxisParameters {
     v.group("encoder", encoder, "incremental encoder on the motor shaft");
     v.group("hall_min", hall_min, "end-stop sensor at the min end");
     v.group("hall_max", hall_max, "end-stop sensor at the max end");
+    v.group("current_monitor", current_monitor, "the amplifier's current monitor output");
   }
 };
 
@@ -109,6 +111,7 @@ struct RigParameters {
   RigAxes axes;
   SupplyParameters supply;
   KillSwitchParameters kill_switch;
+  ForceSensorParameters force_sensor;
   // Of the file this was read from; no parameter. 0 = not known.
   std::uint64_t fixture_hash = 0;
 
@@ -120,6 +123,7 @@ struct RigParameters {
     v.group("axis", axes, "the two axes");
     v.group("supply", supply, "shared 12 V supply");
     v.group("kill_switch", kill_switch, "the operator's kill switch");
+    v.group("force_sensor", force_sensor, "six-axis force/torque sensor at the load's mount");
   }
 };
 

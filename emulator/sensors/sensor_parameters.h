@@ -63,4 +63,56 @@ struct HallParameters {
   }
 };
 
+// The amplifier's "Monitor I" output (App. A), as digitised. Not fitted unless a rig says so: an
+// estimator sees only the sensors that its rig lists.
+struct CurrentMonitorParameters {
+  bool fitted = false;
+  double bandwidth_Hz = 1000.0;    // assumed; below the current loop's 2.5 kHz
+  double noise_rms_A = 5e-3;       // assumed
+  double bias_deviation_A = 5e-3;  // assumed; the bias itself is drawn from the seed
+  double sample_period_s = 1e-3;   // assumed
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("fitted", fitted, core::any_finite(), "whether the current is measured");
+    v.value("bandwidth_Hz", bandwidth_Hz, core::between(1.0, 1e5), "first order");
+    v.value("noise_rms_A", noise_rms_A, core::at_least(0.0), "white, on each sample");
+    v.value("bias_deviation_A", bias_deviation_A, core::at_least(0.0),
+            "standard deviation of the constant error");
+    v.value("sample_period_s", sample_period_s, core::between(1e-4, 1.0),
+            "whole number of plant ticks");
+  }
+};
+
+// Six-axis force/torque sensor between mount and shaft, tared at the start of the run.
+struct ForceSensorParameters {
+  bool fitted = false;
+  double load_mass_kg = 0.4;          // assumed; shaft and object below it, part of the axes' mass
+  double lever_m = 0.30;              // assumed; from the sensor down to where the load is pushed
+  double bandwidth_Hz = 200.0;        // assumed
+  double force_noise_rms_N = 0.02;    // assumed
+  double torque_noise_rms_Nm = 1e-3;  // assumed
+  double force_bias_deviation_N = 0.02;    // assumed; the biases are drawn from the seed
+  double torque_bias_deviation_Nm = 1e-3;  // assumed
+  double sample_period_s = 1e-3;           // assumed
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("fitted", fitted, core::any_finite(), "whether the sensor is mounted");
+    v.value("load_mass_kg", load_mass_kg, core::at_least(0.0), "what hangs below the sensor");
+    v.value("lever_m", lever_m, core::at_least(0.0),
+            "from the sensor down to where the load is pushed and has its centre");
+    v.value("bandwidth_Hz", bandwidth_Hz, core::between(1.0, 1e5), "first order");
+    v.value("force_noise_rms_N", force_noise_rms_N, core::at_least(0.0), "white, on each sample");
+    v.value("torque_noise_rms_Nm", torque_noise_rms_Nm, core::at_least(0.0),
+            "white, on each sample");
+    v.value("force_bias_deviation_N", force_bias_deviation_N, core::at_least(0.0),
+            "standard deviation of each force's constant error");
+    v.value("torque_bias_deviation_Nm", torque_bias_deviation_Nm, core::at_least(0.0),
+            "standard deviation of each torque's constant error");
+    v.value("sample_period_s", sample_period_s, core::between(1e-4, 1.0),
+            "whole number of plant ticks");
+  }
+};
+
 }  // namespace towbench::emulator

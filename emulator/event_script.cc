@@ -1,0 +1,40 @@
+#include "emulator/event_script.h"
+
+#include <algorithm>
+
+namespace towbench::emulator {
+namespace {
+
+// False when this tick has no room for it: the next one takes it.
+[[nodiscard]] bool fire(Rig& rig, const ScheduledEvent& event, core::Nanoseconds time_ns) noexcept {
+  switch (event.kind) {
+    case ScheduledEventKind::kPressKillSwitch:
+      return rig.set_kill_switch(true, time_ns);
+    case ScheduledEventKind::kReleaseKillSwitch:
+      return rig.set_kill_switch(false, time_ns);
+    case ScheduledEventKind::kPushCarriage:
+      rig.push_carriage(event.axis, event.value, time_ns);
+      return true;
+  }
+  return true;
+}
+
+}  // namespace
+
+void EventScript::fire_due(Rig& rig, PlantObserver& observer) noexcept {
+  const core::Nanoseconds start_ns = rig.now_ns();
+  const core::Nanoseconds end_ns = start_ns + core::kPlantTick_ns;
+  for (; next_ < events_.size() && events_[next_].time_ns < end_ns; ++next_) {
+    const ScheduledEvent& event = events_[next_];
+    const core::Nanoseconds time_ns = std::max(event.time_ns, start_ns);
+    if (!fire(rig, event, time_ns)) {
+      return;
+    }
+    observer.on_event({.time_ns = time_ns,
+                       .kind = PlantEventKind::kScheduledEventFired,
+                       .axis = event.axis,
+                       .value = static_cast<double>(next_)});
+  }
+}
+
+}  // namespace towbench::emulator

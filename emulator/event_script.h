@@ -1,0 +1,29 @@
+// What an experiment makes happen to the machine, each at its own nanosecond.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/realtime.h"
+#include "emulator/plant_node.h"
+#include "emulator/rig.h"
+#include "emulator/scheduled_event.h"
+
+namespace towbench::emulator {
+
+class EventScript {
+ public:
+  // Sorted by time. Events before the start of the run fire in its first tick.
+  explicit EventScript(std::span<const ScheduledEvent> events)
+      : events_(events.begin(), events.end()) {}
+
+  // Before a tick of the rig: fires what falls into it.
+  TOWBENCH_REALTIME void fire_due(Rig& rig, PlantObserver& observer) noexcept;
+
+ private:
+  std::vector<ScheduledEvent> events_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace towbench::emulator
