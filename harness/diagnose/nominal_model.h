@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace towbench::harness::diagnose {
 
@@ -22,6 +23,15 @@ struct NominalModel {
   double newton_per_volt = 0;        // of a log in controller volts
   double force_limit_N = 0;          // current limit; 0: none
   double no_load_speed_m_per_s = 0;  // back-EMF equals supply; 0: not known
+  // Terms beyond the lumped four, taken as known; zero or empty: not in the model.
+  double breakaway_excess_N = 0;  // S - C, (3.25)
+  double stribeck_speed_m_per_s = 0;
+  bool stribeck_is_lorentz = false;   // (3.26)
+  std::vector<double> friction_at_m;  // position friction, piecewise linear, (3.34)
+  std::vector<double> friction_N;
+  double chain_frequency_Hz = 0;   // of the load against a held motor
+  double chain_damping_ratio = 0;  // of that mode
+  double chain_load_kg = 0;
   // True when mass, friction levels come from a file; false: fitted only, nothing was supplied.
   bool supplied = true;
   // The log's input is held from its own sample to the next, so it acts half a period late.

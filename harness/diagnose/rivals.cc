@@ -8,6 +8,8 @@ namespace {
 
 constexpr double kInSample = 0.97;
 constexpr double kHeldOut = 1.05;
+// Two causes of equal size are no rivals: a rival must make most of the same contribution.
+constexpr double kRelated = 0.85;
 
 // Cosine between a vector and its projection on a space.
 double cosine(const Eigen::MatrixXd& space, const Eigen::VectorXd& vector) {

@@ -12,6 +12,7 @@ struct Run {
   double period_s = 0;          // between samples
   Eigen::VectorXd position_m;   // carriage, by the rigid gear
   Eigen::VectorXd input_N;      // force that the nominal model says the command makes
+  Eigen::VectorXd known_N;      // force of terms that the model already has; empty: none
   Eigen::VectorXd reference_m;  // empty when the log has none
   // The other axis of the machine, empty when the log has none.
   Eigen::VectorXd other_position_m;

@@ -49,6 +49,7 @@ class Selector {
     s.heldout_after = s.heldout_before;
     while (s.causes.size() < kMostCauses && add_one(s)) {
     }
+    prune(s);
     settle(s);
     return s;
   }
@@ -110,6 +111,26 @@ class Selector {
                             100 * gain.ci99.value));
     }
     return true;
+  }
+
+  // A cause accepted early may be idle once the others stand: each must gain over the model without
+  // it. Its gain is then that of the final model.
+  void prune(Selection& s) {
+    for (std::size_t i = s.causes.size(); s.causes.size() > 1 && i-- > 0;) {
+      std::vector<Term> others = s.terms();
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+      const Evidence without = weigh(data_, context_, others, laws_, kTwinRounds, seed_);
+      const Eigen::VectorXd residual = heldout_.residual({others, without.coefficients});
+      const Gain gain = heldout_.gain(residual, s.heldout_after, seed_);
+      if (gain.ci99.low > 0 && gain.ci99.value > kLeastGain) {
+        s.causes[i].gain = gain;
+        continue;
+      }
+      s.rejected.push_back({s.causes[i].term.effect->name, s.causes[i].p_value, gain.ci99});
+      s.causes.erase(s.causes.begin() + static_cast<std::ptrdiff_t>(i));
+      s.after = without;
+      s.heldout_after = residual;
+    }
   }
 
   // Coefficients of the final model, and the gain of all causes together.

@@ -107,6 +107,9 @@ Signals make_signals(const Run& run, const Conditioning& conditioning, bool inpu
   s.speed_m_per_s = central_difference(s.position_m, run.period_s);
   s.acceleration_m_per_s2 = central_difference(s.speed_m_per_s, run.period_s);
   s.input_N = input_is_held ? held(run.input_N) : run.input_N;
+  if (run.known_N.size() == n) {
+    s.input_N -= run.known_N;
+  }
   if (run.other_position_m.size() == n) {
     s.other_speed_m_per_s = central_difference(smooth.apply(run.other_position_m), run.period_s);
     s.other_acceleration_m_per_s2 = central_difference(s.other_speed_m_per_s, run.period_s);

@@ -15,7 +15,7 @@ struct Signals {
   Eigen::VectorXd position_m;
   Eigen::VectorXd speed_m_per_s;
   Eigen::VectorXd acceleration_m_per_s2;
-  Eigen::VectorXd input_N;           // as it acts: the hold's half period is in it
+  Eigen::VectorXd input_N;           // as it acts (hold's half period in it), less what is known
   Eigen::VectorXd direction;         // +1, -1, and what it was last while standing
   Eigen::VectorXd since_reversal_m;  // path travelled since the direction last changed
   Eigen::VectorXd since_reversal_s;

@@ -51,6 +51,9 @@ class Simulation {
         held_(input_is_held) {
     core::Random random(seed);
     phase_ = random.uniform();
+    if (log_.known_N.size() == log_.size()) {
+      extra_ += log_.known_N;
+    }
     feed_forward_ = base_columns(signals_) * theta_ + extra_;
   }
 
@@ -89,7 +92,7 @@ class Simulation {
   const Run& log_;
   const Signals& signals_;
   const Theta& theta_;
-  const Eigen::VectorXd& extra_;
+  Eigen::VectorXd extra_;
   bool held_;
   Eigen::VectorXd feed_forward_;
   double phase_ = 0;

@@ -1,0 +1,140 @@
+#include "harness/diagnose/diagnosis.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/diagnose/context.h"
+#include "harness/diagnose/known_terms.h"
+#include "harness/diagnose/model_checks.h"
+
+namespace towbench::harness::diagnose {
+namespace {
+
+using Eigen::Index;
+
+constexpr Index kStretches = 9;  // of a single run; every third is held out
+constexpr Index kFewestRows = 60;
+
+bool everywhere(Index /*row*/, Index /*rows*/) {
+  return true;
+}
+bool in_heldout_stretch(Index row, Index rows) {
+  return (row * kStretches / rows) % 3 == 2;
+}
+bool in_fitted_stretch(Index row, Index rows) {
+  return !in_heldout_stretch(row, rows);
+}
+
+void take_off_known_terms(std::vector<Run>& runs, const NominalModel& model,
+                          const Conditioning& conditioning) {
+  for (Run& run : runs) {
+    run.known_N = known_force_N(model, make_signals(run, conditioning, model.input_is_held));
+  }
+}
+
+struct Split {
+  Dataset fit;
+  Dataset heldout;
+  bool same_session = false;
+};
+
+Split split(const Request& request) {
+  std::vector<Run> runs = request.runs;
+  std::vector<Run> holdout = request.holdout;
+  std::vector<Run> all = runs;
+  all.insert(all.end(), holdout.begin(), holdout.end());
+  const Conditioning conditioning = choose_conditioning(all, std::max(request.model.mass_kg, 1e-9));
+  const bool held = request.model.input_is_held;
+  take_off_known_terms(runs, request.model, conditioning);
+  take_off_known_terms(holdout, request.model, conditioning);
+  if (holdout.empty() && runs.size() > 1) {
+    holdout.push_back(runs.back());
+    runs.pop_back();
+  }
+  if (!holdout.empty()) {
+    return {make_dataset(runs, conditioning, held, everywhere),
+            make_dataset(holdout, conditioning, held, everywhere), false};
+  }
+  return {make_dataset(runs, conditioning, held, in_fitted_stretch),
+          make_dataset(runs, conditioning, held, in_heldout_stretch), true};
+}
+
+// Force that repeats with the reference differs from lap to lap by noise alone.
+std::optional<double> lap_noise_N(const Dataset& data) {
+  const Run& run = data.members.front().run;
+  const Eigen::VectorXd& r = run.reference_m;
+  const Index n = run.size();
+  if (r.size() != n) {
+    return std::nullopt;
+  }
+  const double span = r.maxCoeff() - r.minCoeff();
+  for (Index lap = n / 12; lap <= n / 2; ++lap) {
+    bool same = span > 0;
+    for (Index i = lap; i < n && same; i += 7) {
+      same = std::abs(r[i] - r[i - lap]) < 1e-6 * span;
+    }
+    if (same) {
+      const auto filter = ZeroPhaseFilter::sharp(data.conditioning.cutoff_Hz, 1 / run.period_s);
+      const Eigen::VectorXd u = filter.apply(run.input_N);
+      // The first lap starts from rest and is no repeat.
+      const Index from = std::min(2 * lap, n - 1);
+      const Eigen::VectorXd d = u.tail(n - from) - u.segment(from - lap, n - from);
+      return n - from > lap / 2 ? std::optional<double>(std::sqrt(
+                                      d.squaredNorm() / (2.0 * static_cast<double>(d.size()))))
+                                : std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
+
+void conclude(Diagnosis& d) {
+  const bool moved = std::any_of(d.parameters.begin(), d.parameters.end(),
+                                 [](const ParameterShift& shift) { return shift.moved; });
+  if (moved) {
+    d.verdicts.emplace_back("parameters_off");
+  }
+  if (!d.selection.causes.empty()) {
+    d.verdicts.emplace_back("cause_found");
+  }
+  if (d.unexplained) {
+    d.verdicts.emplace_back("unexplained_structure");
+  }
+  if (d.verdicts.empty()) {
+    d.verdicts.emplace_back("model_adequate");
+  }
+}
+
+}  // namespace
+
+Diagnosis diagnose(const Request& request) {
+  Diagnosis d;
+  const Split data = split(request);
+  if (data.fit.rows() < kFewestRows || data.heldout.rows() < kFewestRows) {
+    d.findings.push_back({Finding::Kind::kFatal, "too_little_motion",
+                          "too few samples in motion are left to fit and to judge on"});
+    return d;
+  }
+  d.context = make_context(request.model, data.fit);
+  check_against_model(data.fit, d.context, d.findings);
+  d.data = data.fit;
+  if (is_fatal(d.findings)) {
+    return d;
+  }
+  const HeldOut heldout(data.heldout, d.context, data.same_session);
+  d.selection = select_causes(data.fit, heldout, d.context, request.seed, request.progress);
+  d.parameters = judge_parameters(request.model, d.selection.after);
+  d.unexplained = find_unexplained(data.fit, d.selection.after);
+  d.not_testable = find_not_testable(d.selection);
+  for (const Cause& cause : d.selection.causes) {
+    d.separating.push_back(cause.rivals.empty()
+                               ? std::nullopt
+                               : separate(data.fit, d.context, cause, cause.rivals.front()));
+  }
+  d.lap_to_lap_rms_N = lap_noise_N(data.fit);
+  d.heldout_force_rms_N = heldout.force_rms_N();
+  d.heldout_same_session = data.same_session;
+  conclude(d);
+  return d;
+}
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,84 @@
+#include "harness/diagnose/parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace towbench::harness::diagnose {
+namespace {
+
+constexpr double kErrors = 4;
+constexpr double kForceShare = 0.01;
+
+// fitted / supplied with its standard error.
+struct Ratio {
+  double value = 1;
+  double error = 0;
+};
+
+Ratio ratio_of(const ParameterShift& shift) {
+  const double error = (shift.fitted.high - shift.fitted.low) / (2 * 1.96);
+  return {shift.fitted.value / shift.supplied, error / std::abs(shift.supplied)};
+}
+
+bool agree(const Ratio& a, const Ratio& b) {
+  return std::abs(a.value - b.value) <
+         std::max(3 * std::hypot(a.error, b.error), 0.1 * std::abs(a.value - 1));
+}
+
+}  // namespace
+
+std::vector<ParameterShift> judge_parameters(const NominalModel& model, const Evidence& evidence) {
+  const std::array<std::string, 4> names{"inertia", "viscous", "coulomb", "bias"};
+  const std::array<std::string, 4> units{"kg", "N s/m", "N", "N"};
+  const std::array<double, 4> supplied{model.mass_kg, model.viscous_N_s_per_m, model.coulomb_N,
+                                       model.bias_N};
+  const double force = std::sqrt(evidence.y.squaredNorm() /
+                                 static_cast<double>(std::max<Eigen::Index>(1, evidence.y.size())));
+  std::vector<ParameterShift> shifts;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto j = static_cast<Eigen::Index>(i);
+    const double error = std::sqrt(std::max(0.0, evidence.covariance(j, j)));
+    const double value = evidence.coefficients[j];
+    const double off = value - supplied[i];
+    const double column =
+        evidence.x.col(j).norm() / std::sqrt(static_cast<double>(evidence.y.size()));
+    const bool moved = model.supplied && std::abs(off) > kErrors * error &&
+                       std::abs(off) * column > kForceShare * force;
+    shifts.push_back({names[i],
+                      supplied[i],
+                      {value, value - 1.96 * error, value + 1.96 * error},
+                      units[i],
+                      moved,
+                      {}});
+  }
+  if (shifts[kMass].moved) {
+    shifts[kMass].indistinguishable_from = {"added_mass"};
+  }
+  if (shifts[kBias].moved) {
+    shifts[kBias].indistinguishable_from = {"constant_bias", "coulomb_asymmetry"};
+  }
+  const std::string common = common_cause(shifts);
+  for (std::size_t i = 0; i < 3 && !common.empty(); ++i) {
+    if (shifts[i].moved) {
+      shifts[i].indistinguishable_from.push_back(common);
+    }
+  }
+  return shifts;
+}
+
+std::string common_cause(const std::vector<ParameterShift>& shifts) {
+  if (!shifts[kMass].moved || shifts[kViscous].supplied == 0 || shifts[kCoulomb].supplied == 0) {
+    return {};
+  }
+  const Ratio mass = ratio_of(shifts[kMass]);
+  const Ratio viscous = ratio_of(shifts[kViscous]);
+  const Ratio coulomb = ratio_of(shifts[kCoulomb]);
+  if (agree(mass, coulomb) && agree(mass, viscous)) {
+    return "amplifier_gain";
+  }
+  const bool same = agree(mass, viscous) && std::abs(viscous.value - 1) > 3 * viscous.error;
+  return same && !shifts[kCoulomb].moved ? "encoder_count_loss" : std::string{};
+}
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,31 @@
+// The nominal structure refitted: which of its parameters are not what the model says.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/diagnose/evidence.h"
+#include "harness/diagnose/heldout.h"
+
+namespace towbench::harness::diagnose {
+
+struct ParameterShift {
+  std::string name;     // inertia, viscous, coulomb, bias
+  double supplied = 0;  // load side
+  Interval fitted;      // 95 %
+  std::string unit;     // load side
+  bool moved = false;
+  std::vector<std::string> indistinguishable_from;
+};
+
+// A parameter has moved when it lies more than 4 standard errors (HAC) and 1 % of the model's
+// whole force rms from what was supplied. `causes` are in the model already.
+// Classes: {inertia, added_mass}; all by one ratio: {amplifier_gain}; inertia and viscous by one
+// ratio, Coulomb not: {encoder_count_loss}; bias: {constant_bias, coulomb_asymmetry}.
+[[nodiscard]] std::vector<ParameterShift> judge_parameters(const NominalModel& model,
+                                                           const Evidence& evidence);
+
+// The one effect that stands behind several shifts, by name; empty when there is none.
+[[nodiscard]] std::string common_cause(const std::vector<ParameterShift>& shifts);
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,36 @@
+// An axis with one thing wrong, and the log that its bench would write. Shares no code with the
+// library of effects under test: laws are written again, in time, as forces on a body.
+//
+// The body is the nominal Y axis seen at the carriage (plant.md: Table 7.4 through R/n): 8.39 kg,
+// 5.41 N s/m, 1.58 N, 445,345 counts/m, 0.691 N per % duty; 1 kHz PID with 0.1 % duty steps.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace towbench::tests {
+
+struct HiddenAxis {
+  double mass_kg = 8.387;
+  double viscous_N_s_per_m = 5.412;
+  double coulomb_N = 1.581;
+  double newton_per_duty_pct = 0.6911;
+  double counts_per_m = 445345.0;
+  double motor_turns_per_m = 111.336;
+  double sprocket_radius_m = 0.050;
+  double duration_s = 30;
+  double period_s = 1e-3;
+  std::string effect;  // a name of the interface, "outside" for one that is in no library, or empty
+  double strength = 1;  // 1 = full
+  std::string second_effect;
+};
+
+struct HiddenLog {
+  std::vector<double> time_s, position_m, duty_pct, reference_m;
+};
+
+// Draws the motion, the signs and the sizes (within 30 %) from the seed.
+[[nodiscard]] HiddenLog make_hidden_log(const HiddenAxis& axis, std::uint64_t seed);
+
+}  // namespace towbench::tests
