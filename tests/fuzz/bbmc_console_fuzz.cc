@@ -45,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) {
     return 0;
   }
-  Session session;
+  Session session(200);
   const std::uint8_t mode = data[0];
   if ((mode & 1U) != 0) {
     session.calibrate();

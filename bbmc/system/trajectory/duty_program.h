@@ -4,14 +4,18 @@
 #include <type_traits>
 #include <variant>
 
+#include "bbmc/system/trajectory/prbs_program.h"
 #include "bbmc/system/trajectory/pulse_program.h"
+#include "bbmc/system/trajectory/sine_program.h"
+#include "bbmc/system/trajectory/steps_program.h"
 #include "core/realtime.h"
 
 namespace towbench::bbmc {
 
 class DutyProgram {
  public:
-  using Shape = std::variant<PulseProgram, BreakAwayProgram>;
+  using Shape =
+      std::variant<PulseProgram, BreakAwayProgram, StepsProgram, SineProgram, PrbsProgram>;
 
   // No pulse, no duration.
   DutyProgram() noexcept = default;

@@ -3,25 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bbmc/system/trajectory/program_time.h"
+
 namespace towbench::bbmc {
 namespace {
 
-constexpr double kLongest_s = 86'400;
 constexpr double kMostSteps = 1e6;
-
-// Not NaN, not longer than a day, so that whole nanoseconds hold it with room to spare.
-bool is_time(double time_s) noexcept {
-  return time_s >= 0 && time_s <= kLongest_s;
-}
-
-bool is_duty(double duty_pct) noexcept {
-  return std::fabs(duty_pct) > 0 && std::fabs(duty_pct) <= 100;
-}
-
-// Clamped, so that no time a caller may name overflows.
-core::Nanoseconds whole_nanoseconds(double time_s) noexcept {
-  return time_s > 0 ? core::nanoseconds(std::min(time_s, 1e4 * kLongest_s)) : 0;
-}
 
 }  // namespace
 

@@ -1,7 +1,6 @@
 // Open-loop duty against time: square-wave pulses (thesis 7.2.1), steps, and the break-away ramp.
 //
-// Times are compared in whole nanoseconds, so that an edge falls on its control tick at every rate
-// and not on the next one because 0.1 + 0.2 is not 0.3.
+// Times are compared in whole nanoseconds (program_time.h).
 #pragma once
 
 #include <cstdint>

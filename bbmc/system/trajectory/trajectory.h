@@ -5,7 +5,9 @@
 #include <type_traits>
 #include <variant>
 
+#include "bbmc/system/trajectory/chain.h"
 #include "bbmc/system/trajectory/harmonic.h"
+#include "bbmc/system/trajectory/hold.h"
 #include "bbmc/system/trajectory/reference.h"
 #include "bbmc/system/trajectory/s_curve.h"
 #include "bbmc/system/trajectory/trapezoid.h"
@@ -13,26 +15,9 @@
 
 namespace towbench::bbmc {
 
-// Stands where it is.
-class Hold {
- public:
-  Hold() noexcept = default;
-  explicit Hold(double position_m, double duration_s = 0.0) noexcept
-      : position_m_(position_m), duration_s_(duration_s) {}
-
-  [[nodiscard]] Reference at(double /*time_s*/) const noexcept {
-    return {.position_m = position_m_};
-  }
-  [[nodiscard]] double duration_s() const noexcept { return duration_s_; }
-
- private:
-  double position_m_ = 0;
-  double duration_s_ = 0;
-};
-
 class Trajectory {
  public:
-  using Shape = std::variant<Hold, Trapezoid, SCurve, Harmonic>;
+  using Shape = std::variant<Hold, Trapezoid, SCurve, Harmonic, Chain>;
 
   Trajectory() noexcept = default;
   template <typename T>

@@ -14,12 +14,11 @@ Configuration tabletop_configuration() {
   return configuration;
 }
 
-constexpr std::size_t kLogRows = 20'000;
 constexpr double kLongest_s = 120;
 
 }  // namespace
 
-Session::Session() : log_(kLogRows) {
+Session::Session(std::size_t log_rows) : log_(log_rows) {
   const Configuration configuration = tabletop_configuration();
   machine_ = std::make_unique<Tabletop>(configuration);
   devices_ = std::make_unique<DeviceManager>(machine_->ports());
