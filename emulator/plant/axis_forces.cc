@@ -34,10 +34,11 @@ AxisForces AxisPlant::forces() const noexcept {
   f.terminal_V = terminal_V(model, situation_, z_);
   f.motor_torque_Nm = model.parameters.torque_constant_Nm_per_A * z_[kCurrent];
   f.motor_sticks = regime.motor_direction == 0;
-  f.motor_friction_Nm = f.motor_sticks
-                            ? -motor_load_Nm(model, situation_, z_, 1.0)
-                            : -regime.motor_direction * motor_level_Nm(model, z_[kMotorSpeed], x, interval) -
-                                  m.motor_viscous_Nm_s_per_rad * z_[kMotorSpeed];
+  f.motor_friction_Nm =
+      f.motor_sticks
+          ? -motor_load_Nm(model, situation_, z_, 1.0)
+          : -regime.motor_direction * motor_level_Nm(model, z_[kMotorSpeed], x, interval) -
+                m.motor_viscous_Nm_s_per_rad * z_[kMotorSpeed];
   f.external_force_N = situation_.held.carriage_force_N;
   if (regime.end == HardEnd::kPushing) {
     f.end_force_N = -regime.end_sign * end_push_N(model, z_, 1.0, regime.end_sign);

@@ -1,17 +1,10 @@
 #include "emulator/plant/axis_plant.h"
 
-#include "emulator/plant/guards.h"
+#include "emulator/plant/event_search.h"
 #include "emulator/plant/transitions.h"
 
 namespace towbench::emulator {
 namespace {
-
-struct Crossing {
-  Event event = Event::kMotorStops;
-  double sign = 0;
-  double fraction = 1.0;
-  bool found = false;
-};
 
 double clamp(double value, double limit) noexcept {
   if (value > limit) {
@@ -20,68 +13,27 @@ double clamp(double value, double limit) noexcept {
   return value < -limit ? -limit : value;
 }
 
-// The margin that turns negative first along the flow. Margins are looked at in the middle and at
-// the end: what dips below zero and comes back within half a tick is taken for rounding.
-Crossing first_event(const AxisModel& model, const Situation& s, const TaylorFlow& flow) noexcept {
-  struct Suspect {
-    bool leaves = false;
-    double last = 1.0;
-  };
-  constexpr std::size_t kMostMargins = 8;
-  std::array<Suspect, kMostMargins> suspects{};
-  bool any = false;
-  for (const double fraction : {1.0, 0.5}) {
-    std::size_t i = 0;
-    visit_guards(model, s, flow.at(fraction), 1.0, [&](Event, double, double margin) {
-      if (margin < 0) {
-        suspects[i] = {.leaves = true, .last = fraction};
-        any = true;
-      }
-      ++i;
-    });
-  }
-  Crossing first;
-  if (!any) {
-    return first;
-  }
-  std::array<ScalarSeries, kMostMargins> series;
-  for (int k = 0; k <= flow.terms(); ++k) {
-    std::size_t i = 0;
-    visit_guards(
-        model, s, flow.coefficient(k), k == 0 ? 1.0 : 0.0,
-        [&](Event, double, double margin) { series[i++][static_cast<std::size_t>(k)] = margin; });
-  }
-  std::size_t i = 0;
-  visit_guards(model, s, flow.coefficient(0), 1.0, [&](Event event, double sign, double) {
-    if (suspects[i].leaves) {
-      const double fraction = first_crossing(series[i], flow.terms(), suspects[i].last);
-      if (!first.found || fraction < first.fraction) {
-        first = {.event = event, .sign = sign, .fraction = fraction, .found = true};
-      }
-    }
-    ++i;
-  });
-  return first;
-}
-
 void append(MotionSegments& segments, double start_s, double end_s, const StateVector& start,
             const StateVector& end) noexcept {
   core::check(segments.push_back({.start_s = start_s,
-                             .end_s = end_s,
-                             .start_angle_rad = start[kMotorAngle],
-                             .start_speed_rad_per_s = start[kMotorSpeed],
-                             .end_angle_rad = end[kMotorAngle],
-                             .end_speed_rad_per_s = end[kMotorSpeed]}));
+                                  .end_s = end_s,
+                                  .start_angle_rad = start[kMotorAngle],
+                                  .start_speed_rad_per_s = start[kMotorSpeed],
+                                  .end_angle_rad = end[kMotorAngle],
+                                  .end_speed_rad_per_s = end[kMotorSpeed]}));
 }
 
-// Whether dry friction does not depend on speed here, for a tick at least.
-bool friction_has_settled(const AxisModel& model, const Situation& s,
-                          const StateVector& z) noexcept {
-  const auto faded = [&](const DryFriction& law, double direction, double speed) {
-    return direction == 0 || model.stribeck.has_faded(std::fabs(speed) * law.inverse_speed);
+// Whether the middle speeds taken for friction were off by so much that it shows: by 1e-4 of the
+// Stribeck speed, and at a speed where friction depends on it.
+bool prediction_failed(const AxisModel& model, double motor, double motor_miss, double carriage,
+                       double carriage_miss) noexcept {
+  constexpr double kTolerance = 1e-4;
+  const auto failed = [&](const DryFriction& law, double speed, double miss) {
+    return std::fabs(miss) * law.inverse_speed > kTolerance &&
+           !model.stribeck.has_faded(std::fabs(speed) * law.inverse_speed);
   };
-  return faded(model.mechanics.motor, s.regime.motor_direction, z[kMotorSpeed]) &&
-         faded(model.mechanics.carriage, s.regime.carriage_direction, z[kCarriageSpeed]);
+  return failed(model.mechanics.motor, motor, motor_miss) ||
+         failed(model.mechanics.carriage, carriage, carriage_miss);
 }
 
 }  // namespace
@@ -90,7 +42,13 @@ AxisPlant::AxisPlant(const AxisParameters& parameters, double carriage_m, double
     : model_(std::make_shared<const AxisModel>(parameters, tick_s)) {
   z_[kMotorAngle] = carriage_m / model_->mechanics.metres_per_radian;
   settle(*model_, situation_, z_);
+  enter_mode();
+}
+
+void AxisPlant::enter_mode() noexcept {
   mode_index_ = mode_of(situation_.regime).index();
+  mode_ = &model_->ticks[mode_index_];
+  cruise_ = prepare_cruise(*model_, situation_);
 }
 
 void AxisPlant::take(const AxisInput& input) noexcept {
@@ -105,7 +63,7 @@ void AxisPlant::take(const AxisInput& input) noexcept {
   held.carriage_force_N = input.carriage_force_N;
   input_ = input;
   settle(*model_, situation_, z_);
-  mode_index_ = mode_of(situation_.regime).index();
+  enter_mode();
 }
 
 void AxisPlant::step(const AxisInput& input, MotionSegments& segments) noexcept {
@@ -114,6 +72,13 @@ void AxisPlant::step(const AxisInput& input, MotionSegments& segments) noexcept 
   if (!(input == input_)) {
     take(input);
   }
+  StateVector next;
+  if (cruise_.possible &&
+      cruise(*model_, cruise_, situation_.position_interval, half_change_, z_, next)) {
+    append(segments, 0.0, model_->tick_s, z_, next);
+    z_ = next;
+    return;
+  }
   if (!step_without_event(segments)) {
     step_through_events(segments);
   }
@@ -121,8 +86,9 @@ void AxisPlant::step(const AxisInput& input, MotionSegments& segments) noexcept 
 
 // Dry friction at the middle of a piece of motion, where it stands for the piece's mean to second
 // order in its length.
-void AxisPlant::update_friction(double motor_rad_per_s, double carriage_m_per_s,
-                                double carriage_m) noexcept {
+[[gnu::always_inline]] inline void AxisPlant::update_friction(double motor_rad_per_s,
+                                                              double carriage_m_per_s,
+                                                              double carriage_m) noexcept {
   const AxisModel& model = *model_;
   Situation& s = situation_;
   if (model.motor_is_dry && s.regime.motor_direction != 0) {
@@ -135,19 +101,23 @@ void AxisPlant::update_friction(double motor_rad_per_s, double carriage_m_per_s,
 }
 
 // The whole tick by its matrices. Friction is taken where the tick's middle will be if the speed
-// stays; where it depends on speed, what that missed is added afterwards, as a linear mode allows.
-// False, and nothing changed but friction levels, when an event lies inside.
+// changes as in the tick before; where that turns out wrong and friction depends on speed, what was
+// missed is added afterwards, as a linear mode allows. False, and nothing changed but friction
+// levels, when an event lies inside.
 bool AxisPlant::step_without_event(MotionSegments& segments) noexcept {
   const AxisModel& model = *model_;
-  const DiscreteMode& mode = model.ticks[mode_index_];
-  const double half_tick_s = 0.5 * model.tick_s;
-  const double middle_m = carriage_position_m(model, z_) + half_tick_s * z_[kCarriageSpeed];
-  update_friction(z_[kMotorSpeed], z_[kCarriageSpeed], middle_m);
+  const DiscreteMode& mode = *mode_;
+  const double middle_m = carriage_position_m(model, z_) + 0.5 * model.tick_s * z_[kCarriageSpeed];
+  const double motor_middle = z_[kMotorSpeed] + half_change_.motor_rad_per_s;
+  const double carriage_middle = z_[kCarriageSpeed] + half_change_.carriage_m_per_s;
+  update_friction(motor_middle, carriage_middle, middle_m);
   const InputVector inputs = held_inputs(model, situation_);
   StateVector next = emulator::step(mode, z_, inputs);
-  if (!friction_has_settled(model, situation_, z_)) {
-    update_friction(0.5 * (z_[kMotorSpeed] + next[kMotorSpeed]),
-                    0.5 * (z_[kCarriageSpeed] + next[kCarriageSpeed]), middle_m);
+  const double motor_change = 0.5 * (next[kMotorSpeed] - z_[kMotorSpeed]);
+  const double carriage_change = 0.5 * (next[kCarriageSpeed] - z_[kCarriageSpeed]);
+  if (prediction_failed(model, motor_middle, motor_change - half_change_.motor_rad_per_s,
+                        carriage_middle, carriage_change - half_change_.carriage_m_per_s)) {
+    update_friction(z_[kMotorSpeed] + motor_change, z_[kCarriageSpeed] + carriage_change, middle_m);
     const InputVector refined = held_inputs(model, situation_);
     add_input(mode, kMotorTorque, refined[kMotorTorque] - inputs[kMotorTorque], next);
     add_input(mode, kCarriageForce, refined[kCarriageForce] - inputs[kCarriageForce], next);
@@ -155,6 +125,7 @@ bool AxisPlant::step_without_event(MotionSegments& segments) noexcept {
   if (!regime_holds(model, situation_, next)) {
     return false;
   }
+  half_change_ = {.motor_rad_per_s = motor_change, .carriage_m_per_s = carriage_change};
   append(segments, 0.0, model.tick_s, z_, next);
   z_ = next;
   return true;
@@ -206,7 +177,7 @@ void AxisPlant::step_through_events(MotionSegments& segments) noexcept {
       record_contact(time_s, crossing.sign);
     }
     cross(model, crossing.event, crossing.sign, situation_, z_);
-    mode_index_ = mode_of(situation_.regime).index();
+    enter_mode();
   }
 }
 

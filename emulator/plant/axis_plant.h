@@ -17,7 +17,7 @@
 #include "core/time.h"
 #include "emulator/plant/axis_forces.h"
 #include "emulator/plant/axis_parameters.h"
-#include "emulator/plant/situation.h"
+#include "emulator/plant/cruise.h"
 #include "emulator/plant/taylor_flow.h"
 
 namespace towbench::emulator {
@@ -82,6 +82,7 @@ class AxisPlant {
 
  private:
   void take(const AxisInput& input) noexcept;
+  void enter_mode() noexcept;
   [[nodiscard]] bool step_without_event(MotionSegments& segments) noexcept;
   void step_through_events(MotionSegments& segments) noexcept;
   [[nodiscard]] TaylorFlow flow_from_here(double span_s) noexcept;
@@ -92,6 +93,9 @@ class AxisPlant {
   StateVector z_{};
   Situation situation_;
   std::size_t mode_index_ = 0;  // of situation_.regime
+  const DiscreteMode* mode_ = nullptr;
+  Cruise cruise_;
+  HalfChange half_change_;
   AxisInput input_;  // of the step before
   HardEndContact contact_;
 };

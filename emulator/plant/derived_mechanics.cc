@@ -5,18 +5,24 @@
 namespace towbench::emulator {
 namespace {
 
+// `radius` turns a torque at the motor into a force on the body, and a speed likewise.
+DryFriction dry_friction(const AxisParameters& p, double share, double radius) noexcept {
+  const double coulomb = share * p.coulomb_friction_Nm / radius;
+  const double breakaway = share * p.friction.breakaway_Nm / radius;
+  return {.coulomb = coulomb,
+          .breakaway = breakaway,
+          .excess = breakaway - coulomb,
+          .inverse_speed = 1.0 / (p.friction.stribeck_speed_rad_per_s * radius)};
+}
+
 void share_out(const AxisParameters& p, DerivedMechanics& d) noexcept {
   const double r = d.metres_per_radian;
   const double on_carriage = p.chain.rigid ? 0.0 : p.friction.carriage_share;
   const double on_motor = 1.0 - on_carriage;
   d.motor_viscous_Nm_s_per_rad = on_motor * p.viscous_friction_Nm_s_per_rad;
   d.carriage_viscous_N_s_per_m = on_carriage * p.viscous_friction_Nm_s_per_rad / (r * r);
-  d.motor = {.coulomb = on_motor * p.coulomb_friction_Nm,
-             .breakaway = on_motor * p.friction.breakaway_Nm,
-             .inverse_speed = 1.0 / p.friction.stribeck_speed_rad_per_s};
-  d.carriage = {.coulomb = on_carriage * p.coulomb_friction_Nm / r,
-                .breakaway = on_carriage * p.friction.breakaway_Nm / r,
-                .inverse_speed = 1.0 / (p.friction.stribeck_speed_rad_per_s * r)};
+  d.motor = dry_friction(p, on_motor, 1.0);
+  d.carriage = dry_friction(p, on_carriage, r);
 }
 
 void derive_chain(const AxisParameters& p, DerivedMechanics& d) noexcept {

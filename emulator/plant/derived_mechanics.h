@@ -18,6 +18,7 @@ namespace towbench::emulator {
 struct DryFriction {
   double coulomb = 0;
   double breakaway = 0;
+  double excess = 0;         // breakaway - coulomb
   double inverse_speed = 1;  // of Stribeck's v_s
 
   [[nodiscard]] bool present() const noexcept { return breakaway > 0; }

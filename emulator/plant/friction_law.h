@@ -19,7 +19,7 @@ class StribeckCurve {
   explicit StribeckCurve(StribeckForm form) noexcept;
 
   // f_s at speed_ratio = |v| / v_s >= 0.
-  TOWBENCH_REALTIME [[nodiscard]] double operator()(double speed_ratio) const noexcept {
+  [[nodiscard, gnu::always_inline]] double operator()(double speed_ratio) const noexcept {
     if (form_ == StribeckForm::kLorentz) {
       return 1.0 / (1.0 + speed_ratio * speed_ratio);
     }
@@ -55,8 +55,8 @@ class PositionFrictionCurve {
   [[nodiscard]] bool present() const noexcept { return present_; }
   // `interval` remembers where x was last: a carriage seldom changes it. Any value from 0 up that
   // this curve left there will do to start with.
-  TOWBENCH_REALTIME [[nodiscard]] double operator()(double carriage_m,
-                                                    std::size_t& interval) const noexcept {
+  [[nodiscard, gnu::always_inline]] double operator()(double carriage_m,
+                                                      std::size_t& interval) const noexcept {
     while (carriage_m >= pieces_[interval].end_m) {
       ++interval;
     }

@@ -28,8 +28,9 @@ enum class Event : std::uint8_t {
 
 // sink(event, sign, margin): the regime holds while margin >= 0.
 template <typename Sink>
-inline void visit_drive_guards(const AxisModel& model, const Situation& s, const StateVector& z,
-                               double one, Sink&& sink) noexcept {
+[[gnu::always_inline]] inline void visit_drive_guards(const AxisModel& model, const Situation& s,
+                                                      const StateVector& z, double one,
+                                                      Sink&& sink) noexcept {
   const auto& axis = model.parameters;
   const double sign = s.regime.drive_sign;
   const auto demanded_V = [&]() {
@@ -62,8 +63,9 @@ inline void visit_drive_guards(const AxisModel& model, const Situation& s, const
 }
 
 template <typename Sink>
-inline void visit_friction_guards(const AxisModel& model, const Situation& s, const StateVector& z,
-                                  double one, Sink&& sink) noexcept {
+[[gnu::always_inline]] inline void visit_friction_guards(const AxisModel& model, const Situation& s,
+                                                         const StateVector& z, double one,
+                                                         Sink&& sink) noexcept {
   if (model.motor_is_dry) {
     if (s.regime.motor_direction != 0) {
       sink(Event::kMotorStops, 0.0, s.regime.motor_direction * z[kMotorSpeed]);
@@ -85,8 +87,9 @@ inline void visit_friction_guards(const AxisModel& model, const Situation& s, co
 }
 
 template <typename Sink>
-inline void visit_end_guards(const AxisModel& model, const Situation& s, const StateVector& z,
-                             double one, Sink&& sink) noexcept {
+[[gnu::always_inline]] inline void visit_end_guards(const AxisModel& model, const Situation& s,
+                                                    const StateVector& z, double one,
+                                                    Sink&& sink) noexcept {
   const double sign = s.regime.end_sign;
   switch (s.regime.end) {
     case HardEnd::kClear:
@@ -106,16 +109,18 @@ inline void visit_end_guards(const AxisModel& model, const Situation& s, const S
 }
 
 template <typename Sink>
-inline void visit_guards(const AxisModel& model, const Situation& s, const StateVector& z,
-                         double one, Sink&& sink) noexcept {
+[[gnu::always_inline]] inline void visit_guards(const AxisModel& model, const Situation& s,
+                                                const StateVector& z, double one,
+                                                Sink&& sink) noexcept {
   visit_drive_guards(model, s, z, one, sink);
   visit_friction_guards(model, s, z, one, sink);
   visit_end_guards(model, s, z, one, sink);
 }
 
 // Whether z lies inside the regime.
-TOWBENCH_REALTIME [[nodiscard]] inline bool regime_holds(const AxisModel& model, const Situation& s,
-                                                         const StateVector& z) noexcept {
+[[nodiscard, gnu::always_inline]] inline bool regime_holds(const AxisModel& model,
+                                                           const Situation& s,
+                                                           const StateVector& z) noexcept {
   bool holds = true;
   visit_guards(model, s, z, 1.0,
                [&holds](Event, double, double margin) { holds &= margin >= 0.0; });

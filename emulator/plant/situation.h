@@ -83,8 +83,7 @@ struct Situation {
 // (3.34) without sign and viscous part.
 [[nodiscard]] inline double friction_level(const AxisModel& model, const DryFriction& law,
                                            double speed) noexcept {
-  return law.coulomb +
-         (law.breakaway - law.coulomb) * model.stribeck(std::fabs(speed) * law.inverse_speed);
+  return law.coulomb + law.excess * model.stribeck(std::fabs(speed) * law.inverse_speed);
 }
 
 [[nodiscard]] inline double motor_level_Nm(const AxisModel& model, double speed_rad_per_s,

@@ -57,12 +57,14 @@ double direction_under(double load, double level) noexcept {
 }
 
 void settle_resting_motor(const AxisModel& model, Situation& s, const StateVector& z) noexcept {
-  s.motor_friction_Nm = motor_level_Nm(model, 0.0, carriage_position_m(model, z), s.position_interval);
+  s.motor_friction_Nm =
+      motor_level_Nm(model, 0.0, carriage_position_m(model, z), s.position_interval);
   s.regime.motor_direction = direction_under(motor_load_Nm(model, s, z, 1.0), s.motor_friction_Nm);
 }
 
 void settle_resting_carriage(const AxisModel& model, Situation& s, const StateVector& z) noexcept {
-  s.carriage_friction_N = carriage_level_N(model, 0.0, carriage_position_m(model, z), s.position_interval);
+  s.carriage_friction_N =
+      carriage_level_N(model, 0.0, carriage_position_m(model, z), s.position_interval);
   s.regime.carriage_direction =
       direction_under(carriage_load_N(model, s, z, 1.0), s.carriage_friction_N);
 }
