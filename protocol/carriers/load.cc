@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
+#include "protocol/carriers/can_packer.h"
+#include "protocol/carriers/can_segments.h"
 #include "protocol/carriers/serial_port.h"
 #include "protocol/cobs.h"
 
@@ -30,7 +33,16 @@ double edges_bits(double edges) noexcept {
          cobs_frame_bits(kEdgesHeaderSize + kBytesPerEdge * rest);
 }
 
+template <typename Message>
+double whole_message_frames() noexcept {
+  return static_cast<double>(segments_of(encoded_size(Message{})));
+}
+
 std::string rounded(double value) {
+  if (!std::isfinite(value)) {
+    return "infinitely many";
+  }
+
   return std::to_string(std::llround(value));
 }
 
@@ -47,8 +59,10 @@ Load serial_load(const Traffic& traffic, std::uint32_t baud) noexcept {
   const double axes = traffic.axes;
   const double edges = std::ceil(traffic.edges_per_s * exchange_s);
 
-  double to_plant = axes * cobs_bits<PwmDuty>() + cobs_bits<DigitalOutputs>();
-  double to_controller = cobs_bits<DigitalInputs>();
+  const double line_changes = traffic.line_changes_per_s * exchange_s;
+
+  double to_plant = axes * cobs_bits<PwmDuty>() + line_changes * cobs_bits<DigitalOutputs>();
+  double to_controller = line_changes * cobs_bits<DigitalInputs>();
   to_controller += axes * (traffic.fidelity == Fidelity::kEdges ? edges_bits(edges)
                                                                 : cobs_bits<EncoderReport>());
   to_controller += traffic.force_samples ? cobs_bits<ForceSample>() : 0.0;
@@ -60,6 +74,33 @@ Load serial_load(const Traffic& traffic, std::uint32_t baud) noexcept {
   return {.to_plant_bit_per_s = to_plant / exchange_s,
           .to_controller_bit_per_s = to_controller / exchange_s,
           .capacity_bit_per_s = static_cast<double>(baud)};
+}
+
+Load can_load(const Traffic& traffic, std::uint32_t bit_per_s) noexcept {
+  const double exchanges_per_s = 1.0 / core::seconds(traffic.exchange_ns);
+  const double axes = traffic.axes;
+
+  double to_plant = axes * exchanges_per_s + traffic.line_changes_per_s;
+  double to_controller =
+      axes * exchanges_per_s + axes * traffic.index_pulses_per_s + traffic.line_changes_per_s;
+  to_controller += axes * exchanges_per_s * 2.0 / kReportsBetweenWholeOnes *
+                   whole_message_frames<EncoderReport>();
+  if (traffic.fidelity == Fidelity::kEdges) {
+    to_controller = std::numeric_limits<double>::infinity();
+  }
+  to_controller +=
+      traffic.force_samples ? exchanges_per_s * whole_message_frames<ForceSample>() : 0.0;
+  to_controller += traffic.current_samples
+                       ? axes * exchanges_per_s * whole_message_frames<CurrentSample>()
+                       : 0.0;
+  if (traffic.lockstep) {
+    to_plant += exchanges_per_s;
+    to_controller += exchanges_per_s;
+  }
+  return {.to_plant_bit_per_s = to_plant * worst_can_bits(kCanDataSize),
+          .to_controller_bit_per_s = to_controller * worst_can_bits(kCanDataSize),
+          .capacity_bit_per_s = static_cast<double>(bit_per_s),
+          .is_shared = true};
 }
 
 CarrierResult<void> accept_load(const Load& load, const std::string& carrier_name) {

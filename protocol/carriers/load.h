@@ -24,7 +24,8 @@ struct Traffic {
   double edges_per_s = 283'536.0;
   // Index pulses of one axis: one a motor turn of 4000 counts.
   double index_pulses_per_s = 70.9;
-  // Each exchange may carry one change of the input lines and one of the output lines.
+  // Changes of the input lines, and as many of the output lines: a switch that bounces.
+  double line_changes_per_s = 200.0;
   bool force_samples = false;    // one an exchange
   bool current_samples = false;  // one an axis and exchange
 };
@@ -41,6 +42,10 @@ struct Load {
 
 // COBS frames on a serial line of ten bits a byte, full duplex.
 [[nodiscard]] Load serial_load(const Traffic& traffic, std::uint32_t baud) noexcept;
+
+// Classic CAN frames with the worst bit stuffing, both directions on one bus. Edges do not go over
+// CAN (can_packer.h): their load is infinite.
+[[nodiscard]] Load can_load(const Traffic& traffic, std::uint32_t bit_per_s) noexcept;
 
 // Refuses a load above kMaxLoad with kCarrierOverloaded and both figures.
 [[nodiscard]] CarrierResult<void> accept_load(const Load& load, const std::string& carrier_name);

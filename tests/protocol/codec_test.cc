@@ -205,6 +205,19 @@ TEST(Codec, AllowsAnEdgeAtTheEndOfItsInterval) {
   EXPECT_EQ(decode_error_with("EncoderEdges", 11, "3f74100000000000"), ErrorCode::kMessageBadField);
 }
 
+TEST(Codec, RefusesMoreEdgesThanAMessageHolds) {
+  EncoderEdges edges;
+  while (edges.edges.push_back(EncoderEdge(0, EncoderLine::kA))) {
+  }
+  std::vector<std::byte> bytes(kMaxPayloadSize);
+  ASSERT_EQ(encode(edges, bytes), bytes.size());
+  EXPECT_EQ(decode_error(bytes), ErrorCode::kNone);
+  bytes.resize(bytes.size() + kBytesPerEdge);
+  store_little_endian(bytes.data() + kEdgesHeaderSize - 2,
+                      static_cast<std::uint16_t>(kMaxEdgesPerMessage + 1));
+  EXPECT_EQ(decode_error(bytes), ErrorCode::kMessageBadField);
+}
+
 TEST(Codec, SumsTheStepsOfAFullMessageWithoutOverflow) {
   EncoderEdges edges;
   for (std::size_t i = 0; i < kMaxEdgesPerMessage; ++i) {

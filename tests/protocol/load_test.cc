@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "protocol/carriers/can_frame.h"
 #include "protocol/cobs.h"
 #include "tests/protocol/byte_sinks.h"
 
@@ -12,9 +13,9 @@ namespace {
 // -> 21.
 TEST(SerialLoad, CountsTheDigestOfTwoAxesAtOneKilohertz) {
   const Load load = serial_load({}, 921'600);
-  EXPECT_DOUBLE_EQ(load.to_plant_bit_per_s, (2 * 19 + 21) * 10 * 1000.0);
-  EXPECT_DOUBLE_EQ(load.to_controller_bit_per_s, (2 * 45 + 21) * 10 * 1000.0);
-  EXPECT_DOUBLE_EQ(load.fraction(), 1'110'000.0 / 921'600.0);
+  EXPECT_DOUBLE_EQ(load.to_plant_bit_per_s, 2 * 19 * 10 * 1000.0 + 21 * 10 * 200.0);
+  EXPECT_DOUBLE_EQ(load.to_controller_bit_per_s, 2 * 45 * 10 * 1000.0 + 21 * 10 * 200.0);
+  EXPECT_DOUBLE_EQ(load.fraction(), 942'000.0 / 921'600.0);
 }
 
 TEST(SerialLoad, NeedsMoreThanTwentyMegabaudForTheEdgesAtTopSpeed) {
@@ -53,10 +54,34 @@ TEST(SerialLoad, BoundsWhatIsReallyWritten) {
     writer.on(ForceSample{time_ns, {}, {}});
     writer.on(Advanced{time_ns});
     ASSERT_TRUE(writer.flush().has_value());
-    const Traffic all{.lockstep = true, .force_samples = true, .current_samples = true};
+    const Traffic all{.lockstep = true,
+                      .line_changes_per_s = 1000.0,
+                      .force_samples = true,
+                      .current_samples = true};
     const double bits = static_cast<double>(out.bytes.size() * 10);
     EXPECT_LE(bits * 1000.0, serial_load(all, 1).to_controller_bit_per_s);
   }
+}
+
+// 7,400 frames a second at 1 Mbit/s with the worst stuffing, as Davis et al. (2007) reckon it.
+TEST(CanLoad, CountsTheWorstBitsOfAFrame) {
+  EXPECT_EQ(worst_can_bits(8), 135U);
+  EXPECT_EQ(worst_can_bits(0), 55U);
+}
+
+TEST(CanLoad, CarriesTheDigestOfTwoAxesAtOneKilohertz) {
+  const Load load = can_load({}, 1'000'000);
+  // 2 duties and 2 digests a millisecond, line changes, index pulses, whole reports of 7 frames.
+  const double frames = 4000.0 + 400.0 + 2 * 70.9 + 2 * 1000.0 * 2.0 / 256.0 * 7.0;
+  EXPECT_DOUBLE_EQ(load.fraction(), frames * 135.0 / 1e6);
+  EXPECT_TRUE(accept_load(load, "can0").has_value());
+  EXPECT_FALSE(accept_load(can_load({}, 500'000), "can0").has_value());
+}
+
+TEST(CanLoad, RefusesEdges) {
+  const auto refusal = accept_load(can_load({.fidelity = Fidelity::kEdges}, 1'000'000), "can0");
+  ASSERT_FALSE(refusal.has_value());
+  EXPECT_NE(refusal.error().message.find("infinitely many"), std::string::npos);
 }
 
 }  // namespace
