@@ -26,12 +26,13 @@ Table make_table() noexcept {
   Table table;
   table.add(run_trapezoid_command());
   table.add(run_circle_command());
+  table.add(run_ellipse_command());
   table.add(run_sinusoid_command());
+  table.add(run_spatial_command());
+  table.add(path_commands());
   table.add(goto_command());
   table.add(goto_home_command());
-  table.add(rmpi_pulses_command());
-  table.add(rmpi_break_away_command());
-  table.add(rmpi_step_command());
+  table.add(rmpi_commands());
   table.add(status_command());
   table.add(data_log_commands());
   table.add(perf_log_commands());

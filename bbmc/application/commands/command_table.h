@@ -12,12 +12,13 @@ namespace towbench::bbmc {
 // One group a file: run.cc, goto.cc, ...
 [[nodiscard]] const CommandSpec& run_trapezoid_command() noexcept;
 [[nodiscard]] const CommandSpec& run_circle_command() noexcept;
+[[nodiscard]] const CommandSpec& run_ellipse_command() noexcept;
 [[nodiscard]] const CommandSpec& run_sinusoid_command() noexcept;
+[[nodiscard]] const CommandSpec& run_spatial_command() noexcept;
+[[nodiscard]] std::span<const CommandSpec> path_commands() noexcept;  // run -path as well
 [[nodiscard]] const CommandSpec& goto_command() noexcept;
 [[nodiscard]] const CommandSpec& goto_home_command() noexcept;
-[[nodiscard]] const CommandSpec& rmpi_pulses_command() noexcept;
-[[nodiscard]] const CommandSpec& rmpi_break_away_command() noexcept;
-[[nodiscard]] const CommandSpec& rmpi_step_command() noexcept;
+[[nodiscard]] std::span<const CommandSpec> rmpi_commands() noexcept;
 [[nodiscard]] const CommandSpec& status_command() noexcept;
 [[nodiscard]] std::span<const CommandSpec> data_log_commands() noexcept;
 [[nodiscard]] std::span<const CommandSpec> perf_log_commands() noexcept;

@@ -3,7 +3,9 @@
 
 #include "bbmc/application/console/text_writer.h"
 #include "bbmc/application/reports/report.h"
+#include "bbmc/system/trajectory/chain.h"
 #include "core/axis.h"
+#include "core/bounded_vector.h"
 
 namespace towbench::bbmc {
 
@@ -11,10 +13,14 @@ class DeviceManager;
 class SystemManager;
 struct CommandContext;
 
+inline constexpr std::size_t kMaxWayPoints = kMaxSegments;
+using WayPoints = core::BoundedVector<core::PerAxis<double>, kMaxWayPoints>;
+
 // What the console itself remembers between commands.
 struct ConsoleSettings {
   bool echo = true;
   bool quit = false;
+  WayPoints way_points;  // m
 };
 
 // Writes what a motion has found, once it has ended by itself.

@@ -92,6 +92,69 @@ TEST(Run, ACircleComesBackToWhereItBegan) {
   EXPECT_NEAR(farthest - 600'000, 0.1 * 445'345, 500);
 }
 
+TEST(Run, AnEllipseReachesItsTwoExtents) {
+  Session session;
+  session.calibrate();
+  EXPECT_THAT(session.enter("run -ellipse --radius-y 4cm --radius-x 2cm --period 4s --turns 1"),
+              EndsWith("done\r\nok\r\n"));
+  double y_most = 0;
+  double x_most = 0;
+  for (const DataLogRow& row : session.system().data_log().rows()) {
+    y_most = std::max(y_most, row.axes[core::Axis::kY].reference_count - 600'000);
+    x_most = std::max(x_most, row.axes[core::Axis::kX].reference_count - 250'000);
+  }
+  EXPECT_NEAR(y_most, 0.08 * 445'345, 20);
+  EXPECT_NEAR(x_most, 0.02 * 742'241, 20);
+}
+
+TEST(Run, ASpatialSinusoidEndsOnBothAxesAtOnce) {
+  Session session;
+  session.calibrate();
+  EXPECT_THAT(session.enter("run -spatial --distance 40cm --speed 0.1 --amplitude 2cm --waves 3"),
+              AllOf(StartsWith("moving for 5.00s"), EndsWith("done\r\nok\r\n")));
+  EXPECT_NEAR(count_of(session, core::Axis::kY) - 600'000, 0.4 * 445'345, 500);
+  EXPECT_NEAR(count_of(session, core::Axis::kX), 250'000, 500);
+  int crossings = 0;
+  double before = 0;
+  for (const DataLogRow& row : session.system().data_log().rows()) {
+    const double x = row.axes[core::Axis::kX].reference_count - 250'000;
+    if (std::fabs(x) > 100) {
+      crossings += before * x < 0 ? 1 : 0;
+      before = x;
+    }
+  }
+  EXPECT_EQ(crossings, 5);  // three swings cross the middle twice each, the last time at the end
+}
+
+TEST(Path, RunsStraightThroughItsPointsAndRestsInEach) {
+  Session session;
+  session.calibrate();
+  EXPECT_THAT(session.enter("run -path"), StartsWith("error 203: "));
+  EXPECT_EQ(session.enter("path add 640000 250000"), kOk);
+  EXPECT_EQ(session.enter("path add 620000 280000"), kOk);
+  EXPECT_EQ(session.enter("path add 1.4m 0.35m"), kOk);
+  EXPECT_THAT(session.enter("path print"), HasSubstr("3 points"));
+  EXPECT_THAT(session.enter("run -path --speed 0.1m/s --dwell 0.2s"), EndsWith("done\r\nok\r\n"));
+  EXPECT_NEAR(count_of(session, core::Axis::kY), 1.4 * 445'345, 200);
+  EXPECT_NEAR(count_of(session, core::Axis::kX), 0.35 * 742'241, 200);
+  // On the second line both axes are at the same share of it: x against y is a straight line.
+  for (const DataLogRow& row : session.system().data_log().rows()) {
+    const double y = row.axes[core::Axis::kY].reference_count;
+    const double x = row.axes[core::Axis::kX].reference_count;
+    if (x > 279'999) {
+      break;
+    }
+    if (y < 639'999 && x > 250'001) {
+      ASSERT_NEAR((x - 250'000) / 30'000, (640'000 - y) / 20'000, 1e-6);
+    }
+  }
+  EXPECT_EQ(session.enter("path clear"), kOk);
+  for (std::size_t i = 0; i < kMaxWayPoints; ++i) {
+    EXPECT_EQ(session.enter("path add 600000 250000"), kOk);
+  }
+  EXPECT_THAT(session.enter("path add 600000 250000"), StartsWith("error 202: "));
+}
+
 TEST(Run, AskingForValuesTakesAnswersAndDefaults) {
   Session session;
   session.calibrate();
@@ -149,6 +212,25 @@ TEST(Rmpi, PulsesMoveTheAxisAndTheLogShowsTheirDuty) {
   }
   EXPECT_NEAR(on, 600, 3);
   EXPECT_LT(count_of(session, core::Axis::kY), 600'000);
+}
+
+TEST(Rmpi, EveryOtherExcitationRunsToItsEnd) {
+  for (const std::string_view line :
+       {"rmpi step y --duty 5% --time 0.2s --wait 0", "rmpi dstep y -a 5 --second-duty -5",
+        "rmpi sine y -a 4 --frequency 3Hz --cycles 4",
+        "rmpi si y --signal prbs -a 4 --order 5 --bit 20ms"}) {
+    Session session;
+    session.calibrate();
+    EXPECT_THAT(session.enter(line), EndsWith("done\r\nok\r\n")) << line;
+    double most_pct = 0;
+    for (const DataLogRow& row : session.system().data_log().rows()) {
+      if (row.axes[core::Axis::kY].mode == AxisMode::kOpenLoop) {
+        most_pct =
+            std::max(most_pct, std::fabs(static_cast<double>(row.axes[core::Axis::kY].duty_pct)));
+      }
+    }
+    EXPECT_NEAR(most_pct, line.find("-a 4") == std::string_view::npos ? 5 : 4, 0.06) << line;
+  }
 }
 
 TEST(Rmpi, BreakAwaySaysWhereAndWithWhat) {
@@ -425,11 +507,18 @@ TEST(Readme, ShowsWhatHelpAllPrints) {
   std::erase(help, '\r');
   help.resize(help.size() - std::string_view("ok\n").size());
   std::ifstream file("bbmc/application/README.md");
-  ASSERT_TRUE(file);
-  const std::string readme{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_THAT(readme, HasSubstr("```text\n" + help + "```\n"))
-      << "the README's reference must be exactly:\n"
-      << help;
+  ASSERT_TRUE(file) << "tests run in the root of the sources";
+  std::string line;
+  while (line != "```text") {
+    ASSERT_TRUE(std::getline(file, line));
+  }
+  std::istringstream printed(help);
+  for (std::string expected; std::getline(printed, expected);) {
+    ASSERT_TRUE(std::getline(file, line));
+    ASSERT_EQ(line, expected);
+  }
+  ASSERT_TRUE(std::getline(file, line));
+  EXPECT_EQ(line, "```");
 }
 
 }  // namespace

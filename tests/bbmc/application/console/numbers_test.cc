@@ -33,7 +33,7 @@ std::string compact(double value, int decimals) {
 // Truth: the C library's own conversion.
 TEST(Decimal, IsCorrectToTheLastBitForFifteenDigits) {
   core::Random random(1);
-  for (int i = 0; i < 300'000; ++i) {
+  for (int i = 0; i < 100'000; ++i) {
     const int digits = 1 + static_cast<int>(random.bits() % 15);
     std::string text = (random.bits() & 1U) != 0 ? "-" : "";
     const auto point = static_cast<int>(random.bits() % 16);
@@ -103,7 +103,7 @@ TEST(Integer, TakesAllOfTheTextOrNothing) {
 
 TEST(TextWriter, FixedIsTheNearestDecimalNumber) {
   core::Random random(3);
-  for (int i = 0; i < 200'000; ++i) {
+  for (int i = 0; i < 100'000; ++i) {
     const int decimals = static_cast<int>(random.bits() % 10);
     const double value = (random.uniform() - 0.5) * std::pow(10.0, random.uniform() * 12 - 6);
     const std::string text = fixed(value, decimals);
