@@ -22,9 +22,10 @@ std::string margin_text(const Check& check) {
   if (!check.margin || !std::isfinite(*check.margin)) {
     return {};
   }
-  const bool at_zero_limit = (check.min == 0.0 && !check.max) || (check.max == 0.0 && !check.min) ||
-                             (check.min == 0.0 && check.max == 0.0);
-  return at_zero_limit ? std::string{} : fmt::format("{:.0f} %", 100.0 * *check.margin);
+  // An exact value has no margin, and one against zero no scale.
+  const bool exact = check.min && check.max && *check.min == *check.max;
+  const bool no_scale = check.min.value_or(0) == 0 && check.max.value_or(0) == 0;
+  return exact || no_scale ? std::string{} : fmt::format("{:.0f} %", 100.0 * *check.margin);
 }
 
 std::string line_of(const Check& check) {

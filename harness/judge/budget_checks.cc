@@ -21,18 +21,21 @@ std::optional<double> first_motion_s(const RunData& data) {
   return std::nullopt;
 }
 
-double relative_margin(double distance, double limit) {
-  return limit == 0.0 ? distance : distance / std::fabs(limit);
-}
-
-// Negative when the limit is broken.
+// Distance to the nearer limit over that limit's size, over the other's where it is 0. Negative
+// when the limit is broken.
 double margin_of(const Budget& budget, double value) {
+  const double min_size = budget.min ? std::fabs(*budget.min) : 0;
+  const double max_size = budget.max ? std::fabs(*budget.max) : 0;
+  const auto relative = [](double distance, double size, double other_size) {
+    const double scale = size > 0 ? size : other_size;
+    return scale > 0 ? distance / scale : distance;
+  };
   double margin = std::numeric_limits<double>::infinity();
   if (budget.min) {
-    margin = std::min(margin, relative_margin(value - *budget.min, *budget.min));
+    margin = std::min(margin, relative(value - *budget.min, min_size, max_size));
   }
   if (budget.max) {
-    margin = std::min(margin, relative_margin(*budget.max - value, *budget.max));
+    margin = std::min(margin, relative(*budget.max - value, max_size, min_size));
   }
   return margin;
 }

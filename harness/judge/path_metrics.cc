@@ -24,16 +24,18 @@ struct PathSample {
 // is never taken for this one.
 constexpr std::size_t kReach_rows = 100;
 
-double distance_to_segment(Point point, Point a, Point b) {
-  const double along_x = b.x_m - a.x_m;
-  const double along_y = b.y_m - a.y_m;
-  const double length_squared = along_x * along_x + along_y * along_y;
+double squared_distance_to_segment_m2(Point point, Point a, Point b) {
+  const double along_x_m = b.x_m - a.x_m;
+  const double along_y_m = b.y_m - a.y_m;
+  const double length_squared_m2 = along_x_m * along_x_m + along_y_m * along_y_m;
   double share = 0;
-  if (length_squared > 0) {
-    share = ((point.x_m - a.x_m) * along_x + (point.y_m - a.y_m) * along_y) / length_squared;
+  if (length_squared_m2 > 0) {
+    share = ((point.x_m - a.x_m) * along_x_m + (point.y_m - a.y_m) * along_y_m) / length_squared_m2;
     share = std::clamp(share, 0.0, 1.0);
   }
-  return std::hypot(point.x_m - (a.x_m + share * along_x), point.y_m - (a.y_m + share * along_y));
+  const double off_x_m = point.x_m - (a.x_m + share * along_x_m);
+  const double off_y_m = point.y_m - (a.y_m + share * along_y_m);
+  return off_x_m * off_x_m + off_y_m * off_y_m;
 }
 
 MetricValue peak_distance(const RunData& data, const std::vector<PathSample>& samples) {
@@ -46,17 +48,18 @@ MetricValue peak_distance(const RunData& data, const std::vector<PathSample>& sa
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const std::size_t from = i > kReach_rows ? i - kReach_rows : 0;
     const std::size_t to = std::min(samples.size() - 1, i + kReach_rows);
-    double nearest_m = distance_to_segment(samples[i].actual, reference(samples[i].log_row),
-                                           reference(samples[i].log_row));
+    const Point actual = samples[i].actual;
+    const Point own = reference(samples[i].log_row);
+    double nearest_m2 = squared_distance_to_segment_m2(actual, own, own);
     for (std::size_t j = from; j < to; ++j) {
       // Two samples that are not neighbours in the log belong to two motions: no path joins them.
       if (samples[j + 1].log_row == samples[j].log_row + 1) {
-        nearest_m = std::min(nearest_m,
-                             distance_to_segment(samples[i].actual, reference(samples[j].log_row),
-                                                 reference(samples[j + 1].log_row)));
+        nearest_m2 = std::min(nearest_m2,
+                              squared_distance_to_segment_m2(actual, reference(samples[j].log_row),
+                                                             reference(samples[j + 1].log_row)));
       }
     }
-    statistics.add(nearest_m);
+    statistics.add(std::sqrt(nearest_m2));
   }
   return statistics.peak();
 }
