@@ -5,6 +5,17 @@
 namespace towbench::emulator {
 namespace {
 
+[[nodiscard]] bool rewire_encoder(Rig& rig, const ScheduledEvent& event,
+                                  std::uint32_t in_tick_ns) noexcept {
+  RigAxis* axis = rig.axis(event.axis);
+  if (axis == nullptr) {
+    return true;  // no such wires
+  }
+  return event.kind == ScheduledEventKind::kRewireEncoder
+             ? axis->wiring().set_line(event.encoder_line, event.condition, in_tick_ns)
+             : axis->wiring().swap_channels(event.value != 0.0, in_tick_ns);
+}
+
 // False when this tick has no room for it: the next one takes it.
 [[nodiscard]] bool fire(Rig& rig, const ScheduledEvent& event, core::Nanoseconds time_ns) noexcept {
   switch (event.kind) {
@@ -15,6 +26,11 @@ namespace {
     case ScheduledEventKind::kPushCarriage:
       rig.push_carriage(event.axis, event.value, time_ns);
       return true;
+    case ScheduledEventKind::kRewireInput:
+      return rig.input_wiring().set_line(event.input_line, event.condition, time_ns);
+    case ScheduledEventKind::kRewireEncoder:
+    case ScheduledEventKind::kSwapEncoderChannels:
+      return rewire_encoder(rig, event, static_cast<std::uint32_t>(time_ns - rig.now_ns()));
   }
   return true;
 }

@@ -36,6 +36,7 @@ RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, std::uint64_t seed)
     : command(p.command),
       plant_(p.plant, p.start_m),
       encoder_(p.encoder, plant_.state().motor_angle_rad),
+      wiring_(encoder_.levels()),
       hall_min_(p.hall_min, TravelEnd::kMin, kHallMinLine[axis], p.start_m),
       hall_max_(p.hall_max, TravelEnd::kMax, kHallMaxLine[axis], p.start_m),
       resistance_ohm_(p.plant.winding.resistance_ohm),
@@ -55,6 +56,7 @@ void RigAxis::step(core::Nanoseconds start_ns, const Surroundings& around,
   const AxisState before = plant_.state();
   plant_.step(input, segments_);
   encoder_.step(segments_, edges_);
+  wiring_.step(encoder_.levels(), edges_);
   const AxisState after = plant_.state();
   const CarriageMotion motion{.before_m = before.carriage_m,
                               .before_m_per_s = before.carriage_speed_m_per_s,
@@ -101,7 +103,7 @@ AxisTruth RigAxis::truth() const noexcept {
           .chain_force_N = forces.chain_force_N,
           .command_V = command_V_,
           .count = encoder_.count(),
-          .edges_total = encoder_.edges_total()};
+          .edges_total = encoder_.edges_total() + wiring_.surplus_edges()};
 }
 
 Rig::Rig(const RigParameters& parameters, std::uint64_t seed)
@@ -122,7 +124,8 @@ Rig::Rig(const RigParameters& parameters, std::uint64_t seed)
       lines |= supply_.ready() ? protocol::mask_of(kReadyLine[which]) : 0U;
     }
   }
-  lines_ = static_cast<std::uint16_t>(lines);
+  machine_lines_ = static_cast<std::uint16_t>(lines);
+  arriving_lines_ = machine_lines_;
 }
 
 RigAxis* Rig::axis(Axis which) noexcept {
@@ -178,7 +181,7 @@ double Rig::cross_axis_force_N(Axis which) const noexcept {
 void Rig::step() noexcept {
   changes_ = kill_changes_;
   const bool hardware_cut = parameters_.kill_switch.cuts_amplifiers &&
-                            (lines_ & protocol::mask_of(InputLine::kKillSwitch)) != 0;
+                            (machine_lines_ & protocol::mask_of(InputLine::kKillSwitch)) != 0;
   const bool may_drive = supply_.ready() && !hardware_cut;
   const core::PerAxis<double> cross_N{{cross_axis_force_N(Axis::kY), cross_axis_force_N(Axis::kX)}};
   double power_W = 0.0;
@@ -204,9 +207,8 @@ void Rig::step() noexcept {
   if (supply_.ready() != was_ready) {
     update_ready_lines();
   }
-  if (!changes_.empty()) {
-    apply_changes();
-  }
+  sort_by_time(changes_);
+  input_wiring_.step(machine_lines_, arriving_lines_, changes_);
 }
 
 // A push acts on the load, below the sensor (FR-3).
@@ -229,14 +231,6 @@ void Rig::update_ready_lines() noexcept {
   }
 }
 
-void Rig::apply_changes() noexcept {
-  sort_by_time(changes_);
-  for (const LineChange& change : changes_.view()) {
-    const unsigned mask = protocol::mask_of(change.line);
-    lines_ = static_cast<std::uint16_t>(change.active ? lines_ | mask : lines_ & ~mask);
-  }
-}
-
 TruthRow Rig::truth() const noexcept {
   TruthRow row;
   row.time_ns = now_ns_;
@@ -245,7 +239,7 @@ TruthRow Rig::truth() const noexcept {
       row.axes[which] = axes_[which]->truth();
     }
   }
-  row.input_lines = lines_;
+  row.input_lines = arriving_lines_;
   return row;
 }
 

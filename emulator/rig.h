@@ -16,8 +16,10 @@
 #include "emulator/plant/axis_plant.h"
 #include "emulator/rig_parameters.h"
 #include "emulator/sensors/current_monitor.h"
+#include "emulator/sensors/encoder_wiring.h"
 #include "emulator/sensors/force_sensor.h"
 #include "emulator/sensors/hall_sensor.h"
+#include "emulator/sensors/input_wiring.h"
 #include "emulator/sensors/line_change.h"
 #include "emulator/sensors/quadrature_encoder.h"
 #include "emulator/supply.h"
@@ -42,9 +44,10 @@ class RigAxis {
   CommandPath command;
   bool enable_line = false;
 
+  [[nodiscard]] EncoderWiring& wiring() noexcept { return wiring_; }
   [[nodiscard]] const AxisPlant& plant() const noexcept { return plant_; }
   [[nodiscard]] const QuadratureEncoder& encoder() const noexcept { return encoder_; }
-  // Of the last step.
+  // Of the last step, as they arrive at the controller.
   [[nodiscard]] const StepEdges& edges() const noexcept { return edges_; }
   // Taken at the end of the last step, if one was due.
   [[nodiscard]] const std::optional<protocol::CurrentSample>& current_sample() const noexcept {
@@ -61,8 +64,10 @@ class RigAxis {
   [[nodiscard]] AxisTruth truth() const noexcept;
 
  private:
+  // Each starts from the state of the one before it.
   AxisPlant plant_;
   QuadratureEncoder encoder_;
+  EncoderWiring wiring_;
   HallSensor hall_min_;
   HallSensor hall_max_;
   std::optional<CurrentMonitor> current_monitor_;
@@ -96,8 +101,11 @@ class Rig {
   TOWBENCH_REALTIME void step() noexcept;
 
   [[nodiscard]] core::Nanoseconds now_ns() const noexcept { return now_ns_; }
-  // Lines now, as protocol::DigitalInputs, and how they changed in the last tick, oldest first.
-  [[nodiscard]] std::uint16_t lines() const noexcept { return lines_; }
+  [[nodiscard]] InputWiring& input_wiring() noexcept { return input_wiring_; }
+
+  // Lines now, as protocol::DigitalInputs, and how they changed in the last tick, oldest first: as
+  // they arrive at the controller.
+  [[nodiscard]] std::uint16_t lines() const noexcept { return arriving_lines_; }
   [[nodiscard]] const LineChanges& line_changes() const noexcept { return changes_; }
   [[nodiscard]] const Supply& supply() const noexcept { return supply_; }
   // Taken at the end of the last tick, if one was due.
@@ -109,7 +117,6 @@ class Rig {
  private:
   void measure_force() noexcept;
   void update_ready_lines() noexcept;
-  void apply_changes() noexcept;
   [[nodiscard]] double cross_axis_force_N(core::Axis which) const noexcept;
 
   RigParameters parameters_;
@@ -118,7 +125,9 @@ class Rig {
   std::optional<ForceSensor> force_sensor_;
   std::optional<protocol::ForceSample> force_sample_;
   core::Nanoseconds now_ns_ = 0;
-  std::uint16_t lines_ = 0;
+  InputWiring input_wiring_;
+  std::uint16_t machine_lines_ = 0;
+  std::uint16_t arriving_lines_ = 0;
   LineChanges changes_;
   LineChanges kill_changes_;
   bool kill_pressed_ = false;

@@ -5,13 +5,18 @@
 
 #include "core/axis.h"
 #include "core/time.h"
+#include "emulator/sensors/wire_condition.h"
+#include "protocol/messages.h"
 
 namespace towbench::emulator {
 
 enum class ScheduledEventKind : std::uint8_t {
   kPressKillSwitch,
   kReleaseKillSwitch,
-  kPushCarriage,  // external force of `value` N on the axis from now on
+  kPushCarriage,        // external force of `value` N on the axis's load from now on
+  kRewireInput,         // `input_line` gets `condition`
+  kRewireEncoder,       // `encoder_line` of the axis gets `condition`
+  kSwapEncoderChannels  // A and B of the axis swapped (`value` != 0) or put right
 };
 
 struct ScheduledEvent {
@@ -19,6 +24,9 @@ struct ScheduledEvent {
   ScheduledEventKind kind = ScheduledEventKind::kPressKillSwitch;
   core::Axis axis = core::Axis::kY;
   double value = 0;
+  protocol::InputLine input_line = protocol::InputLine::kKillSwitch;
+  protocol::EncoderLine encoder_line = protocol::EncoderLine::kA;
+  WireCondition condition = WireCondition::kIntact;
 };
 
 }  // namespace towbench::emulator

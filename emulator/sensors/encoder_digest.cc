@@ -31,10 +31,20 @@ void EncoderDigest::decode(core::Nanoseconds time_ns, protocol::EncoderLine line
     }
     return;
   }
-  // One line at a time toggles, so the phase moves by one: up or down, never an illegal double.
+  // Both channels in the same instant: no direction, an illegal transition. The first of the two
+  // was counted a moment ago.
+  if (time_ns == report_.last_edge_ns && line != last_line_) {
+    count_ -= last_change_;
+    report_.count_change -= last_change_;
+    last_change_ = 0;
+    ++report_.illegal_transitions;
+    return;
+  }
   const bool upwards = ((gray_phase(after) - gray_phase(before)) & 3U) == 1U;
-  count_ += upwards ? 1 : -1;
-  report_.count_change += upwards ? 1 : -1;
+  last_change_ = upwards ? 1 : -1;
+  last_line_ = line;
+  count_ += last_change_;
+  report_.count_change += last_change_;
   if (report_.last_edge_ns != 0) {
     report_.capture_period_ns = static_cast<std::uint32_t>(std::min<core::Nanoseconds>(
         time_ns - report_.last_edge_ns, std::numeric_limits<std::uint32_t>::max()));

@@ -30,6 +30,8 @@ class EncoderDigest {
 
   protocol::EncoderReport report_;
   std::int32_t count_ = 0;
+  std::int32_t last_change_ = 0;
+  protocol::EncoderLine last_line_ = protocol::EncoderLine::kA;
 };
 
 }  // namespace towbench::emulator

@@ -1,0 +1,49 @@
+#include "emulator/sensors/input_wiring.h"
+
+#include <limits>
+
+namespace towbench::emulator {
+
+using protocol::InputLine;
+
+bool InputWiring::set_line(InputLine line, WireCondition condition,
+                           core::Nanoseconds time_ns) noexcept {
+  return pending_.push_back({.time_ns = time_ns, .line = line, .condition = condition});
+}
+
+void InputWiring::step(std::uint16_t& near, std::uint16_t& far, LineChanges& changes) noexcept {
+  if (changes.empty() && pending_.empty()) {
+    return;
+  }
+  const LineChanges made = changes;
+  changes.clear();
+  std::size_t next = 0;
+  const auto rewire_until = [&](core::Nanoseconds time_ns) {
+    for (; next < pending_.size() && pending_[next].time_ns <= time_ns; ++next) {
+      const Change& change = pending_[next];
+      condition_[static_cast<std::size_t>(change.line)] = change.condition;
+      deliver(change.time_ns, change.line, near, far, changes);
+    }
+  };
+  for (const LineChange& change : made.view()) {
+    rewire_until(change.time_ns);
+    const unsigned mask = protocol::mask_of(change.line);
+    near = static_cast<std::uint16_t>(change.active ? near | mask : near & ~mask);
+    deliver(change.time_ns, change.line, near, far, changes);
+  }
+  rewire_until(std::numeric_limits<core::Nanoseconds>::max());
+  pending_.clear();
+}
+
+void InputWiring::deliver(core::Nanoseconds time_ns, InputLine line, std::uint16_t near,
+                          std::uint16_t& far, LineChanges& arrived) const noexcept {
+  const unsigned mask = protocol::mask_of(line);
+  const bool level = level_behind(condition_[static_cast<std::size_t>(line)], (near & mask) != 0);
+  if (level == ((far & mask) != 0)) {
+    return;
+  }
+  far = static_cast<std::uint16_t>(level ? far | mask : far & ~mask);
+  (void)arrived.push_back({.time_ns = time_ns, .line = line, .active = level});
+}
+
+}  // namespace towbench::emulator

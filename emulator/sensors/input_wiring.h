@@ -1,0 +1,43 @@
+// The wires of the machine's input lines (halls, kill switch, amplifier ready), each of which may
+// be broken, shorted or inverted from a given time on.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/bounded_vector.h"
+#include "core/realtime.h"
+#include "core/time.h"
+#include "emulator/sensors/line_change.h"
+#include "emulator/sensors/wire_condition.h"
+#include "protocol/messages.h"
+
+namespace towbench::emulator {
+
+class InputWiring {
+ public:
+  // For the tick about to run, in ascending time. False, and nothing changed, when it has no room
+  // for another change.
+  TOWBENCH_REALTIME [[nodiscard]] bool set_line(protocol::InputLine line, WireCondition condition,
+                                                core::Nanoseconds time_ns) noexcept;
+
+  // From the changes at the sensors (in the order of time) to those that arrive. `near` and `far`
+  // are the lines before the step at either end; both are brought up to date.
+  TOWBENCH_REALTIME void step(std::uint16_t& near, std::uint16_t& far,
+                              LineChanges& changes) noexcept;
+
+ private:
+  struct Change {
+    core::Nanoseconds time_ns = 0;
+    protocol::InputLine line = protocol::InputLine::kKillSwitch;
+    WireCondition condition = WireCondition::kIntact;
+  };
+
+  void deliver(core::Nanoseconds time_ns, protocol::InputLine line, std::uint16_t near,
+               std::uint16_t& far, LineChanges& arrived) const noexcept;
+
+  std::array<WireCondition, protocol::kInputLineCount> condition_{};
+  core::BoundedVector<Change, kMaxWiringChangesPerStep> pending_;
+};
+
+}  // namespace towbench::emulator
