@@ -3,9 +3,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
+#include "protocol/carriers/can_packer.h"
 #include "protocol/cobs.h"
 #include "protocol/frame.h"
 #include "tests/protocol/any_message.h"
@@ -51,11 +53,52 @@ void write_streams(const fs::path& directory) {
   }
 }
 
+// Ten bytes a frame, as protocol_can_fuzz.cc reads them.
+class FrameSeed final : public CanFrameSink {
+ public:
+  void on(const CanFrame& frame) noexcept override {
+    // The targets' table of identifiers is in ascending order, two of each base.
+    constexpr std::uint32_t kBases[] = {can_id::kFault,    can_id::kBye,   can_id::kLines,
+                                        can_id::kDuty,     can_id::kIndex, can_id::kDigest,
+                                        can_id::kLockstep, can_id::kLong,  can_id::kHeartbeat};
+    for (std::size_t i = 0; i < std::size(kBases); ++i) {
+      if ((frame.id & ~1U) == kBases[i]) {
+        bytes.push_back(static_cast<std::byte>(2 * i + (frame.id & 1U)));
+      }
+    }
+    bytes.push_back(std::byte{1});
+    for (const std::uint8_t byte : frame.data) {
+      bytes.push_back(static_cast<std::byte>(byte));
+    }
+  }
+  std::vector<std::byte> bytes;
+};
+
+void write_can_seeds(const fs::path& directory) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    FrameSeed frames;
+    CanPacker packer(seed % 2 == 0 ? CanDirection::kToPlant : CanDirection::kToController, frames);
+    AnyMessage any(seed);
+    for (int i = 0; i < 10; ++i) {
+      any.send_to(packer);
+    }
+    EncoderReport report{.capture_period_ns = 1};
+    for (; report.sequence < 6; ++report.sequence) {
+      report.time_ns += core::kNanosecondsPerMillisecond;
+      report.last_edge_ns = report.time_ns - 100;
+      report.index_count += report.sequence == 4 ? 1 : 0;
+      packer.on(report);
+    }
+    write_seed(directory, "any" + std::to_string(seed), frames.bytes);
+  }
+}
+
 void write_all(const fs::path& corpora) {
   for (const Golden& golden : golden_messages()) {
     write_seed(corpora / "protocol_codec_fuzz", golden.name, bytes_of(golden.payload_hex));
   }
   write_streams<FrameWriter>(corpora / "protocol_frame_fuzz");
+  write_can_seeds(corpora / "protocol_can_fuzz");
   write_streams<CobsWriter>(corpora / "protocol_cobs_fuzz");
 }
 
