@@ -1,28 +1,75 @@
 #include "emulator/plant/linear_mode.h"
 
+#include <cmath>
+
 namespace towbench::emulator {
 namespace {
 
 constexpr std::size_t kAugmented = std::size_t{kStateCount} + std::size_t{kInputCount};
 
-// Rough sizes of states and inputs, powers of two so that scaling by them is exact. They only
-// balance the matrices before exponentials and norms are taken; results do not depend on them.
-constexpr Column<kAugmented> kTypicalSize{1.0,    1.0, 0x1p7,  0x1p-3, 0x1p-10,
-                                          0x1p-7, 1.0, 0x1p-5, 0x1p4};
-
 // Above this the alternating terms of the series cancel more than three digits of sixteen.
 constexpr double kLargestNorm = 14.0;
 
-SquareMatrix<kAugmented> balanced(const ContinuousMode& mode, double tick_s) noexcept {
+struct Balanced {
+  SquareMatrix<kAugmented> matrix{};  // D^-1 h [A B; 0 0] D
+  Column<kAugmented> scale{};         // the diagonal of D
+};
+
+SquareMatrix<kAugmented> augmented(const ContinuousMode& mode, double tick_s) noexcept {
   SquareMatrix<kAugmented> m{};
   for (std::size_t column = 0; column < kAugmented; ++column) {
     for (std::size_t row = 0; row < kStateCount; ++row) {
-      const double element =
-          column < kStateCount ? mode.state[column][row] : mode.input[column - kStateCount][row];
-      m[column][row] = tick_s * element * kTypicalSize[column] / kTypicalSize[row];
+      m[column][row] = tick_s * (column < kStateCount ? mode.state[column][row]
+                                                      : mode.input[column - kStateCount][row]);
     }
   }
   return m;
+}
+
+// The power of two by which row i must shrink and column i grow for the two to be of one size.
+// Inputs have no row: their column alone is brought below one.
+double balancing_factor(const SquareMatrix<kAugmented>& m, std::size_t i) noexcept {
+  double column = 0;
+  double row = 0;
+  for (std::size_t k = 0; k < kAugmented; ++k) {
+    column += k == i ? 0.0 : std::fabs(m[i][k]);
+    row += k == i ? 0.0 : std::fabs(m[k][i]);
+  }
+  double factor = 1.0;
+  if (column == 0 || (row == 0 && i < kStateCount)) {
+    return factor;
+  }
+  const double target = i < kStateCount ? row : 1.0;
+  const auto out_of_balance = [&](double f) {
+    return i < kStateCount ? column * f * f / target : column * f / target;
+  };
+  constexpr int kMostDoublings = 80;
+  for (int n = 0; n < kMostDoublings && out_of_balance(factor) > 2.0; ++n) {
+    factor *= 0.5;
+  }
+  for (int n = 0; n < kMostDoublings && out_of_balance(factor) < 0.5; ++n) {
+    factor *= 2.0;
+  }
+  return factor;
+}
+
+// Osborne's balancing by powers of two: exact, and it leaves the exponential what it is. Amperes,
+// metres and radians otherwise differ so much that a norm says nothing.
+Balanced balanced(const ContinuousMode& mode, double tick_s) noexcept {
+  Balanced b{.matrix = augmented(mode, tick_s)};
+  b.scale.fill(1.0);
+  constexpr int kSweeps = 12;
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (std::size_t i = 0; i < kAugmented; ++i) {
+      const double factor = balancing_factor(b.matrix, i);
+      b.scale[i] *= factor;
+      for (std::size_t k = 0; k < kAugmented; ++k) {
+        b.matrix[i][k] *= factor;
+        b.matrix[k][i] /= factor;
+      }
+    }
+  }
+  return b;
 }
 
 // Terms after which |M|^k / k! is below rounding.
@@ -39,16 +86,16 @@ int terms_for(double norm) noexcept {
 }  // namespace
 
 bool discretise(ContinuousMode& mode, double tick_s, DiscreteMode& out) noexcept {
-  const SquareMatrix<kAugmented> m = balanced(mode, tick_s);
-  const double norm = one_norm(m);
+  const Balanced balance = balanced(mode, tick_s);
+  const double norm = one_norm(balance.matrix);
   if (!(norm <= kLargestNorm)) {
     return false;
   }
   mode.taylor_terms = terms_for(norm);
-  const SquareMatrix<kAugmented> flow = exponential_of(m);
+  const SquareMatrix<kAugmented> flow = exponential_of(balance.matrix);
   for (std::size_t column = 0; column < kAugmented; ++column) {
     for (std::size_t row = 0; row < kStateCount; ++row) {
-      const double element = flow[column][row] * kTypicalSize[row] / kTypicalSize[column];
+      const double element = flow[column][row] * balance.scale[row] / balance.scale[column];
       (column < kStateCount ? out.state[column][row] : out.input[column - kStateCount][row]) =
           element;
     }

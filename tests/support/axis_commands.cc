@@ -6,7 +6,7 @@
 
 #include "core/random.h"
 
-namespace towbench::testing {
+namespace towbench::tests {
 namespace {
 
 // +1, 0, -1, 0, each a quarter of the period.
@@ -60,4 +60,4 @@ std::vector<CommandHistory> command_histories(double duration_s) {
   };
 }
 
-}  // namespace towbench::testing
+}  // namespace towbench::tests

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace towbench::testing {
+namespace towbench::tests {
 
 struct CommandHistory {
   std::string name;
@@ -14,4 +14,4 @@ struct CommandHistory {
 // Pulses, saturating pulses, sine, slow stick-slip, random steps, square waves.
 [[nodiscard]] std::vector<CommandHistory> command_histories(double duration_s);
 
-}  // namespace towbench::testing
+}  // namespace towbench::tests

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace towbench::testing {
+namespace towbench::tests {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -289,4 +289,4 @@ void AxisOracle::handle(std::size_t margin) {
   }
 }
 
-}  // namespace towbench::testing
+}  // namespace towbench::tests

@@ -9,7 +9,7 @@
 
 #include "emulator/plant/axis_parameters.h"
 
-namespace towbench::testing {
+namespace towbench::tests {
 
 class AxisOracle {
  public:
@@ -72,4 +72,4 @@ class AxisOracle {
   long events_ = 0;
 };
 
-}  // namespace towbench::testing
+}  // namespace towbench::tests

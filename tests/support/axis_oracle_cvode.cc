@@ -9,7 +9,7 @@
 
 #include "tests/support/axis_oracle.h"
 
-namespace towbench::testing {
+namespace towbench::tests {
 namespace {
 
 using State = AxisOracle::State;
@@ -104,4 +104,4 @@ void AxisOracle::advance_by_cvode(const Input& input, double duration_s) {
   SUNContext_Free(&context);
 }
 
-}  // namespace towbench::testing
+}  // namespace towbench::tests

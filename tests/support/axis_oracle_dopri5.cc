@@ -5,7 +5,7 @@
 
 #include "tests/support/axis_oracle.h"
 
-namespace towbench::testing {
+namespace towbench::tests {
 namespace {
 
 namespace odeint = boost::numeric::odeint;
@@ -87,4 +87,4 @@ void AxisOracle::advance(const Input& input, double duration_s) {
   }
 }
 
-}  // namespace towbench::testing
+}  // namespace towbench::tests
