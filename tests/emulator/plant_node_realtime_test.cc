@@ -36,7 +36,15 @@ TEST(PlantNodeRealtime, TheGuardSeesAllocations) {
 TEST(PlantNodeRealtime, ExchangesWithEdgesLinesFaultsAndContactsTakeNoHeap) {
   RigParameters rig = rig_starting_at(3.85, 0.3);
   rig.axes[Axis::kX].encoder.phase_deg = 70.0;
-  std::vector<ScheduledEvent> events;
+  rig.axes[Axis::kY].current_monitor.fitted = true;
+  rig.force_sensor.fitted = true;
+  std::vector<ScheduledEvent> events{{.kind = ScheduledEventKind::kRewireEncoder,
+                                      .axis = Axis::kX,
+                                      .encoder_line = protocol::EncoderLine::kB,
+                                      .condition = WireCondition::kInverted},
+                                     {.kind = ScheduledEventKind::kRewireInput,
+                                      .input_line = protocol::InputLine::kAmplifierReadyX,
+                                      .condition = WireCondition::kInverted}};
   for (int i = 0; i < 50; ++i) {
     events.push_back({.time_ns = i * 20'000'000,
                       .kind = i % 2 == 0 ? ScheduledEventKind::kPressKillSwitch
