@@ -35,6 +35,10 @@ inline constexpr OptionSpec kDutyOption{
           .meaning = meaning};
 }
 
+inline constexpr OptionSpec kRestOption =
+    time_option("--rest", "", "s", core::between(0, 60), 1,
+                "coasting after it; what then still moves is braked");
+
 [[nodiscard]] inline double signed_by(const Arguments& arguments, std::size_t direction,
                                       double magnitude) noexcept {
   return arguments.choice(direction) == 0 ? magnitude : -magnitude;

@@ -19,6 +19,7 @@ enum Option : std::size_t {
   kPulses,
   kDuration,
   kWait,
+  kRest,
   kAlternate,
   kSignal,
   kBit,
@@ -49,6 +50,7 @@ constexpr std::array<OptionSpec, kOptionCount> kOptions{{
     time_option("--duration", "-t", "s", core::between(0.01, 131), 5,
                 "of all pulses; a started one is finished"),
     kWaitOption,
+    kRestOption,
     {.name = "--alternate",
      .kind = OptionKind::kFlag,
      .presence = Presence::kOptional,
@@ -82,7 +84,7 @@ ErrorCode run_prbs(CommandContext& context, const Arguments& arguments) {
     context.why.text("that would take more than a day");
     return program.error();
   }
-  return drive(context, arguments.axis(kDof), *program);
+  return drive(context, arguments.axis(kDof), DutyProgram(*program, arguments.number(kRest)));
 }
 
 ErrorCode run(CommandContext& context, const Arguments& arguments) {
@@ -104,7 +106,10 @@ ErrorCode run(CommandContext& context, const Arguments& arguments) {
                           .wait_s = arguments.number(kWait),
                           .pulses = static_cast<std::int32_t>(std::max(count, 1.0)),
                           .alternate = arguments.given(kAlternate)});
-  return program ? drive(context, arguments.axis(kDof), *program) : program.error();
+  if (!program) {
+    return program.error();
+  }
+  return drive(context, arguments.axis(kDof), DutyProgram(*program, arguments.number(kRest)));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace {
 
 using core::ErrorCode;
 
-enum Option : std::size_t { kDof, kDuty, kOffset, kFrequency, kCycles, kWait, kOptionCount };
+enum Option : std::size_t { kDof, kDuty, kOffset, kFrequency, kCycles, kWait, kRest, kOptionCount };
 constexpr std::array<OptionSpec, kOptionCount> kOptions{{
     kDofRequired,
     kDutyOption,
@@ -30,6 +30,7 @@ constexpr std::array<OptionSpec, kOptionCount> kOptions{{
      .default_value = 5,
      .meaning = "how many"},
     kWaitOption,
+    kRestOption,
 }};
 
 ErrorCode run(CommandContext& context, const Arguments& arguments) {
@@ -42,7 +43,7 @@ ErrorCode run(CommandContext& context, const Arguments& arguments) {
     context.why.text("--duty and --offset together must not pass 100%, nor the time a day");
     return program.error();
   }
-  return drive(context, arguments.axis(kDof), *program);
+  return drive(context, arguments.axis(kDof), DutyProgram(*program, arguments.number(kRest)));
 }
 
 }  // namespace

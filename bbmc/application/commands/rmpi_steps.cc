@@ -9,21 +9,23 @@ namespace {
 using core::ErrorCode;
 
 // A program cannot begin with nothing to wait for: a step of no length is left out.
-ErrorCode run_steps(CommandContext& context, core::Axis axis, std::span<const DutyStep> steps) {
+ErrorCode run_steps(CommandContext& context, core::Axis axis, std::span<const DutyStep> steps,
+                    double rest_s) {
   const auto program =
       StepsProgram::make(steps.front().time_s > 0 ? steps : steps.last(steps.size() - 1));
-  return program ? drive(context, axis, *program) : program.error();
+  return program ? drive(context, axis, DutyProgram(*program, rest_s)) : program.error();
 }
 
 namespace single {
 
-enum Option : std::size_t { kDof, kDuty, kDirection, kTime, kWait, kOptionCount };
+enum Option : std::size_t { kDof, kDuty, kDirection, kTime, kWait, kRest, kOptionCount };
 constexpr std::array<OptionSpec, kOptionCount> kOptions{{
     kDofRequired,
     kDutyOption,
     kDirectionOption,
     time_option("--time", "-t", "s", core::between(0.001, 60), 0.5, "length of the step"),
     kWaitOption,
+    kRestOption,
 }};
 
 ErrorCode run(CommandContext& context, const Arguments& arguments) {
@@ -32,7 +34,7 @@ ErrorCode run(CommandContext& context, const Arguments& arguments) {
       {.duty_pct = signed_by(arguments, kDirection, arguments.number(kDuty)),
        .time_s = arguments.number(kTime)},
   }};
-  return run_steps(context, arguments.axis(kDof), steps);
+  return run_steps(context, arguments.axis(kDof), steps, arguments.number(kRest));
 }
 
 }  // namespace single
@@ -47,6 +49,7 @@ enum Option : std::size_t {
   kSecondDuty,
   kSecondTime,
   kWait,
+  kRest,
   kOptionCount,
 };
 constexpr std::array<OptionSpec, kOptionCount> kOptions{{
@@ -63,6 +66,7 @@ constexpr std::array<OptionSpec, kOptionCount> kOptions{{
     time_option("--second-time", "", "s", core::between(0.001, 60), 0.3,
                 "length of the second step"),
     kWaitOption,
+    kRestOption,
 }};
 
 ErrorCode run(CommandContext& context, const Arguments& arguments) {
@@ -73,7 +77,7 @@ ErrorCode run(CommandContext& context, const Arguments& arguments) {
       {.duty_pct = signed_by(arguments, kDirection, arguments.number(kSecondDuty)),
        .time_s = arguments.number(kSecondTime)},
   }};
-  return run_steps(context, arguments.axis(kDof), steps);
+  return run_steps(context, arguments.axis(kDof), steps, arguments.number(kRest));
 }
 
 }  // namespace twofold

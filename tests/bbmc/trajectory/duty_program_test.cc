@@ -25,6 +25,22 @@ TEST(StepsProgram, HoldsEachStepForItsTime) {
   EXPECT_EQ(program->duty_pct(kNan), 0);
 }
 
+TEST(DutyProgram, RestsWithoutDriveAfterItsShape) {
+  const std::vector<DutyStep> steps{{7, 0.1}};
+  const DutyProgram program(*StepsProgram::make(steps), 0.4);
+  EXPECT_DOUBLE_EQ(program.duration_s(), 0.5);
+  EXPECT_EQ(program.duty_pct(0.0999), 7);
+  EXPECT_EQ(program.duty_pct(0.1), 0);
+  EXPECT_EQ(DutyProgram(*StepsProgram::make(steps), -1).duration_s(), 0.1);
+  EXPECT_EQ(DutyProgram(*StepsProgram::make(steps), kNan).duration_s(), 0.1);
+  EXPECT_EQ(DutyProgram().duration_s(), 0);
+  EXPECT_EQ(DutyProgram().duty_pct(0), 0);
+  // A ramp that has reached its limit does not hold it for ever.
+  const DutyProgram ramp = *BreakAwayProgram::make({});
+  EXPECT_NEAR(ramp.duty_pct(ramp.duration_s() - 1e-3), 20, 1e-9);
+  EXPECT_EQ(ramp.duty_pct(ramp.duration_s()), 0);
+}
+
 TEST(StepsProgram, RefusesWhatIsNoStep) {
   EXPECT_FALSE(StepsProgram::make({}));
   for (const DutyStep bad : {DutyStep{101, 1}, {kNan, 1}, {1, 0}, {1, -1}, {1, kNan}, {1, 1e9}}) {
