@@ -122,7 +122,7 @@ Diagnosis diagnose(const Request& request) {
   }
   const HeldOut heldout(data.heldout, d.context, data.same_session);
   d.selection = select_causes(data.fit, heldout, d.context, request.seed, request.progress);
-  d.parameters = judge_parameters(request.model, d.selection.after);
+  d.parameters = judge_parameters(request.model, d.selection.after, d.selection.terms());
   d.unexplained = find_unexplained(data.fit, d.selection.after);
   d.not_testable = find_not_testable(d.selection);
   for (const Cause& cause : d.selection.causes) {

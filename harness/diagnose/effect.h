@@ -42,6 +42,9 @@ struct Effect {
   std::vector<std::string> scales = {};        // names with units of what enters nonlinearly
   bool first_is_positive = false;              // otherwise the physics allows both signs
   bool differs_between_sessions = false;  // its phase hangs on where the encoder was switched on
+  // The base column that the mean of its shape falls into, -1 for none: with the effect found, that
+  // column's parameter is no longer comparable with the supplied one.
+  int shares_mean_with = -1;
   LineSearch search = LineSearch::kNone;  // its one scale is a frequency sought in the residual
   std::string needs = {};                 // the data that would show it
   std::vector<Scales> (*grid)(const Context&) = nullptr;

@@ -26,9 +26,15 @@ bool agree(const Ratio& a, const Ratio& b) {
          std::max(3 * std::hypot(a.error, b.error), 0.1 * std::abs(a.value - 1));
 }
 
+bool shared(const std::vector<Term>& causes, Eigen::Index column) {
+  return std::any_of(causes.begin(), causes.end(),
+                     [&](const Term& term) { return term.effect->shares_mean_with == column; });
+}
+
 }  // namespace
 
-std::vector<ParameterShift> judge_parameters(const NominalModel& model, const Evidence& evidence) {
+std::vector<ParameterShift> judge_parameters(const NominalModel& model, const Evidence& evidence,
+                                             const std::vector<Term>& causes) {
   const std::array<std::string, 4> names{"inertia", "viscous", "coulomb", "bias"};
   const std::array<std::string, 4> units{"kg", "N s/m", "N", "N"};
   const std::array<double, 4> supplied{model.mass_kg, model.viscous_N_s_per_m, model.coulomb_N,
@@ -43,7 +49,7 @@ std::vector<ParameterShift> judge_parameters(const NominalModel& model, const Ev
     const double off = value - supplied[i];
     const double column =
         evidence.x.col(j).norm() / std::sqrt(static_cast<double>(evidence.y.size()));
-    const bool moved = model.supplied && std::abs(off) > kErrors * error &&
+    const bool moved = model.supplied && !shared(causes, j) && std::abs(off) > kErrors * error &&
                        std::abs(off) * column > kForceShare * force;
     shifts.push_back({names[i],
                       supplied[i],

@@ -24,6 +24,7 @@ void add_session_effects(Library& library) {
   library.push_back({.name = "thermal_drift",
                      .cause = "friction that changes in the course of the run",
                      .coefficients = {"change_over_run_N"},
+                     .shares_mean_with = kCoulomb,
                      .needs = "the same motion cold and warm",
                      .grid = no_scale,
                      .columns = thermal_drift});

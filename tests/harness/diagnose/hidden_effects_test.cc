@@ -1,0 +1,59 @@
+// One thing wrong, hidden by a generator that shares no code with the library: is it named?
+// The full matrix is diagnose_campaign's; this gate takes one seed of each.
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/harness/diagnose/hidden_case.h"
+
+namespace towbench::tests {
+namespace {
+
+bool holds(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+class HiddenEffect : public testing::TestWithParam<const char*> {};
+
+TEST_P(HiddenEffect, IsNamedFromTheLogAndTheNominalModelAlone) {
+  HiddenAxis axis;
+  axis.effect = GetParam();
+  const auto d = diagnose_hidden(axis, 1);
+  const auto all = named(d);
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(),
+                          [&](const auto& names) { return holds(names, axis.effect); }));
+  for (const auto& names : all) {
+    EXPECT_TRUE(holds(names, axis.effect)) << "named beside it: " << names.front();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, HiddenEffect,
+                         testing::Values("coulomb_asymmetry", "viscous_asymmetry", "stribeck",
+                                         "low_speed_rolloff", "presliding", "quadratic_drag",
+                                         "cubic_viscous", "added_mass", "transport_delay",
+                                         "current_loop_lag", "amplifier_gain", "amplifier_deadband",
+                                         "command_saturation", "voltage_saturation",
+                                         "load_dependent_friction", "position_force",
+                                         "torque_ripple", "sprocket_eccentricity", "chain_polygon",
+                                         "constant_bias", "encoder_count_loss", "periodic_force"),
+                         [](const auto& parameter) { return std::string(parameter.param); });
+
+TEST(NothingHidden, NothingIsNamed) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const auto d = diagnose_hidden(HiddenAxis{}, seed);
+    EXPECT_THAT(named(d), testing::IsEmpty()) << "seed " << seed;
+    EXPECT_THAT(d.verdicts, testing::ElementsAre("model_adequate")) << "seed " << seed;
+  }
+}
+
+TEST(OutsideTheLibrary, IsCalledUnexplainedAndNotMisnamed) {
+  HiddenAxis axis;
+  axis.effect = "outside";
+  const auto d = diagnose_hidden(axis, 1);
+  EXPECT_THAT(d.verdicts, testing::Contains("unexplained_structure"));
+  EXPECT_THAT(named(d), testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace towbench::tests
