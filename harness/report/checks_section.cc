@@ -49,8 +49,8 @@ std::string limits_text(std::optional<double> min, std::optional<double> max,
 // A fraction of the nearer limit; absolute where that limit is 0.
 std::string margin_text(const Json& check, std::optional<double> min, std::optional<double> max) {
   const std::optional<double> margin = number_at(check, "margin");
-  if (!margin || (!min && !max)) {
-    return "";
+  if (!margin || (!min && !max) || min == max) {
+    return "";  // an exact value is met or not, there is no more or less
   }
   const bool absolute = (min && *min == 0 && !max) || (max && *max == 0 && !min);
   if (absolute) {
@@ -100,7 +100,8 @@ std::string check_row(const Json& check) {
   row += cell("Value", escaped(shown), "number value");
   row += cell("Allowed", escaped(limits_text(min, max, unit)), "number");
   row += cell("Margin", escaped(margin_text(check, min, max)), "number");
-  row += cell("Scale", value ? limit_bar({*value, min, max}) : std::string{}, "scale");
+  row +=
+      cell("Scale", value && min != max ? limit_bar({*value, min, max}) : std::string{}, "scale");
   return row + "</tr>\n";
 }
 

@@ -24,6 +24,10 @@ constexpr std::array<std::string_view, protocol::kInputLineCount> kLineNames{
     "end-stop switch X max", "kill switch",           "amplifier Y ready",
     "amplifier X ready"};
 
+// bbmc::AxisMode, by number.
+constexpr std::array<std::string_view, 6> kModeNames{
+    "idle", "open loop", "position control", "velocity control", "braking", "faulted"};
+
 struct Words {
   std::string text;
   std::vector<std::string_view> used;  // members that the text already says
@@ -53,8 +57,34 @@ Words contact(const Json& event) {
   return {text, {"value", "energy_J"}};
 }
 
+Words state_changed(const Json& event) {
+  const double mode = number_at(event, "value").value_or(-1);
+  if (mode < 0 || mode >= static_cast<double>(kModeNames.size()) || std::floor(mode) != mode) {
+    return {};
+  }
+  return {fmt::format("to {}", kModeNames[static_cast<std::size_t>(mode)]), {"value"}};
+}
+
+// The controller numbers its lines from 1, so that the sign can tell the direction.
+Words line_edge(const Json& event) {
+  const double value = number_at(event, "value").value_or(0);
+  const double line = std::fabs(value) - 1;
+  if (line < 0 || line >= static_cast<double>(kLineNames.size()) || std::floor(line) != line) {
+    return {};
+  }
+  return {
+      fmt::format("{}: {}", kLineNames[static_cast<std::size_t>(line)], value > 0 ? "on" : "off"),
+      {"value"}};
+}
+
 Words words_for(const Json& event) {
   const std::string kind = text_at(event, "kind");
+  if (kind == "state_changed") {
+    return state_changed(event);
+  }
+  if (kind == "line_edge") {
+    return line_edge(event);
+  }
   if (kind == "input_line_changed") {
     return line_changed(event);
   }

@@ -1,4 +1,5 @@
-#include <algorithm>
+#include <map>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -12,16 +13,28 @@ namespace {
 
 using Json = nlohmann::json;
 
-bool is_index_pulse(const Json& event) {
-  return text_at(event, "kind") == "index_pulse";
+// How often each kind occurs.
+std::map<std::string, std::size_t> counts_by_kind(const RunContents& run) {
+  std::map<std::string, std::size_t> counts;
+  for (const Json& event : run.events) {
+    ++counts[text_at(event, "kind")];
+  }
+  return counts;
+}
+
+bool is_routine(const std::string& kind, std::size_t count) {
+  return count > kMaxOfRoutineKind &&
+         (kind == "index_pulse" || kind == "duty_on" || kind == "duty_zero");
 }
 
 }  // namespace
 
 std::vector<NumberedEvent> listed_events(const RunContents& run) {
+  const std::map<std::string, std::size_t> counts = counts_by_kind(run);
   std::vector<NumberedEvent> listed;
   for (const Json& event : run.events) {
-    if (!is_index_pulse(event) && listed.size() < kMaxEvents) {
+    const std::string kind = text_at(event, "kind");
+    if (!is_routine(kind, counts.at(kind)) && listed.size() < kMaxEvents) {
       listed.push_back({listed.size() + 1, event});
     }
   }
@@ -31,8 +44,6 @@ std::vector<NumberedEvent> listed_events(const RunContents& run) {
 std::string events_section(const RunContents& run, const std::vector<NumberedEvent>& events,
                            int level) {
   std::string html = "<section class=\"events\">\n" + heading(level, "Events");
-  const auto pulses =
-      static_cast<std::size_t>(std::count_if(run.events.begin(), run.events.end(), is_index_pulse));
   if (events.empty()) {
     html += missing_note("No event was recorded.");
   } else {
@@ -51,15 +62,18 @@ std::string events_section(const RunContents& run, const std::vector<NumberedEve
     }
     html += "</tbody>\n</table>\n";
   }
-  const std::size_t left_out = run.events.size() - pulses - events.size();
+  std::size_t routine = 0;
+  for (const auto& [kind, count] : counts_by_kind(run)) {
+    if (is_routine(kind, count)) {
+      routine += count;
+      html += fmt::format(
+          "<p class=\"note\">{} events \"{}\" are in events.jsonl and not listed here.</p>\n",
+          count, escaped(kind));
+    }
+  }
+  const std::size_t left_out = run.events.size() - routine - events.size();
   if (left_out > 0) {
     html += missing_note(fmt::format("{} later events are in events.jsonl only.", left_out));
-  }
-  if (pulses > 0) {
-    html += fmt::format(
-        "<p class=\"note\">{} index pulses of the encoders are in events.jsonl and not listed "
-        "here.</p>\n",
-        pulses);
   }
   return html + "</section>\n";
 }

@@ -43,7 +43,9 @@ Json plot_data(const RunContents& run, const PlotTable& table,
                const std::vector<NumberedEvent>& events, std::size_t max_bytes) {
   Json marks = Json::array();
   for (const NumberedEvent& numbered : events) {
-    if (const std::optional<double> time_s = number_at(numbered.event, "time_s")) {
+    const std::optional<double> time_s = number_at(numbered.event, "time_s");
+    // What the wire carries shows in the duty itself.
+    if (time_s && text_at(numbered.event, "side") != "wire") {
       marks.push_back({{"number", numbered.number},
                        {"time_s", *time_s},
                        {"kind", text_at(numbered.event, "kind")},

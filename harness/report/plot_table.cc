@@ -9,6 +9,7 @@
 
 #include "bbmc/system/telemetry_row.h"
 #include "core/axis.h"
+#include "harness/report/controller_frame.h"
 #include "harness/report/quantity.h"
 
 namespace towbench::harness::report {
@@ -64,24 +65,18 @@ std::vector<double> resampled(const std::vector<double>& time_s, const std::vect
   return result;
 }
 
-// Of each row: the controller's count less the true one, from the row where the axis last began to
-// follow a reference (before the first such row, and without any, from the first that will do).
-std::vector<double> count_origins(const std::vector<double>& count,
-                                  const std::vector<double>& true_count,
-                                  const std::vector<double>* state) {
-  std::vector<double> origins(count.size(), kMissing);
-  double origin = kMissing;
-  bool was_following = false;
-  for (std::size_t row = 0; row < count.size(); ++row) {
-    const double here = count[row] - true_count[row];
-    const bool following = state == nullptr || (*state)[row] == kFollowing;
-    if (!std::isnan(here) && (std::isnan(origin) || (following && !was_following))) {
-      origin = here;
+void blank_before(std::size_t row, core::Axis axis, PlotTable& table) {
+  for (PlotColumn& column : table.columns) {
+    for (const char* quantity : {"position_m", "reference_m", "carriage_m"}) {
+      if (column.name == fmt::format("{}_{}", core::name_of(axis), quantity)) {
+        std::fill_n(column.values.begin(), row, kMissing);
+      }
     }
-    was_following = following;
-    origins[row] = origin;
   }
-  return origins;
+  table.remarks.push_back(
+      fmt::format("The controller's zero of {} was set at {:.3f} s; positions before that are in "
+                  "another frame and not drawn.",
+                  core::name_of(axis), table.columns[0].values[row]));
 }
 
 struct TruthSource {
@@ -113,16 +108,21 @@ void add_carriage(const TruthSource& truth, core::Axis axis, double metres_per_c
   }
   const std::vector<double> true_count = truth.at(log_time_s, name("count"));
   const std::vector<double>* count = table.find(name("count"));
+  const std::vector<double>* state = table.find(name("state"));
+  std::size_t first_row = 0;
   if (count != nullptr && !true_count.empty() && metres_per_count > 0) {
-    const std::vector<double> origins =
-        count_origins(*count, true_count, table.find(name("state")));
+    const std::vector<double> origins = count_origins(*count, true_count, state);
     for (std::size_t row = 0; row < carriage_m.size(); ++row) {
       carriage_m[row] += origins[row] * metres_per_count;
     }
     const double offset_m = origins.back() * metres_per_count;
     table.frame_offset_m[axis] = std::isfinite(offset_m) ? offset_m : 0;
+    first_row = state == nullptr ? 0 : first_row_of_frame(origins, *state, metres_per_count);
   }
   table.columns.push_back({name("carriage_m"), std::move(carriage_m)});
+  if (first_row > 0) {
+    blank_before(first_row, axis, table);
+  }
 }
 
 void add_truth(const CsvTable& truth, const nlohmann::json& limits, PlotTable& table) {
@@ -136,12 +136,11 @@ void add_truth(const CsvTable& truth, const nlohmann::json& limits, PlotTable& t
   for (const core::Axis axis : core::kAxes) {
     const nlohmann::json& ends = member(limits, core::name_of(axis));
     add_carriage(source, axis, number_at(ends, "metres_per_count").value_or(0), table);
-    // Less than this is a matter of when the two counts were sampled.
-    constexpr double kNoteworthy_m = 1e-4;
-    if (std::fabs(table.frame_offset_m[axis]) > kNoteworthy_m) {
+    if (std::fabs(table.frame_offset_m[axis]) > kFrameTolerance_m) {
       table.remarks.push_back(fmt::format(
-          "The controller's zero of {} is not the machine's: {} lies between them. Carriage and "
-          "limits are shown in the controller's frame.",
+          "The controller's zero of {} lies {} from the machine's; carriage and limits are shown "
+          "in "
+          "the controller's frame.",
           core::name_of(axis), readable_quantity(std::fabs(table.frame_offset_m[axis]), "m")));
     }
   }

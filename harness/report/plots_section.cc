@@ -9,7 +9,8 @@ namespace towbench::harness::report {
 std::string plots_section(const PlotTable& table, std::size_t run_index, int level) {
   std::string html = "<section class=\"plots\">\n" + heading(level, "Plots");
   for (const std::string& remark : table.remarks) {
-    html += missing_note(remark);
+    html += table.columns.empty() ? missing_note(remark)
+                                  : fmt::format("<p class=\"note\">{}</p>\n", escaped(remark));
   }
   if (table.columns.empty()) {
     return html + "</section>\n";

@@ -21,8 +21,10 @@ struct NumberedEvent {
   nlohmann::json event;
 };
 
-// Every event but the encoders' index pulses, of which a run has hundreds; the first kMaxEvents.
+// The first kMaxEvents, without the kinds that say little one by one (index pulses, the drive going
+// on and off) where there are many of them.
 inline constexpr std::size_t kMaxEvents = 400;
+inline constexpr std::size_t kMaxOfRoutineKind = 6;
 [[nodiscard]] std::vector<NumberedEvent> listed_events(const RunContents& run);
 
 [[nodiscard]] std::string run_title(const RunContents& run);

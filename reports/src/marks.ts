@@ -51,6 +51,7 @@ export function drawSpans(plot: uPlot, spans: Span[], theme: Theme): void {
     const { top, height } = plot.bbox;
     setFont(context, 11);
     context.textBaseline = "bottom";
+    context.textAlign = "left";
     for (const span of spans) {
       const left = plot.valToPos(span.from, "x", true);
       const right = plot.valToPos(span.to, "x", true);
@@ -65,34 +66,38 @@ export function drawSpans(plot: uPlot, spans: Span[], theme: Theme): void {
   });
 }
 
+// Labels stand above their lines, but below where another line is close above.
 export function drawGuides(plot: uPlot, guides: Guide[], theme: Theme): void {
   clipped(plot, (context) => {
-    const { left, width, top } = plot.bbox;
+    const { left, width } = plot.bbox;
+    const ratio = devicePixelRatio;
     setFont(context, 11);
-    context.textAlign = "right";
-    for (const guide of guides) {
-      const y = Math.round(plot.valToPos(guide.value, "y", true)) + 0.5;
-      context.strokeStyle = theme.muted;
-      context.setLineDash([10, 3, 2, 3].map((length) => length * devicePixelRatio));
-      context.lineWidth = devicePixelRatio;
+    context.textAlign = "left";
+    context.textBaseline = "top";
+    context.lineWidth = ratio;
+    context.strokeStyle = theme.muted;
+    context.setLineDash([10, 3, 2, 3].map((length) => length * ratio));
+    const heights = guides.map((guide) => Math.round(plot.valToPos(guide.value, "y", true)) + 0.5);
+    guides.forEach((guide, i) => {
+      const y = heights[i]!;
       context.beginPath();
       context.moveTo(left, y);
       context.lineTo(left + width, y);
       context.stroke();
+      const crowded = heights.some((other) => other < y && y - other < 30 * ratio);
       context.fillStyle = theme.muted;
-      const above = y - top > 16 * devicePixelRatio;
-      context.textBaseline = above ? "bottom" : "top";
-      context.fillText(guide.label, left + width - 4, y + (above ? -2 : 2));
-    }
+      context.fillText(guide.label, left + 18 * ratio, crowded ? y + 3 * ratio : y - 14 * ratio);
+    });
   });
 }
 
 // A thin line at each event, with its number in the table where there is room for it.
 export function drawEvents(plot: uPlot, events: EventMark[], theme: Theme): void {
   clipped(plot, (context) => {
-    const { top, height } = plot.bbox;
+    const { left, top, width, height } = plot.bbox;
     setFont(context, 10);
     context.textBaseline = "top";
+    context.textAlign = "left";
     context.strokeStyle = theme.muted;
     context.fillStyle = theme.text;
     context.lineWidth = 1;
@@ -105,9 +110,11 @@ export function drawEvents(plot: uPlot, events: EventMark[], theme: Theme): void
       context.lineTo(x, top + height);
       context.stroke();
       const label = String(event.number);
-      if (x >= free) {
-        context.fillText(label, x + 3, top + 2);
-        free = x + context.measureText(label).width + 8;
+      const size = context.measureText(label).width;
+      const fitsRight = x + 3 + size < left + width;
+      if (x >= free && x >= left) {
+        context.fillText(label, fitsRight ? x + 3 : x - 3 - size, top + 2);
+        free = x + size + 8;
       }
     }
   });

@@ -3,6 +3,7 @@
 export type LineRole = "reference" | "measured" | "truth";
 
 export interface Theme {
+  page: string;
   text: string;
   muted: string;
   grid: string;
@@ -24,6 +25,7 @@ export function currentTheme(): Theme {
   const style = getComputedStyle(document.documentElement);
   const colour = (name: string) => style.getPropertyValue(name).trim();
   return {
+    page: colour("--page"),
     text: colour("--text"),
     muted: colour("--muted"),
     grid: colour("--grid"),

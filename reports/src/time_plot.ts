@@ -32,7 +32,7 @@ function yRange(figure: Figure, guides: number[]): uPlot.Range.Function {
     let low = Math.min(dataMin, ...guides, ...(figure.zero ? [0] : []));
     let high = Math.max(dataMax, ...guides, ...(figure.zero ? [0] : []));
     const span = high - low || Math.abs(high) * 0.1 || 1;
-    const pad = span * 0.08;
+    const pad = span * (guides.length > 0 ? 0.16 : 0.08); // guides need room for their labels
     low -= figure.zero && low === 0 ? 0 : pad;
     high += figure.zero && high === 0 ? 0 : pad;
     return [low, high];
@@ -141,7 +141,7 @@ function makePlot(
   const options: uPlot.Options = {
     width,
     height: height(width),
-    padding: [24, 8, 0, 0],
+    padding: [24, 16, 0, 0],
     legend: { show: false },
     scales: {
       x: { time: false, range: (_p, min, max) => [min ?? group.full.from, max ?? group.full.to] },

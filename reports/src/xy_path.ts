@@ -31,6 +31,21 @@ interface Bounds {
   y: [number, number];
 }
 
+// A column of both axes in mm, where both follow a reference: before that the controller's zero may
+// still be set, after that nobody follows a path. A log without references shows all of it.
+function pathOf(table: Table, column: string): Omit<Path, "label" | "role"> | null {
+  const x = table.columns.get(`x_${column}`);
+  const y = table.columns.get(`y_${column}`);
+  if (x === undefined || y === undefined) return null;
+  const errorX = table.columns.get("x_error_m");
+  const errorY = table.columns.get("y_error_m");
+  const follows = (row: number) =>
+    !errorX || !errorY || !(Number.isNaN(errorX[row]!) || Number.isNaN(errorY[row]!));
+  const chosen = (values: Float64Array) =>
+    values.map((value, row) => (follows(row) ? value * perMetre : NaN));
+  return { x: chosen(x), y: chosen(y) };
+}
+
 function pathsOf(table: Table): Path[] {
   const wanted: [string, string, LineRole][] = [
     ["carriage_m", "carriage (truth)", "truth"],
@@ -38,21 +53,18 @@ function pathsOf(table: Table): Path[] {
     ["reference_m", "reference", "reference"],
   ];
   return wanted.flatMap(([column, label, role]) => {
-    const x = table.columns.get(`x_${column}`);
-    const y = table.columns.get(`y_${column}`);
-    const scaled = (values: Float64Array) => values.map((value) => value * perMetre);
-    return x && y && extentOf(x) && extentOf(y)
-      ? [{ label, role, x: scaled(x), y: scaled(y) }]
-      : [];
+    const path = pathOf(table, column);
+    return path && extentOf(path.x) && extentOf(path.y) ? [{ label, role, ...path }] : [];
   });
 }
 
 // True when both axes move by more than a millimetre: otherwise there is no path to look at.
 export function hasPath(table: Table): boolean {
-  return ["x_position_m", "y_position_m"].every((name) => {
-    const values = table.columns.get(name);
-    const extent = values === undefined ? null : extentOf(values);
-    return extent !== null && extent.max - extent.min > 1e-3;
+  const path = pathOf(table, "position_m");
+  if (path === null) return false;
+  return [path.x, path.y].every((values) => {
+    const extent = extentOf(values);
+    return extent !== null && extent.max - extent.min > 1e-3 * perMetre;
   });
 }
 
@@ -164,7 +176,7 @@ function makePlot(canvasHost: HTMLElement, current: () => Path[]): uPlot {
       mode: 2,
       width,
       height: heightFor(width),
-      padding: [24, 12, 0, 0],
+      padding: [24, 32, 0, 0],
       legend: { show: false },
       scales: { x: { time: false, auto: false, range: [0, 1] }, y: { auto: false, range: [0, 1] } },
       axes: [

@@ -39,6 +39,8 @@ export async function withBrowser(use) {
 // `noise` collects console errors, exceptions and every request other than for the file itself.
 export async function openPage(context, file, options = {}) {
   const page = await context.newPage();
+  // Generous: a test that only fails on a busy machine says nothing about the page.
+  page.setDefaultTimeout(150_000);
   const noise = [];
   const url = pathToFileURL(file).href;
   page.on("console", (message) => {

@@ -43,6 +43,17 @@ TEST(PlotTable, ShowsTheCarriageInTheFrameInWhichTheControllerCounts) {
   EXPECT_FALSE(table.remarks.empty());
 }
 
+TEST(PlotTable, LeavesOutPositionsFromBeforeTheControllersZeroWasSet) {
+  const PlotTable table =
+      plot_table(run_of("time_s,y_position_m,y_count,y_state\n0,0,0,0\n1,0.9,900,0\n2,0.9,900,2\n",
+                        "time_s,y_carriage_m,y_count\n0,0.1,100\n1,0.1,100\n2,0.1,100\n"));
+  EXPECT_TRUE(std::isnan((*table.find("y_position_m"))[0]));
+  EXPECT_TRUE(std::isnan((*table.find("y_carriage_m"))[0]));
+  EXPECT_DOUBLE_EQ((*table.find("y_position_m"))[1], 0.9);
+  EXPECT_DOUBLE_EQ((*table.find("y_carriage_m"))[1], 0.9);
+  EXPECT_EQ(table.remarks.size(), 2U);
+}
+
 TEST(PlotTable, LetsLostEdgesShowAsACarriageError) {
   // Both counts agree when following begins; then the controller misses 10 counts of 1 mm.
   const PlotTable table = plot_table(
