@@ -137,6 +137,22 @@ TEST(CanPacking, ALostDigestIsNoticedAndCaughtUpWithinTheWholeReports) {
   EXPECT_EQ(link.unpacker.reports_without_reference(), 155U);
 }
 
+TEST(CanPacking, ADigestWhoseIndexFrameWasLostIsNotDelivered) {
+  Link link(CanDirection::kToController);
+  EncoderReport report{.sequence = 10};
+  for (int i = 0; i < 3; ++i) {
+    report.time_ns += core::kNanosecondsPerMillisecond;
+    const bool at_index = i == 2;
+    report.index_pulses = at_index ? 1 : 0;
+    report.index_count = at_index ? 4000 : 0;
+    link.bus.lose_next = at_index ? 1 : 0;  // the index frame goes first
+    link.packer.on(report);
+    ++report.sequence;
+  }
+  EXPECT_EQ(link.received.texts.size(), 2U);
+  EXPECT_EQ(link.unpacker.reports_without_reference(), 1U);
+}
+
 TEST(CanPacking, ALostDutyShowsAsAGapInTheSequence) {
   Link link(CanDirection::kToPlant);
   for (std::uint32_t i = 0; i < 5; ++i) {
