@@ -38,6 +38,7 @@ Table make_table() noexcept {
   table.add(perf_log_commands());
   table.add(reset_commands());
   table.add(config_commands());
+  table.add(test_commands());
   table.add(help_command());
   table.add(quit_command());
   return table;

@@ -24,6 +24,7 @@ namespace towbench::bbmc {
 [[nodiscard]] std::span<const CommandSpec> perf_log_commands() noexcept;
 [[nodiscard]] std::span<const CommandSpec> reset_commands() noexcept;
 [[nodiscard]] std::span<const CommandSpec> config_commands() noexcept;
+[[nodiscard]] std::span<const CommandSpec> test_commands() noexcept;
 [[nodiscard]] const CommandSpec& help_command() noexcept;
 [[nodiscard]] const CommandSpec& quit_command() noexcept;
 

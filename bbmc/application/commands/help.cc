@@ -14,7 +14,7 @@ constexpr std::array<OptionSpec, 1> kOptions{{
     {.name = "COMMAND",
      .kind = OptionKind::kChoice,
      .presence = Presence::kOptional,
-     .choices = "all|run|path|goto|rmpi|status|datalog|perf|reset|config|help|quit",
+     .choices = "all|run|path|goto|rmpi|status|datalog|perf|reset|config|test|help|quit",
      .meaning = "shows options, units, ranges and defaults"},
 }};
 

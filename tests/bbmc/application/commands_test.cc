@@ -366,6 +366,19 @@ TEST(Status, TellsTheStateOfEverything) {
                     HasSubstr("axis x: "), HasSubstr("end-stop min clear")));
 }
 
+TEST(TestCommand, ShowsLinesRegistersAndDevices) {
+  Session session;
+  session.machine().set_line(Line::kHallXMax, true);
+  EXPECT_THAT(session.enter("test gpio"),
+              AllOf(HasSubstr("hall_x_max    in   active\r\n"),
+                    HasSubstr("kill_switch   in   inactive\r\n"), EndsWith("ok\r\n")));
+  EXPECT_THAT(session.enter("test qei y"), AllOf(HasSubstr("position "), EndsWith("ok\r\n")));
+  const std::string devices = session.enter("test devices");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(devices.begin(), devices.end(), '\n')),
+            DeviceManager::kUnitCount + 1);
+  EXPECT_THAT(devices, Not(HasSubstr("closed")));
+}
+
 // Defect 12: whatever is refused, everything is as it was.
 TEST(Defect12, ARefusedArgumentChangesNothing) {
   Session session;
