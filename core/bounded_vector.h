@@ -1,4 +1,5 @@
-// A vector with its storage inside and a capacity that never grows: the container of real-time code.
+// A vector with its storage inside and a capacity that never grows: the container of real-time
+// code.
 #pragma once
 
 #include <array>

@@ -7,7 +7,8 @@
 namespace towbench::core {
 namespace {
 
-// Taylor coefficients in z = (2 pi r)^2 for |r| <= 1/8 turn; the first term left out is below 1e-19.
+// Taylor coefficients in z = (2 pi r)^2 for |r| <= 1/8 turn; the first term left out is below
+// 1e-19.
 double sine_of_octant(double angle_rad) noexcept {
   const double z = angle_rad * angle_rad;
   double sum = 1.0 / 355687428096000.0;

@@ -14,7 +14,8 @@ namespace towbench::core {
 template <typename T, std::size_t Capacity>
 class SpscQueue {
   static_assert(std::is_trivially_copyable_v<T>);
-  static_assert((Capacity & (Capacity - 1)) == 0, "a power of two keeps the index arithmetic cheap");
+  static_assert((Capacity & (Capacity - 1)) == 0,
+                "a power of two keeps the index arithmetic cheap");
 
  public:
   // Producer side. False when full: the item is refused, never overwritten.
