@@ -139,7 +139,7 @@ struct BrakingConfiguration {
   double speed_gain_Nm_s_per_rad = 2.4e-3;  // of the braking law near standstill
   double standstill_m_per_s = 1.2e-3;       // 500 counts/s, the firmware's threshold
   double standstill_time_s = 0.08;          // below that for so long: power off
-  double timeout_s = 0.8;                   // power off whatever the speed
+  double timeout_s = 1.5;                   // power off whatever the speed
 
   template <typename Visitor>
   void visit(Visitor& v) {

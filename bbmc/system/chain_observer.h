@@ -6,8 +6,7 @@
 //   th_l'' = w_h^2 (th - th_l) + 2 zeta w_h (th' - th_l'),   tau_chain = J_l th_l''
 //
 // w_h held-motor frequency, J_l the carriage's share of the inertia, at the motor. The carriage's
-// friction is not in it: that is part of break-away. zeta stands for what friction takes out of a
-// swing, not for the chain's own damping.
+// friction is not in it: that is part of break-away, and while the carriage rolls it damps nothing.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +45,8 @@ class ChainObserver {
   }
 
  private:
-  static constexpr double kDampingRatio = 0.15;
+  // Of the held motor: 0.06 of the free-free mode (assumed, as the frequency) x w_h / w_ff.
+  static constexpr double kDampingRatio = 0.03;
   // (w T)^2 above which the chain is stiffer than the samples can follow: taken as rigid.
   static constexpr double kStiffest = 0.25;
   [[nodiscard]] static constexpr double square(double x) noexcept { return x * x; }

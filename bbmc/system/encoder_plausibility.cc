@@ -11,6 +11,9 @@ using core::ErrorCode;
 // Below 1.25 x break-away no verdict is formed, at 1.5 x it takes less than 50 ms (controller.md
 // 5).
 constexpr double kPushThreshold = 1.25;
+// Of the observed swing that its model may be wrong by, and how long a swing is remembered.
+constexpr double kSwingShare = 0.25;
+constexpr double kSwingFades_s = 0.3;
 // A rigid axis has moved so far, and a live encoder shows a tenth of it at the very least; a frozen
 // or half-dead one dithers by a count or two.
 constexpr double kStuckTravel_counts = 40;
@@ -59,7 +62,8 @@ void EncoderPlausibility::begin_push(const EncoderChange& change, double directi
 ErrorCode EncoderPlausibility::judge_push(const EncoderChange& change) noexcept {
   const double pushing_Nm = change.torque_Nm - chain_torque_Nm_;
   const double magnitude = std::fabs(pushing_Nm);
-  if (magnitude <= kPushThreshold * breakaway_Nm_) {
+  const double still_Nm = breakaway_Nm_ + kSwingShare * swing_Nm_;
+  if (magnitude <= kPushThreshold * still_Nm) {
     push_.direction = 0;
     return ErrorCode::kNone;
   }
@@ -68,7 +72,7 @@ ErrorCode EncoderPlausibility::judge_push(const EncoderChange& change) noexcept 
     begin_push(change, direction);
     return ErrorCode::kNone;
   }
-  const double gained = (magnitude - breakaway_Nm_) / inertia_kg_m2_ * change.elapsed_s;
+  const double gained = (magnitude - still_Nm) / inertia_kg_m2_ * change.elapsed_s;
   push_.model_travel_rad += (push_.model_speed_rad_per_s + 0.5 * gained) * change.elapsed_s;
   push_.model_speed_rad_per_s += gained;
   push_.lowest_count = std::min(push_.lowest_count, change.raw_count);
@@ -116,6 +120,8 @@ ErrorCode EncoderPlausibility::update(const EncoderChange& change, Scope scope) 
   }
   count_events(change);
   chain_torque_Nm_ = chain_.update(change.raw_count, change.counts, change.elapsed_s);
+  swing_Nm_ = std::max(std::fabs(chain_torque_Nm_),
+                       swing_Nm_ * (1.0 - std::min(1.0, change.elapsed_s / kSwingFades_s)));
   const bool index_good =
       index_.update(change.raw_count, change.counts, change.index_pulses, change.index_raw_count);
   if (scope != Scope::kEverything) {

@@ -13,7 +13,8 @@
 //
 // "Break-away" is worst_breakaway_Nm plus what external_load_N asks at the motor, so that a load
 // that is allowed to be held is no fault. What the carriage swinging on its chain asks of the motor
-// (chain_observer.h) is taken off the drive first: a motor that holds against it does not push.
+// (chain_observer.h) is taken off the drive first: a motor that holds against it does not push. A
+// quarter of the swing is allowed for, because its frequency is known roughly at best.
 #pragma once
 
 #include <cstdint>
@@ -92,6 +93,7 @@ class EncoderPlausibility {
   Push push_;
   ChainObserver chain_;
   double chain_torque_Nm_ = 0;
+  double swing_Nm_ = 0;  // largest of late, fading
   IndexWatch index_;
   Bucket illegal_;
   Bucket noise_;

@@ -7,8 +7,11 @@
 namespace towbench::bbmc {
 
 double braking_torque_Nm(const AxisConfiguration& axis) noexcept {
-  return std::min(axis.drive.torque_limit_Nm(),
-                  axis.braking.gear_torque_limit_Nm / axis.gear_ratio);
+  const double carriage_share = 1.0 - axis.braking.rotor_inertia_kg_m2 / axis.braking.inertia_kg_m2;
+  const double peak_ratio = 2.0 * carriage_share;
+  const double drive_Nm = axis.drive.torque_limit_Nm();
+  const double gear_Nm = axis.braking.gear_torque_limit_Nm / axis.gear_ratio;
+  return drive_Nm * peak_ratio <= gear_Nm ? drive_Nm : gear_Nm / peak_ratio;
 }
 
 StoppingDistance::StoppingDistance(const AxisConfiguration& axis, double latency_s) noexcept
