@@ -6,6 +6,7 @@
 
 all_stages=(lint tests sanitize_address sanitize_thread fuzz fresh_start)
 quick_stages=(lint tests)
+on_request_stages=(tidy_everything)
 
 test_usage() {
   cat <<'TEXT'
@@ -16,12 +17,15 @@ usage: ./towbench test [--quick] [--only STAGE]... [--list]
   --only STAGE  this stage only; may be repeated
   --list        name the stages
 
-stages: lint              format, shellcheck, include rules, clang-tidy
+stages: lint              format, shellcheck, include rules, clang-tidy of plant, controller and protocol
         tests             unit, integration and browser tests of the release build
         sanitize_address  the same under address and undefined-behaviour sanitizers
         sanitize_thread   the same under the thread sanitizer
         fuzz              every libFuzzer target for a minute (TOWBENCH_FUZZ_SECONDS to change)
-        fresh_start       clone, ./towbench demo and --quick test in a bare Debian 12 folder
+        fresh_start       a clone in a bare Debian 12 folder: ./towbench demo from nothing, and again
+
+on request only (--only):
+        tidy_everything   clang-tidy of the harness and carriers too; about half an hour
 
 exit code: 0 all passed; 1 something failed; 2 bad arguments; 99 nothing failed but all was skipped
 TEXT
@@ -33,11 +37,14 @@ run_tests() {
     case $1 in
       --quick) stages=("${quick_stages[@]}") ;;
       --only)
-        [[ " ${all_stages[*]} " == *" ${2:-} "* ]] || { echo "towbench: no stage '${2:-}' (allowed: ${all_stages[*]})" >&2; exit 2; }
+        [[ " ${all_stages[*]} ${on_request_stages[*]} " == *" ${2:-} "* ]] || {
+          echo "towbench: no stage '${2:-}' (allowed: ${all_stages[*]} ${on_request_stages[*]})" >&2
+          exit 2
+        }
         chosen+=("$2")
         shift
         ;;
-      --list) printf '%s\n' "${all_stages[@]}"; return ;;
+      --list) printf '%s\n' "${all_stages[@]}" "${on_request_stages[@]}"; return ;;
       --help | -h) test_usage; return ;;
       *) echo "towbench: unknown argument '$1' to test (allowed: --quick --only --list --help)" >&2; exit 2 ;;
     esac
@@ -94,6 +101,8 @@ stage_lint() {
   "$root/tools/lint.sh" "$root" || { failed=$((failed + 1)); return 1; }
   passed=$((passed + 1))
 }
+
+stage_tidy_everything() { count "$root/tools/clang_tidy.sh" "$root" --everything; }
 
 stage_tests() {
   build_preset release release
