@@ -60,14 +60,16 @@ void EncoderPlausibility::begin_push(const EncoderChange& change, double directi
 }
 
 ErrorCode EncoderPlausibility::judge_push(const EncoderChange& change) noexcept {
-  const double pushing_Nm = change.torque_Nm - chain_torque_Nm_;
-  const double magnitude = std::fabs(pushing_Nm);
+  // The swing may explain a drive, never stand in for one: a carriage that sticks swings on in the
+  // observer only.
+  const double direction = change.torque_Nm > 0 ? 1.0 : -1.0;
+  const double magnitude =
+      std::min(direction * change.torque_Nm, direction * (change.torque_Nm - chain_torque_Nm_));
   const double still_Nm = breakaway_Nm_ + kSwingShare * swing_Nm_;
   if (magnitude <= kPushThreshold * still_Nm) {
     push_.direction = 0;
     return ErrorCode::kNone;
   }
-  const double direction = pushing_Nm > 0 ? 1.0 : -1.0;
   if (push_.direction != direction) {
     begin_push(change, direction);
     return ErrorCode::kNone;

@@ -11,7 +11,10 @@ double braking_torque_Nm(const AxisConfiguration& axis) noexcept {
   const double peak_ratio = 2.0 * carriage_share;
   const double drive_Nm = axis.drive.torque_limit_Nm();
   const double gear_Nm = axis.braking.gear_torque_limit_Nm / axis.gear_ratio;
-  return drive_Nm * peak_ratio <= gear_Nm ? drive_Nm : gear_Nm / peak_ratio;
+  const double step_Nm = drive_Nm + axis.plausibility.worst_breakaway_Nm;
+  return step_Nm * peak_ratio <= gear_Nm
+             ? drive_Nm
+             : gear_Nm / peak_ratio - axis.plausibility.worst_breakaway_Nm;
 }
 
 StoppingDistance::StoppingDistance(const AxisConfiguration& axis, double latency_s) noexcept

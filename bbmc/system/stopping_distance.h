@@ -16,7 +16,8 @@ namespace towbench::bbmc {
 
 // Torque that a safety stop may use: the drive's limit, or what keeps gear and chain within theirs.
 // A step of motor torque tau loads the chain with tau J_l/J once the swing has died out, and with
-// twice that at its first peak (undamped), J_l the carriage's share of the inertia.
+// twice that at its first peak (undamped), J_l the carriage's share of the inertia. The step also
+// takes away what the drive spent on friction before.
 [[nodiscard]] double braking_torque_Nm(const AxisConfiguration& axis) noexcept;
 
 class StoppingDistance {

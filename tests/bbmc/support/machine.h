@@ -60,6 +60,7 @@ class Machine final : public protocol::MessageSink, public emulator::PlantObserv
   [[nodiscard]] const bbmc::SystemEvent* find(bbmc::SystemEvent::Kind kind) const;
 
   // ---- MessageSink: what the plant sends ----
+  using MessageSink::on;
   void on(const protocol::HelloReply& reply) noexcept override;
   void on(const protocol::EncoderEdges& edges) noexcept override;
   void on(const protocol::DigitalInputs& inputs) noexcept override;
@@ -72,6 +73,7 @@ class Machine final : public protocol::MessageSink, public emulator::PlantObserv
   class Tap final : public protocol::MessageSink {
    public:
     explicit Tap(Machine& machine) : machine_(machine) {}
+    using MessageSink::on;
     void on(const protocol::PwmDuty& duty) noexcept override;
     void on(const protocol::DigitalOutputs& outputs) noexcept override;
 
