@@ -20,7 +20,7 @@ bool everywhere(Eigen::Index /*row*/, Eigen::Index /*rows*/) {
 std::vector<Term> memorising_terms() {
   std::vector<Term> terms;
   for (int i = 0; i < 40; ++i) {
-    terms.push_back({find_effect("periodic_force"), {0.35 + 0.23 * i}});
+    terms.push_back({find_effect("periodic_force"), {0.35 + 0.95 * i}});
   }
   return terms;
 }
