@@ -39,8 +39,9 @@ inline void QuadratureDecoder::Counter::channel(std::uint32_t line,
   ++edges;
   const std::int32_t step = line == parity ? 1 : -1;
   parity ^= 1U;
+  // The rare half of the test first: edges of steady motion alternate between the channels.
   const bool both_at_once =
-      line + last_line == 1 && time_ns - last_edge_ns < kPeripheralClock_ns && edges > 1;
+      time_ns - last_edge_ns < kPeripheralClock_ns && line + last_line == 1 && last_step != 0;
   last_line = line;
   if (both_at_once) [[unlikely]] {
     // The first of the pair was counted before the second made it illegal: take it back.
@@ -55,6 +56,40 @@ inline void QuadratureDecoder::Counter::channel(std::uint32_t line,
   last_step = step;
   edge_before_ns = last_edge_ns;
   last_edge_ns = time_ns;
+}
+
+inline std::size_t QuadratureDecoder::Counter::steady(std::span<const protocol::EncoderEdge> list,
+                                                      core::Nanoseconds& time_ns) noexcept {
+  if (last_step == 0) {
+    return 0;
+  }
+  core::Nanoseconds now_ns = time_ns;
+  core::Nanoseconds before_ns = last_edge_ns;
+  core::Nanoseconds latest_ns = last_edge_ns;
+  std::uint32_t previous = last_line;
+  std::size_t taken = 0;
+  for (const protocol::EncoderEdge edge : list) {
+    const auto line = static_cast<std::uint32_t>(edge.line());
+    if ((line ^ previous) != 1 || edge.step_ns() < kPeripheralClock_ns) {
+      break;
+    }
+    now_ns += edge.step_ns();
+    before_ns = latest_ns;
+    latest_ns = now_ns;
+    previous = line;
+    ++taken;
+  }
+  if (taken > 0) {
+    time_ns = now_ns;
+    edge_before_ns = before_ns;
+    last_edge_ns = latest_ns;
+    last_line = previous;
+    edges += taken;
+    count += last_step * static_cast<std::int64_t>(taken);
+    parity ^= static_cast<std::uint32_t>(taken & 1U);
+    reversed = false;
+  }
+  return taken;
 }
 
 void QuadratureDecoder::Counter::index(bool rises) noexcept {
@@ -94,7 +129,20 @@ bool QuadratureDecoder::take(const protocol::EncoderEdges& message) noexcept {
   core::Nanoseconds time_ns = message.start_ns;
   unsigned levels = levels_;
   Counter counter = counter_;
-  for (const protocol::EncoderEdge edge : message.edges.view()) {
+  const std::span<const protocol::EncoderEdge> edges = message.edges.view();
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const std::uint32_t first_line = counter.last_line ^ 1U;
+    if (const std::size_t run = counter.steady(edges.subspan(i), time_ns); run > 0) {
+      // Alternating from first_line on: half of them each, the odd one is the first line's.
+      const std::size_t of_first = (run + 1) / 2;
+      levels ^= static_cast<unsigned>(of_first & 1U) << first_line;
+      levels ^= static_cast<unsigned>((run - of_first) & 1U) << (first_line ^ 1U);
+      i += run;
+      if (i == edges.size()) {
+        break;
+      }
+    }
+    const protocol::EncoderEdge edge = edges[i];
     time_ns += edge.step_ns();
     const auto line = static_cast<std::uint32_t>(edge.line());
     levels ^= 1U << line;

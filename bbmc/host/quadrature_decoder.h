@@ -11,7 +11,9 @@
 //   index    its rising edge latches the count (QPOSILAT)
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "bbmc/device/eqep.h"
 #include "core/realtime.h"
@@ -59,6 +61,10 @@ class QuadratureDecoder {
 
     void channel(std::uint32_t line, core::Nanoseconds time_ns) noexcept;
     void index(bool rises) noexcept;
+    // Steady motion: channels alternate, so the direction stays. Takes such edges from the front,
+    // moves `time_ns` along, and returns how many they were.
+    std::size_t steady(std::span<const protocol::EncoderEdge> edges,
+                       core::Nanoseconds& time_ns) noexcept;
   };
 
   Eqep::Settings settings_;
