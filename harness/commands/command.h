@@ -13,7 +13,6 @@ void add_list(CLI::App& app, int& exit_code);
 void add_validate(CLI::App& app, int& exit_code);
 void add_emulate(CLI::App& app, int& exit_code);
 void add_control(CLI::App& app, int& exit_code);
-void add_diagnose(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 

@@ -22,7 +22,7 @@ int parse_and_run(int argc, char** argv) {
       "4 INVALID (the run proves nothing), 99 skipped.\n\nExample: towbench demo");
   int exit_code = kExitRuntime;
   for (const auto add : {add_demo, add_run, add_list, add_validate, add_emulate, add_control,
-                         add_diagnose, add_replay, add_report}) {
+                         add_replay, add_report}) {
     add(app, exit_code);
   }
   try {

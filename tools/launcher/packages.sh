@@ -4,7 +4,7 @@
 # To build and run the bench.
 run_packages=(
   g++ cmake ninja-build ccache git ca-certificates
-  libboost-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libexpected-dev libeigen3-dev libceres-dev
+  libboost-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libexpected-dev
 )
 # To build and test the bench in every way that CI does.
 test_packages=(

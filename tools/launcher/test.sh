@@ -81,11 +81,11 @@ count() {
   if "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); return 1; fi
 }
 
-# run_ctest PRESET [ctest arguments...]: counts each test, shows the failed ones.
+# run_ctest PRESET FOLDER [ctest arguments...]: counts each test, shows the failed ones.
 run_ctest() {
-  local preset=$1 log=$root/build/$1.ctest.log status=0 line
-  shift
-  ctest --test-dir "$root/build/$preset" --output-on-failure --no-tests=error -j 2 "$@" >"$log" 2>&1 || status=$?
+  local preset=$1 folder=$2 log=$root/build/$1.ctest.log status=0 line
+  shift 2
+  ctest --test-dir "$root/build/$preset/$folder" --output-on-failure --no-tests=error -j 2 "$@" >"$log" 2>&1 || status=$?
   line=$(grep -E 'tests? failed out of' "$log" || echo '0 tests failed out of 0')
   local total=${line##* } bad=${line#*passed, } off
   bad=${bad%% *}
@@ -93,7 +93,7 @@ run_ctest() {
   passed=$((passed + total - bad - off)) failed=$((failed + bad)) skipped=$((skipped + off))
   grep -E '\*\*\*(Skipped|Not Run)' "$log" || true
   if ((status)); then grep -vE '^ *[0-9]+/[0-9]+ Test .* Passed|^ *Start ' "$log" | tail -n 150; fi
-  echo "$((total - bad - off)) of $total tests passed ($preset)"
+  echo "$((total - bad - off)) of $total tests passed ($preset, $folder)"
   return "$status"
 }
 
@@ -106,17 +106,21 @@ stage_tidy_everything() { count "$root/tools/clang_tidy.sh" "$root" --everything
 
 stage_tests() {
   build_preset release release
-  run_ctest release
+  run_ctest release .
 }
 
 stage_sanitize_address() {
   build_preset asan asan
-  ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 run_ctest asan -LE browser
+  ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 run_ctest asan . -LE browser
 }
 
 stage_sanitize_thread() {
-  build_preset tsan tsan
-  TSAN_OPTIONS=halt_on_error=1 run_ctest tsan -LE browser
+  # Where threads are: the lock-free queues, the carriers, and the controller between them.
+  build_preset tsan tsan test_core test_protocol test_bbmc
+  local folder
+  for folder in core protocol bbmc; do
+    TSAN_OPTIONS=halt_on_error=1 run_ctest tsan "tests/$folder" || return 1
+  done
 }
 
 stage_fuzz() {
