@@ -116,6 +116,25 @@ void EncoderPlausibility::count_events(const EncoderChange& change) noexcept {
   }
 }
 
+ErrorCode EncoderPlausibility::judge(const EncoderChange& change, Scope scope,
+                                     bool index_good) noexcept {
+  if (const ErrorCode found = judge_kinematics(change); found != ErrorCode::kNone) {
+    return found;
+  }
+  if (scope == Scope::kEverything) {
+    if (const ErrorCode found = judge_push(change); found != ErrorCode::kNone) {
+      return found;
+    }
+  }
+  if (illegal_.sum() > settings_.illegal_transitions_max) {
+    return ErrorCode::kFaultEncoderIllegalTransitions;
+  }
+  if (noise_.sum() > settings_.noise_edges_max) {
+    return ErrorCode::kFaultEncoderNoise;
+  }
+  return settings_.index_fitted && !index_good ? ErrorCode::kFaultEncoderIndex : ErrorCode::kNone;
+}
+
 ErrorCode EncoderPlausibility::update(const EncoderChange& change, Scope scope) noexcept {
   if (change.elapsed_s <= 0) {
     return ErrorCode::kNone;
@@ -130,18 +149,10 @@ ErrorCode EncoderPlausibility::update(const EncoderChange& change, Scope scope) 
     push_.direction = 0;
   }
   ErrorCode found = ErrorCode::kNone;
-  if (!settings_.enabled || scope == Scope::kNothing) {
-    if (!index_good) {
-      index_.forget();  // moved by hand past a fault that nobody judged: learn anew
-    }
-  } else if (found = judge_kinematics(change); found != ErrorCode::kNone) {
-  } else if (scope == Scope::kEverything && (found = judge_push(change)) != ErrorCode::kNone) {
-  } else if (illegal_.sum() > settings_.illegal_transitions_max) {
-    found = ErrorCode::kFaultEncoderIllegalTransitions;
-  } else if (noise_.sum() > settings_.noise_edges_max) {
-    found = ErrorCode::kFaultEncoderNoise;
-  } else if (settings_.index_fitted && !index_good) {
-    found = ErrorCode::kFaultEncoderIndex;
+  if (settings_.enabled && scope != Scope::kNothing) {
+    found = judge(change, scope, index_good);
+  } else if (!index_good) {
+    index_.forget();  // moved by hand past a fault that nobody judged: learn anew
   }
   last_rate_count_per_s_ = static_cast<double>(change.counts) / change.elapsed_s;
   if (found != ErrorCode::kNone) {

@@ -80,6 +80,8 @@ class EncoderPlausibility {
     [[nodiscard]] std::int64_t sum() const noexcept { return current + last; }
   };
 
+  [[nodiscard]] core::ErrorCode judge(const EncoderChange& change, Scope scope,
+                                      bool index_good) noexcept;
   [[nodiscard]] core::ErrorCode judge_kinematics(const EncoderChange& change) const noexcept;
   [[nodiscard]] core::ErrorCode judge_push(const EncoderChange& change) noexcept;
   void begin_push(const EncoderChange& change, double direction) noexcept;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace towbench::bbmc {
 namespace {
@@ -15,6 +16,11 @@ constexpr double kRounding = 1e-9;
 
 [[nodiscard]] double step_for(double duration_s) noexcept {
   return std::max(kFinestStep_s, duration_s / kMostSamples);
+}
+
+// From 0 to the first one at or beyond the end.
+[[nodiscard]] std::int64_t samples_for(double duration_s, double step_s) noexcept {
+  return static_cast<std::int64_t>(duration_s / step_s) + 2;
 }
 
 [[nodiscard]] bool usable_duration(double duration_s) noexcept {
@@ -75,8 +81,10 @@ ErrorCode check_reference(const AxisControl& axis, const SafetyConfiguration& sa
     return ErrorCode::kRequestOutOfRange;
   }
   const double step_s = step_for(duration_s);
-  for (double time_s = 0; time_s < duration_s + step_s; time_s += step_s) {
-    const ErrorCode found = check_sample(axis, safety, start_m, trajectory.at(time_s));
+  const std::int64_t samples = samples_for(duration_s, step_s);
+  for (std::int64_t k = 0; k < samples; ++k) {
+    const Reference reference = trajectory.at(static_cast<double>(k) * step_s);
+    const ErrorCode found = check_sample(axis, safety, start_m, reference);
     if (found != ErrorCode::kNone) {
       return found;
     }
@@ -92,8 +100,9 @@ ErrorCode check_duty(const AxisControl& axis, double duty_limit_pct,
   }
   const EndStopGuard& stops = axis.end_stops();
   const double step_s = step_for(duration_s);
-  for (double time_s = 0; time_s < duration_s + step_s; time_s += step_s) {
-    const double duty_pct = program.duty_pct(time_s);
+  const std::int64_t samples = samples_for(duration_s, step_s);
+  for (std::int64_t k = 0; k < samples; ++k) {
+    const double duty_pct = program.duty_pct(static_cast<double>(k) * step_s);
     if (!(std::fabs(duty_pct) <= duty_limit_pct)) {
       return ErrorCode::kRequestOutOfRange;
     }
