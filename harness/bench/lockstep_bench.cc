@@ -17,8 +17,17 @@ LockstepBench::LockstepBench(const bbmc::Configuration& configuration, std::uint
 
 core::Status LockstepBench::start() noexcept {
   controller_.greet();
-  const auto answered = plant_.wait_for(protocol::Turn::kHelloReply);
-  return answered ? controller_.handshake() : answered;
+  auto status = plant_.wait_for(protocol::Turn::kHelloReply);
+  if (status) {
+    status = controller_.handshake();
+  }
+  if (!status) {
+    return status;
+  }
+  // The plant's first line levels follow its reply. An exchange of no length brings them on every
+  // carrier before the controller is first served: a switch that is pressed at time 0 is seen at 0.
+  to_plant_.on(protocol::Advance{now_ns_});
+  return plant_.wait_for(protocol::Turn::kAdvanced);
 }
 
 std::string_view LockstepBench::serve() noexcept {

@@ -16,12 +16,12 @@ namespace towbench::harness {
 // until `at_s`, type `send`, wait for `expect` in what the console printed since then, then for
 // what `wait` names.
 struct ConsoleStep {
-  std::optional<double> at_s;  // from the start of the run
-  std::string send;            // a carriage return is added; empty: nothing is typed
-  std::string expect;          // a substring of the output; empty: nothing is expected
-  bool wait_idle = false;      // until no motion runs
-  double wait_s = 0;           // at last, this much longer
-  double timeout_s = 30;       // for `expect` and `wait` together
+  std::optional<double> at_s{};  // from the start of the run
+  std::string send{};            // a carriage return is added; empty: nothing is typed
+  std::string expect{};          // a substring of the output; empty: nothing is expected
+  bool wait_idle = false;        // until no motion runs
+  double wait_s = 0;             // at last, this much longer
+  double timeout_s = 30;         // for `expect` and `wait` together
 };
 
 // A stretch of the run over which metrics are computed. "whole" always exists.
@@ -35,11 +35,11 @@ struct EvaluationWindow {
 
 // What a metric over a window must be. Two sides where too good would be suspicious.
 struct Budget {
-  std::string metric;
+  std::string metric{};
   std::string window = "whole";
-  std::optional<double> min;
-  std::optional<double> max;
-  std::string source;  // where the figure comes from
+  std::optional<double> min{};
+  std::optional<double> max{};
+  std::string source{};  // where the figure comes from
 };
 
 struct Experiment {

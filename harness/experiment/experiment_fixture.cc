@@ -112,7 +112,7 @@ Budget read_budget(TableReader& reader, const std::vector<EvaluationWindow>& win
   return budget;
 }
 
-Experiment read_experiment(TableReader& reader) {
+Experiment read_script(TableReader& reader) {
   Experiment experiment;
   reader.text("name", experiment.name, "short name, part of the folder's name");
   reader.text("title", experiment.title, "one line for a person");
@@ -183,25 +183,32 @@ void check_name(const TableReader& reader, const std::string& name) {
 
 }  // namespace
 
+Experiment read_experiment(const FixtureFile& file) {
+  TableReader reader(file, file.table());
+  auto experiment = read_script(reader);
+  for (const char* key : {"rig", "controller", "start"}) {
+    reader.permit(key);
+  }
+  for (const char* key : {"name", "rig", "controller", "duration_limit_s"}) {
+    reader.require(key);
+  }
+  reader.finish();
+  check_name(reader, experiment.name);
+  return experiment;
+}
+
 ExperimentFixture load_experiment(const std::filesystem::path& path) {
   const auto file = FixtureFile::load(path);
   ExperimentFixture fixture;
   fixture.file = path;
   remember(fixture.sources, file);
+  fixture.experiment = read_experiment(file);
 
   TableReader reader(file, file.table());
-  fixture.experiment = read_experiment(reader);
   std::string rig;
   std::string controller;
   reader.text("rig", rig, "path of the rig file");
   reader.text("controller", controller, "path of the controller file");
-  for (const char* key : {"name", "rig", "controller", "duration_limit_s"}) {
-    reader.require(key);
-  }
-  reader.permit("start");
-  reader.finish();
-  check_name(reader, fixture.experiment.name);
-
   fixture.rig_file = file.resolve(rig, reader.place_of("rig"));
   fixture.controller_file = file.resolve(controller, reader.place_of("controller"));
   fixture.rig = load_rig(fixture.rig_file, fixture.sources);

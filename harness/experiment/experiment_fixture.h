@@ -22,6 +22,9 @@ struct ExperimentFixture {
   std::uint64_t hash = 0;  // of the experiment's own text
 };
 
+// The file alone; what it names is left unread. Throws FixtureError.
+[[nodiscard]] Experiment read_experiment(const FixtureFile& file);
+
 // Throws FixtureError.
 [[nodiscard]] ExperimentFixture load_experiment(const std::filesystem::path& path);
 

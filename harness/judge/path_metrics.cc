@@ -17,6 +17,8 @@ struct Point {
 struct PathSample {
   std::size_t log_row = 0;
   Point actual;
+  // Whether the window holds it. The path it is measured against reaches beyond the window.
+  bool judged = false;
 };
 
 // Within this many control ticks the nearest point of the reference is looked for: at 1 kHz a lag
@@ -46,6 +48,9 @@ MetricValue peak_distance(const RunData& data, const std::vector<PathSample>& sa
   };
   Statistics statistics;
   for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (!samples[i].judged) {
+      continue;
+    }
     const std::size_t from = i > kReach_rows ? i - kReach_rows : 0;
     const std::size_t to = std::min(samples.size() - 1, i + kReach_rows);
     const Point actual = samples[i].actual;
@@ -77,8 +82,8 @@ MetricValue path_error_peak(const RunData& data, core::Axis /*axis*/, const Time
     return {};
   }
   for (std::size_t i = 0; i < time_s.size(); ++i) {
-    if (span.holds(time_s[i]) && state_y[i] == kStatePosition && state_x[i] == kStatePosition) {
-      samples.push_back({i, {position_x_m[i], position_y_m[i]}});
+    if (state_y[i] == kStatePosition && state_x[i] == kStatePosition) {
+      samples.push_back({i, {position_x_m[i], position_y_m[i]}, span.holds(time_s[i])});
     }
   }
   return peak_distance(data, samples);
@@ -86,12 +91,14 @@ MetricValue path_error_peak(const RunData& data, core::Axis /*axis*/, const Time
 
 MetricValue carriage_path_error_peak(const RunData& data, core::Axis /*axis*/,
                                      const TimeSpan& span) {
-  const auto along_y = carriage_samples(data, core::Axis::kY, span);
-  const auto along_x = carriage_samples(data, core::Axis::kX, span);
+  const auto time_s = data.log.column("time_s");
+  const auto along_y = carriage_samples(data, core::Axis::kY, {});
+  const auto along_x = carriage_samples(data, core::Axis::kX, {});
   std::vector<PathSample> samples;
   for (auto y = along_y.begin(), x = along_x.begin(); y != along_y.end() && x != along_x.end();) {
     if (y->log_row == x->log_row) {
-      samples.push_back({y->log_row, {x->carriage_m, y->carriage_m}});
+      samples.push_back(
+          {y->log_row, {x->carriage_m, y->carriage_m}, span.holds(time_s[y->log_row])});
       ++y;
       ++x;
     } else if (y->log_row < x->log_row) {

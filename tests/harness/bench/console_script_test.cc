@@ -8,6 +8,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using Progress = ConsoleScript::Progress;
+using Steps = std::vector<ConsoleStep>;
 
 constexpr core::Nanoseconds kMs = core::kNanosecondsPerMillisecond;
 
@@ -26,12 +27,12 @@ Progress turn(ConsoleScript& script, core::Nanoseconds now_ns, std::string_view 
 }
 
 TEST(ConsoleScript, AnEmptyScriptIsDoneAtOnce) {
-  ConsoleScript script({});
+  ConsoleScript script(Steps{});
   EXPECT_EQ(turn(script, 0, ""), Progress::kDone);
 }
 
 TEST(ConsoleScript, TypesWithACarriageReturnAndWaitsForTheAnswer) {
-  ConsoleScript script({{.send = "status", .expect = "ok"}});
+  ConsoleScript script(Steps{{.send = "status", .expect = "ok"}});
   EXPECT_EQ(turn(script, 0, ""), Progress::kRunning);
   EXPECT_EQ(take(script, kMs), "status\r");
   EXPECT_EQ(turn(script, kMs, "bbmc> status\r\n"), Progress::kRunning);
@@ -39,14 +40,14 @@ TEST(ConsoleScript, TypesWithACarriageReturnAndWaitsForTheAnswer) {
 }
 
 TEST(ConsoleScript, ItsOwnEchoIsNoAnswer) {
-  ConsoleScript script({{.send = "say ok", .expect = "ok", .timeout_s = 0.01}});
+  ConsoleScript script(Steps{{.send = "say ok", .expect = "ok", .timeout_s = 0.01}});
   EXPECT_EQ(turn(script, 0, ""), Progress::kRunning);
   EXPECT_EQ(turn(script, kMs, "say ok\r\n"), Progress::kRunning);
   EXPECT_EQ(turn(script, 20 * kMs, "no\r\n"), Progress::kFailed);
 }
 
 TEST(ConsoleScript, AnAnswerFromBeforeTheCommandDoesNotCount) {
-  ConsoleScript script({{.send = "a", .expect = "ok"}, {.send = "b", .expect = "ok"}});
+  ConsoleScript script(Steps{{.send = "a", .expect = "ok"}, {.send = "b", .expect = "ok"}});
   turn(script, 0, "");
   EXPECT_EQ(turn(script, kMs, "a\r\nok\r\n"), Progress::kRunning);
   EXPECT_EQ(turn(script, 2 * kMs, "b\r\n"), Progress::kRunning);
@@ -54,7 +55,7 @@ TEST(ConsoleScript, AnAnswerFromBeforeTheCommandDoesNotCount) {
 }
 
 TEST(ConsoleScript, ARefusalThatNobodyExpectedFailsAtOnceWithItsWords) {
-  ConsoleScript script({{.send = "run", .expect = "done", .timeout_s = 100}});
+  ConsoleScript script(Steps{{.send = "run", .expect = "done", .timeout_s = 100}});
   turn(script, 0, "");
   EXPECT_EQ(turn(script, kMs, "run\r\nerror 207: too fast\r\n"), Progress::kFailed);
   EXPECT_THAT(script.failure(), HasSubstr("step 1 (run)"));
@@ -62,13 +63,13 @@ TEST(ConsoleScript, ARefusalThatNobodyExpectedFailsAtOnceWithItsWords) {
 }
 
 TEST(ConsoleScript, AnExpectedRefusalPasses) {
-  ConsoleScript script({{.send = "run", .expect = "error 204"}});
+  ConsoleScript script(Steps{{.send = "run", .expect = "error 204"}});
   turn(script, 0, "");
   EXPECT_EQ(turn(script, kMs, "run\r\nerror 204: fault latched\r\n"), Progress::kDone);
 }
 
 TEST(ConsoleScript, SilenceFailsAfterTheTimeOutAndNotBefore) {
-  ConsoleScript script({{.send = "a", .expect = "ok", .timeout_s = 1.0}});
+  ConsoleScript script(Steps{{.send = "a", .expect = "ok", .timeout_s = 1.0}});
   turn(script, 0, "");
   EXPECT_EQ(turn(script, kMs, ""), Progress::kRunning);
   EXPECT_EQ(turn(script, 1000 * kMs, ""), Progress::kRunning);
@@ -77,7 +78,7 @@ TEST(ConsoleScript, SilenceFailsAfterTheTimeOutAndNotBefore) {
 }
 
 TEST(ConsoleScript, NothingIsTypedBeforeItsTime) {
-  ConsoleScript script({{.at_s = 0.5, .send = "a"}});
+  ConsoleScript script(Steps{{.at_s = 0.5, .send = "a"}});
   EXPECT_EQ(turn(script, 499 * kMs, ""), Progress::kRunning);
   EXPECT_EQ(take(script, 499 * kMs), "");
   EXPECT_EQ(turn(script, 500 * kMs, ""), Progress::kRunning);
@@ -85,7 +86,7 @@ TEST(ConsoleScript, NothingIsTypedBeforeItsTime) {
 }
 
 TEST(ConsoleScript, WaitsForRestAndThenPauses) {
-  ConsoleScript script({{.send = "a", .wait_idle = true, .wait_s = 0.01}});
+  ConsoleScript script(Steps{{.send = "a", .wait_idle = true, .wait_s = 0.01}});
   turn(script, 0, "", false);
   EXPECT_EQ(turn(script, 1 * kMs, "", false), Progress::kRunning);
   EXPECT_EQ(turn(script, 5 * kMs, "", true), Progress::kRunning);
@@ -94,7 +95,7 @@ TEST(ConsoleScript, WaitsForRestAndThenPauses) {
 }
 
 TEST(ConsoleScript, AMachineThatNeverRestsFailsAfterTheTimeOut) {
-  ConsoleScript script({{.send = "a", .wait_idle = true, .timeout_s = 1.0}});
+  ConsoleScript script(Steps{{.send = "a", .wait_idle = true, .timeout_s = 1.0}});
   turn(script, 0, "", false);
   turn(script, kMs, "", false);
   EXPECT_EQ(turn(script, 1001 * kMs, "", false), Progress::kFailed);
@@ -102,7 +103,7 @@ TEST(ConsoleScript, AMachineThatNeverRestsFailsAfterTheTimeOut) {
 }
 
 TEST(ConsoleScript, AUartThatTakesOneByteAtATimeGetsTheWholeLine) {
-  ConsoleScript script({{.send = "abc"}});
+  ConsoleScript script(Steps{{.send = "abc"}});
   (void)script.update(0, true);
   std::string taken;
   for (int i = 0; i < 10 && script.update(kMs * i, true) == Progress::kRunning; ++i) {

@@ -143,14 +143,14 @@ TEST(Events, OfBothSidesAreMergedByTimeAndTheTornLastOneIsDropped) {
   files.write(kControllerEventsFile,
               wire_event_line(2'000'000, "duty_zero") + wire_event_line(3'000'000, "duty_on"));
   merge_events(files.folder());
-  EXPECT_EQ(
-      contents(files.folder() / kEventsFile),
-      "{\"time_s\":0.001,\"side\":\"plant\",\"kind\":\"hard_end_contact\",\"axis\":\"y\","
-      "\"code\":501,\"text\":\"hard end contact\",\"lines\":0,\"value\":0.25,\"energy_J\":0}\n"
-      "{\"time_s\":0.002,\"side\":\"wire\",\"kind\":\"duty_zero\"}\n"
-      "{\"time_s\":0.003,\"side\":\"plant\",\"kind\":\"finished\",\"axis\":\"y\",\"lines\":0,"
-      "\"value\":0,\"energy_J\":0}\n"
-      "{\"time_s\":0.003,\"side\":\"wire\",\"kind\":\"duty_on\"}\n");
+  EXPECT_EQ(contents(files.folder() / kEventsFile),
+            "{\"time_s\":0.001,\"side\":\"plant\",\"kind\":\"hard_end_contact\",\"axis\":\"y\","
+            "\"code\":501,\"text\":\"contact with a hard "
+            "end\",\"lines\":0,\"value\":0.25,\"energy_J\":0}\n"
+            "{\"time_s\":0.002,\"side\":\"wire\",\"kind\":\"duty_zero\"}\n"
+            "{\"time_s\":0.003,\"side\":\"plant\",\"kind\":\"finished\",\"axis\":\"y\",\"lines\":0,"
+            "\"value\":0,\"energy_J\":0}\n"
+            "{\"time_s\":0.003,\"side\":\"wire\",\"kind\":\"duty_on\"}\n");
   EXPECT_FALSE(std::filesystem::exists(files.folder() / kPlantEventsFile));
 }
 

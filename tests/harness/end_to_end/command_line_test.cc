@@ -1,0 +1,106 @@
+// The verbs as processes: exit codes and what they print.
+#include <array>
+#include <cstdio>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/harness/end_to_end/run_support.h"
+
+namespace towbench::harness {
+namespace {
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+struct Output {
+  int code = -1;
+  std::string text;  // stdout and stderr
+};
+
+Output towbench(const std::string& arguments) {
+  Output output;
+  std::FILE* pipe = popen((std::string(TOWBENCH_PROGRAM) + " " + arguments + " 2>&1").c_str(), "r");
+  std::array<char, 4096> bytes{};
+  for (std::size_t count = 0; (count = fread(bytes.data(), 1, bytes.size(), pipe)) > 0;) {
+    output.text.append(bytes.data(), count);
+  }
+  output.code = WEXITSTATUS(pclose(pipe));
+  return output;
+}
+
+TEST(CommandLine, EveryVerbHasHelpWithAnExample) {
+  for (const char* verb :
+       {"demo", "run", "list", "validate", "emulate", "control", "replay", "report"}) {
+    const auto help = towbench(std::string(verb) + " --help");
+    EXPECT_EQ(help.code, 0) << verb;
+    EXPECT_THAT(help.text, HasSubstr("Example: towbench " + std::string(verb)));
+  }
+}
+
+TEST(CommandLine, BadArgumentsAreTwo) {
+  for (const char* arguments :
+       {"", "fly", "run", "run trapezoid-400 --carrier pigeon", "run no-such-experiment",
+        "run circle --seed x", "replay /tmp", "control --controller x",
+        "emulate --rig x --listen tcp:1", "validate no/such/file.toml"}) {
+    EXPECT_EQ(towbench(arguments).code, kExitBadInput) << arguments;
+  }
+}
+
+TEST(CommandLine, AMisspeltExperimentIsToldOnOneLine) {
+  const auto output = towbench("run circel");
+  EXPECT_THAT(output.text, HasSubstr("did you mean circle?"));
+  EXPECT_EQ(std::count(output.text.begin(), output.text.end(), '\n'), 1);
+}
+
+TEST(CommandLine, ARunPrintsItsTableAndLastTheReport) {
+  const TemporaryFixtures files;
+  const auto output = towbench("run pulses --out " + files.folder().string());
+  EXPECT_EQ(output.code, kExitPass) << output.text;
+  EXPECT_THAT(output.text, HasSubstr("PASS     pulses"));
+  EXPECT_THAT(output.text, EndsWith("report.html\n"));
+}
+
+TEST(CommandLine, JsonIsTheResultWithItsFolderAndFactor) {
+  const TemporaryFixtures files;
+  const auto output = towbench("run pulses --json --no-report --out " + files.folder().string());
+  const auto result = nlohmann::json::parse(output.text);
+  EXPECT_EQ(result.at("verdict"), "PASS");
+  EXPECT_GT(result.at("real_time_factor").get<double>(), 1.0);
+  EXPECT_TRUE(std::filesystem::exists(result.at("folder").get<std::string>() + "/log.csv"));
+}
+
+TEST(CommandLine, ReplaySaysIdenticalAndNamesTheFirstLineThatIsNot) {
+  const TemporaryFixtures files;
+  const auto run = towbench("run pulses --json --no-report --out " + files.folder().string());
+  const std::filesystem::path folder =
+      nlohmann::json::parse(run.text).at("folder").get<std::string>();
+  const auto same = towbench("replay " + folder.string());
+  EXPECT_EQ(same.code, kExitPass) << same.text;
+  auto log = contents_of(folder / "log.csv");
+  const auto line_3 = log.find('\n', log.find('\n') + 1) + 1;
+  log[line_3] = '7';
+  std::ofstream(folder / "log.csv", std::ios::binary) << log;
+  const auto other = towbench("replay " + folder.string());
+  EXPECT_EQ(other.code, kExitFail);
+  EXPECT_THAT(other.text, HasSubstr("log.csv differs at line 3"));
+}
+
+TEST(CommandLine, APipedConsoleSessionRunsLineByLine) {
+  Output output;
+  const std::string command = std::string("printf 'status\\nnonsense\\nquit\\n' | ") +
+                              TOWBENCH_PROGRAM +
+                              " control --fast --controller fixtures/controllers/bbmc-tuned.toml"
+                              " --rig fixtures/rigs/macs-nominal.toml 2>&1";
+  std::FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 4096> bytes{};
+  for (std::size_t count = 0; (count = fread(bytes.data(), 1, bytes.size(), pipe)) > 0;) {
+    output.text.append(bytes.data(), count);
+  }
+  EXPECT_EQ(WEXITSTATUS(pclose(pipe)), 0) << output.text;
+  EXPECT_THAT(output.text, HasSubstr("ok"));
+  EXPECT_THAT(output.text, HasSubstr("error 200"));
+}
+
+}  // namespace
+}  // namespace towbench::harness
