@@ -260,7 +260,8 @@ TEST(ClosedForms, LoadSideAndMotorSideInputGiveTheSameTrajectory) {
                   load_side);
   Bench a(motor_side, 1.0);
   Bench b(load_side, 1.0);
-  for (const double volts : command_histories(3.0).front().volts) {
+  const auto history = command_histories(3.0).front();  // a copy: the list it came from is gone
+  for (const double volts : history.volts) {
     a.input.command_V = volts;
     b.input.command_V = volts;
     a.tick();
