@@ -1,7 +1,6 @@
 #include "harness/record/controller_recorder.h"
 
 #include "harness/record/event_lines.h"
-#include "harness/record/log_columns.h"
 
 namespace towbench::harness {
 
@@ -9,12 +8,23 @@ ControllerRecorder::ControllerRecorder(const std::filesystem::path& folder)
     : log_(folder / "log.csv", log_header()),
       timing_(folder / "timing.csv", "time_s,host_s,exchange_us"),
       events_(folder / kControllerEventsFile),
-      console_(folder / "console.txt") {}
+      console_(folder / "console.txt"),
+      log_rows_(writer_, WriteLog{&log_}),
+      timing_rows_(writer_, WriteTiming{&timing_}) {}
+
+ControllerRecorder::~ControllerRecorder() {
+  flush();
+}
+
+void ControllerRecorder::WriteTiming::operator()(const Timing& timing) const noexcept {
+  // Microseconds to the nanosecond: "3.25".
+  csv->time(timing.time_ns).time(timing.host_ns).time(timing.exchange_ns * 1'000'000).end_row();
+}
 
 void ControllerRecorder::drain(bbmc::ControllerNode& controller) noexcept {
   bbmc::TelemetryRow row;
   while (controller.next_row(row)) {
-    write_log_row(log_, row);
+    log_rows_.add(row);
   }
   bbmc::ControllerEvent event;
   while (controller.next_event(event)) {
@@ -28,12 +38,13 @@ void ControllerRecorder::wire_event(core::Nanoseconds time_ns, std::string_view 
 
 void ControllerRecorder::timing(core::Nanoseconds time_ns, core::Nanoseconds host_ns,
                                 core::Nanoseconds exchange_ns) noexcept {
-  timing_.time(time_ns).time(host_ns);
-  // Microseconds to the nanosecond: "3.25".
-  timing_.time(exchange_ns * 1'000'000).end_row();
+  timing_rows_.add({time_ns, host_ns, exchange_ns});
 }
 
 void ControllerRecorder::flush() noexcept {
+  log_rows_.hand_over();
+  timing_rows_.hand_over();
+  writer_.wait();
   log_.flush();
   timing_.flush();
   events_.flush();

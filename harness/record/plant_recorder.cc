@@ -1,15 +1,20 @@
 #include "harness/record/plant_recorder.h"
 
 #include "harness/record/event_lines.h"
-#include "harness/record/log_columns.h"
 
 namespace towbench::harness {
 
 PlantRecorder::PlantRecorder(const std::filesystem::path& folder)
-    : truth_(folder / "truth.csv", truth_header()), events_(folder / kPlantEventsFile) {}
+    : truth_(folder / "truth.csv", truth_header()),
+      events_(folder / kPlantEventsFile),
+      rows_(writer_, WriteTruth{&truth_}) {}
+
+PlantRecorder::~PlantRecorder() {
+  flush();
+}
 
 void PlantRecorder::on_truth(const emulator::TruthRow& row) noexcept {
-  write_truth_row(truth_, row);
+  rows_.add(row);
 }
 
 void PlantRecorder::on_event(const emulator::PlantEvent& event) noexcept {
@@ -21,6 +26,8 @@ void PlantRecorder::on_event(const emulator::PlantEvent& event) noexcept {
 }
 
 void PlantRecorder::flush() noexcept {
+  rows_.hand_over();
+  writer_.wait();
   truth_.flush();
   events_.flush();
 }

@@ -7,23 +7,34 @@
 #include "emulator/plant_node.h"
 #include "harness/record/csv_writer.h"
 #include "harness/record/line_writer.h"
+#include "harness/record/log_columns.h"
+#include "harness/record/row_block.h"
 
 namespace towbench::harness {
 
 class PlantRecorder final : public emulator::PlantObserver {
  public:
   explicit PlantRecorder(const std::filesystem::path& folder);
+  ~PlantRecorder() override;
 
   void on_truth(const emulator::TruthRow& row) noexcept override;
   void on_event(const emulator::PlantEvent& event) noexcept override;
 
   void flush() noexcept;
+  // Both as of the last flush().
   [[nodiscard]] std::uint64_t rows() const noexcept { return truth_.rows(); }
   [[nodiscard]] bool good() const noexcept { return truth_.good() && events_.good(); }
 
  private:
+  struct WriteTruth {
+    CsvWriter* csv;
+    void operator()(const emulator::TruthRow& row) const noexcept { write_truth_row(*csv, row); }
+  };
+
   CsvWriter truth_;
   LineWriter events_;
+  BackgroundWriter writer_;  // ends before what it writes to
+  RowBlock<emulator::TruthRow, WriteTruth> rows_;
 };
 
 }  // namespace towbench::harness
