@@ -4,7 +4,7 @@
 # A stage is a function stage_NAME that returns 0 (passed), 99 (skipped, reason in $skip_reason) or
 # anything else (failed). It adds what it counted to $passed and $failed.
 
-all_stages=(lint tests sanitize_address sanitize_thread fuzz fresh_start)
+all_stages=(lint tests tidy sanitize_address sanitize_thread fuzz fresh_start)
 quick_stages=(lint tests)
 on_request_stages=(tidy_everything)
 
@@ -17,9 +17,10 @@ usage: ./towbench test [--quick] [--only STAGE]... [--list]
   --only STAGE  this stage only; may be repeated
   --list        name the stages
 
-stages: lint              format, shellcheck, include rules, clang-tidy of plant, controller and protocol
+stages: lint              format, shellcheck, include rules
         tests             unit, integration and browser tests of the release build
-        sanitize_address  the same under address and undefined-behaviour sanitizers
+        tidy              clang-tidy of plant, controller and protocol
+        sanitize_address  the tests under address and undefined-behaviour sanitizers
         sanitize_thread   the same under the thread sanitizer
         fuzz              every libFuzzer target for a minute (TOWBENCH_FUZZ_SECONDS to change)
         fresh_start       a clone in a bare Debian 12 folder: ./towbench demo from nothing, and again
@@ -101,6 +102,8 @@ stage_lint() {
   "$root/tools/lint.sh" "$root" || { failed=$((failed + 1)); return 1; }
   passed=$((passed + 1))
 }
+
+stage_tidy() { count "$root/tools/clang_tidy.sh" "$root"; }
 
 stage_tidy_everything() { count "$root/tools/clang_tidy.sh" "$root" --everything; }
 

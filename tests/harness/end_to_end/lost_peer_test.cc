@@ -143,7 +143,8 @@ TEST_P(LostPeer, AKilledEmulatorEndsTheRunIncomplete) {
   EXPECT_FALSE(result.contains("verdict"));
   EXPECT_THAT(result.at("reason").get<std::string>(), HasSubstr("emulator"));
   // The controller knew and said so.
-  EXPECT_THAT(contents_of(folder() / "controller_events.jsonl"), HasSubstr("fault_latched"));
+  EXPECT_THAT(contents_of(folder() / "controller_events.jsonl"),
+              HasSubstr(R"("kind":"fault_latched","axis":"y","code":320)"));
   EXPECT_GT(CsvTable::load(folder() / "log.csv").rows(), 100U);
 }
 
