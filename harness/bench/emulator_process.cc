@@ -27,6 +27,7 @@ void check(int error, const char* what) {
 
 pid_t spawn(const std::filesystem::path& program, std::vector<std::string> arguments, int stream) {
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (auto& argument : arguments) {
     argv.push_back(argument.data());
   }

@@ -19,6 +19,7 @@ constexpr std::array kDemo{"trapezoid-400", "circle", "pulses", "endstop-y-max"}
 
 int execute(const ExperimentOptions& options) {
   std::vector<ExperimentFixture> fixtures;
+  fixtures.reserve(kDemo.size());
   for (const char* name : kDemo) {
     fixtures.push_back(load_experiment(find_experiment(name)));
   }

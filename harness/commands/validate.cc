@@ -31,6 +31,7 @@ void read_by_kind(const std::filesystem::path& path) {
 
 int execute(const std::vector<std::string>& named) {
   std::vector<std::filesystem::path> paths;
+  paths.reserve(named.size());
   for (const auto& name : named) {
     paths.push_back(find_experiment(name));
   }
