@@ -4,6 +4,9 @@
 # shellcheck disable=SC2034,SC2154  # used by ./towbench; set by it
 bench_program=$root/build/release/harness/towbench-bench
 
+# What one clone has compiled serves the next one, wherever it lies.
+export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
+
 # build_preset PRESET BUILD_PRESET [TARGET...]: a line says that it builds, the log stays in build/.
 build_preset() {
   local preset=$1 folder_preset=$2 log
