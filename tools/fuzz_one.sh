@@ -4,10 +4,10 @@
 set -eu
 root=${1:?} seconds=${2:?} target=${3:?}
 name=$(basename "$target")
-corpus=$root/build/fuzz/corpus/$name
+corpus=$root/build/fuzz/corpus/$name # what make_fuzz_seeds wrote and earlier runs found
 findings=$root/build/fuzz/findings
 mkdir -p "$corpus" "$findings"
-seeds=$root/tests/fuzz/seeds/${name#fuzz_}
+seeds=$root/tests/fuzz/corpus/$name
 [ -d "$seeds" ] || seeds=
 log=$findings/$name.log
 # shellcheck disable=SC2086  # seeds is one word or none

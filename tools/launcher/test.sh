@@ -128,11 +128,10 @@ stage_sanitize_thread() {
 
 stage_fuzz() {
   build_preset fuzz fuzz
-  local target
-  for target in "$root"/build/fuzz/tests/fuzz/fuzz_*; do
-    [[ -f $target && -x $target ]] && echo "$target"
-  done >"$root/build/fuzz.targets"
-  [[ -s $root/build/fuzz.targets ]] || { echo 'no fuzz target was built'; return 1; }
+  local targets=("$root"/build/fuzz/tests/fuzz/*_fuzz)
+  "$root/build/fuzz/tests/fuzz/make_fuzz_seeds" "$root/build/fuzz/corpus" || { failed=$((failed + 1)); return 1; }
+  printf '%s\n' "${targets[@]}" >"$root/build/fuzz.targets"
+  [[ -x ${targets[0]} ]] || { echo 'no fuzz target was built'; return 1; }
   # Two at a time: as many as the smallest supported machine has cores.
   if xargs -P 2 -n 1 "$root/tools/fuzz_one.sh" "$root" "${TOWBENCH_FUZZ_SECONDS:-60}" <"$root/build/fuzz.targets"; then
     passed=$((passed + $(wc -l <"$root/build/fuzz.targets")))
