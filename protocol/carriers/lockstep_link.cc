@@ -2,45 +2,13 @@
 
 #include <chrono>
 #include <optional>
-#include <type_traits>
 
 namespace towbench::protocol {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t index_of(Turn turn) noexcept {
-  return static_cast<std::size_t>(turn);
-}
-
-template <typename Message>
-constexpr Turn turn_of() noexcept {
-  if constexpr (std::is_same_v<Message, Hello>) {
-    return Turn::kHello;
-  } else if constexpr (std::is_same_v<Message, HelloReply>) {
-    return Turn::kHelloReply;
-  } else if constexpr (std::is_same_v<Message, Advance>) {
-    return Turn::kAdvance;
-  } else if constexpr (std::is_same_v<Message, Advanced>) {
-    return Turn::kAdvanced;
-  } else if constexpr (std::is_same_v<Message, Heartbeat>) {
-    return Turn::kHeartbeat;
-  } else {
-    static_assert(std::is_same_v<Message, Bye>);
-    return Turn::kBye;
-  }
-}
-
 }  // namespace
-
-template <typename Writer, typename Reader>
-template <typename Message>
-void BasicLockstepLink<Writer, Reader>::Watch::handle(const Message& message) noexcept {
-  to->on(message);
-  if constexpr (kEndsTurn<Message>) {
-    ++ended[index_of(turn_of<Message>())];
-  }
-}
 
 template <typename Writer, typename Reader>
 BasicLockstepLink<Writer, Reader>::BasicLockstepLink(ByteStream& stream,
@@ -48,21 +16,12 @@ BasicLockstepLink<Writer, Reader>::BasicLockstepLink(ByteStream& stream,
     : stream_(stream), silence_limit_ns_(silence_limit_ns), writer_(stream) {}
 
 template <typename Writer, typename Reader>
-bool BasicLockstepLink<Writer, Reader>::take(Turn turn) noexcept {
-  if (watch_.ended[index_of(turn)] == 0) {
-    return false;
-  }
-  --watch_.ended[index_of(turn)];
-  return true;
-}
-
-template <typename Writer, typename Reader>
 core::Result<Turn> BasicLockstepLink<Writer, Reader>::wait(MessageSink& here) noexcept {
   std::optional<Turn> turn;
   const core::Status status = wait_until(
       [&] {
         for (std::size_t i = 0; i < kTurnCount && !turn; ++i) {
-          if (take(static_cast<Turn>(i))) {
+          if (watch_.take(static_cast<Turn>(i))) {
             turn = static_cast<Turn>(i);
           }
         }
@@ -81,8 +40,8 @@ core::Status BasicLockstepLink<Writer, Reader>::wait_for(Turn expected,
   bool expected_came = false;
   const core::Status status = wait_until(
       [&] {
-        expected_came = take(expected);
-        return expected_came || watch_.ended[index_of(Turn::kBye)] > 0;
+        expected_came = watch_.take(expected);
+        return expected_came || watch_.has(Turn::kBye);
       },
       here);
   if (!status || expected_came) {
@@ -95,7 +54,7 @@ template <typename Writer, typename Reader>
 template <typename Predicate>
 core::Status BasicLockstepLink<Writer, Reader>::wait_until(Predicate is_over,
                                                            MessageSink& here) noexcept {
-  watch_.to = &here;
+  watch_.pass_to(here);
   if (is_over()) {
     return {};
   }

@@ -17,15 +17,11 @@
 #include "core/result.h"
 #include "core/time.h"
 #include "protocol/byte_stream.h"
+#include "protocol/carriers/turn_watch.h"
 #include "protocol/cobs.h"
-#include "protocol/each_message.h"
 #include "protocol/frame.h"
 
 namespace towbench::protocol {
-
-// The messages that leave the next word to the receiver.
-enum class Turn : std::uint8_t { kHello, kHelloReply, kAdvance, kAdvanced, kHeartbeat, kBye };
-inline constexpr std::size_t kTurnCount = 6;
 
 template <typename Writer, typename Reader>
 class BasicLockstepLink {
@@ -51,26 +47,16 @@ class BasicLockstepLink {
   [[nodiscard]] std::uint64_t bytes_received() const noexcept { return bytes_received_; }
 
  private:
-  // Notes which turns ended while it passes everything on.
-  class Watch final : public EachMessage<Watch> {
-   public:
-    template <typename Message>
-    void handle(const Message& message) noexcept;
-    MessageSink* to = nullptr;
-    std::array<std::uint32_t, kTurnCount> ended{};
-  };
-
   enum class Progress : std::uint8_t { kNothing, kBytes };
   core::Result<Progress> read_once(core::Nanoseconds timeout_ns) noexcept;
   template <typename Predicate>
   core::Status wait_until(Predicate is_over, MessageSink& here) noexcept;
-  bool take(Turn turn) noexcept;
 
   ByteStream& stream_;
   core::Nanoseconds silence_limit_ns_;
   core::Status lost_;
   std::uint64_t bytes_received_ = 0;
-  Watch watch_;
+  TurnWatch watch_;
   Writer writer_;
   Reader reader_;
   static constexpr std::size_t kReadSize = 65536;
