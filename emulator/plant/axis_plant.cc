@@ -61,7 +61,17 @@ void AxisPlant::take(const AxisInput& input) noexcept {
   held.command_terminal_V =
       clamp(axis.amplifier.voltage_gain_V_per_V * input.command_V, held.limit_V);
   held.carriage_force_N = input.carriage_force_N;
+  const bool only_the_command = input.supply_V == input_.supply_V &&
+                                input.carriage_force_N == input_.carriage_force_N &&
+                                input.amplifier_enabled == input_.amplifier_enabled;
   input_ = input;
+  if (cruise_.possible && only_the_command) {
+    settle_drive(*model_, situation_, z_);
+    if (situation_.regime.drive == Drive::kRegulated) {
+      cruise_.set_point_A = held.set_point_A;
+      return;
+    }
+  }
   settle(*model_, situation_, z_);
   enter_mode();
 }
@@ -131,14 +141,28 @@ bool AxisPlant::step_without_event(MotionSegments& segments) noexcept {
   return true;
 }
 
+// The flow for the rest of the tick, with the friction of its middle. Expanded twice only where the
+// first guess of that friction was off.
 TaylorFlow AxisPlant::flow_from_here(double span_s) noexcept {
-  const ContinuousMode& mode = model_->flows[mode_index_];
-  const TaylorFlow guess(mode, z_, held_inputs(*model_, situation_), span_s);
-  const StateVector end = guess.at(1.0);
+  const AxisModel& model = *model_;
+  const ContinuousMode& mode = model.flows[mode_index_];
+  update_friction(z_[kMotorSpeed], z_[kCarriageSpeed], carriage_position_m(model, z_));
+  const InputVector inputs = held_inputs(model, situation_);
+  TaylorFlow flow(mode, z_, inputs, span_s);
+  const StateVector end = flow.at(1.0);
   update_friction(0.5 * (z_[kMotorSpeed] + end[kMotorSpeed]),
                   0.5 * (z_[kCarriageSpeed] + end[kCarriageSpeed]),
-                  0.5 * (carriage_position_m(*model_, z_) + carriage_position_m(*model_, end)));
-  return {mode, z_, held_inputs(*model_, situation_), span_s};
+                  0.5 * (carriage_position_m(model, z_) + carriage_position_m(model, end)));
+  const InputVector refined = held_inputs(model, situation_);
+  constexpr double kNegligible = 1e-6;  // of the body's break-away level
+  const bool good = std::fabs(refined[kMotorTorque] - inputs[kMotorTorque]) <=
+                        kNegligible * model.mechanics.motor.breakaway &&
+                    std::fabs(refined[kCarriageForce] - inputs[kCarriageForce]) <=
+                        kNegligible * model.mechanics.carriage.breakaway;
+  if (!good) {
+    flow = TaylorFlow(mode, z_, refined, span_s);
+  }
+  return flow;
 }
 
 void AxisPlant::record_contact(double time_s, double sign) noexcept {

@@ -34,39 +34,44 @@ struct HalfChange {
 // friction.
 inline constexpr double kSpeedMiss = 1e-4;
 
-// One tick. False, and nothing changed, when the regime ends within it.
+// Dry friction of both bodies as inputs, for speeds in the middle of a tick.
+[[nodiscard, gnu::always_inline]] inline InputVector cruise_inputs(
+    const AxisModel& model, const Cruise& c, double rails_N, double motor_rad_per_s,
+    double carriage_m_per_s) noexcept {
+  const DerivedMechanics& m = model.mechanics;
+  const double motor_Nm = friction_level(model, m.motor, motor_rad_per_s);
+  const double carriage_N = friction_level(model, m.carriage, carriage_m_per_s) + rails_N;
+  return {c.set_point_A, -c.motor_direction * motor_Nm,
+          c.force_N - c.carriage_direction * carriage_N};
+}
+
+// One tick. False, and nothing changed but `half`, when the regime ends within it.
 [[nodiscard, gnu::always_inline]] inline bool cruise(const AxisModel& model, const Cruise& c,
                                                      std::size_t& interval, HalfChange& half,
                                                      const StateVector& z,
                                                      StateVector& next) noexcept {
   const DerivedMechanics& m = model.mechanics;
-  const DiscreteMode& mode = *c.mode;
-  const double position_m = m.metres_per_radian * z[kMotorAngle] - z[kStretch];
+  const double w = z[kMotorSpeed];
+  const double v = z[kCarriageSpeed];
   const double rails_N =
-      model.position_friction(position_m + 0.5 * model.tick_s * z[kCarriageSpeed], interval);
-  const double motor_ratio =
-      std::fabs(z[kMotorSpeed] + half.motor_rad_per_s) * m.motor.inverse_speed;
-  const double carriage_ratio =
-      std::fabs(z[kCarriageSpeed] + half.carriage_m_per_s) * m.carriage.inverse_speed;
-  const double motor_Nm = m.motor.coulomb + m.motor.excess * model.stribeck(motor_ratio);
-  const double carriage_N =
-      m.carriage.coulomb + m.carriage.excess * model.stribeck(carriage_ratio) + rails_N;
-  next = step(mode, z,
-              {c.set_point_A, -c.motor_direction * motor_Nm,
-               c.force_N - c.carriage_direction * carriage_N});
-  const double motor_change = 0.5 * (next[kMotorSpeed] - z[kMotorSpeed]);
-  const double carriage_change = 0.5 * (next[kCarriageSpeed] - z[kCarriageSpeed]);
-  const bool missed =
-      std::fabs(motor_change - half.motor_rad_per_s) * m.motor.inverse_speed > kSpeedMiss ||
-      std::fabs(carriage_change - half.carriage_m_per_s) * m.carriage.inverse_speed > kSpeedMiss;
-  half = {.motor_rad_per_s = motor_change, .carriage_m_per_s = carriage_change};
-  if (missed &&
-      !(model.stribeck.has_faded(motor_ratio) && model.stribeck.has_faded(carriage_ratio))) {
-    return false;
+      model.position_friction(carriage_position_m(model, z) + 0.5 * model.tick_s * v, interval);
+  const InputVector inputs =
+      cruise_inputs(model, c, rails_N, w + half.motor_rad_per_s, v + half.carriage_m_per_s);
+  next = step(*c.mode, z, inputs);
+  const HalfChange was = half;
+  half = {.motor_rad_per_s = 0.5 * (next[kMotorSpeed] - w),
+          .carriage_m_per_s = 0.5 * (next[kCarriageSpeed] - v)};
+  if (std::fabs(half.motor_rad_per_s - was.motor_rad_per_s) * m.motor.inverse_speed > kSpeedMiss ||
+      std::fabs(half.carriage_m_per_s - was.carriage_m_per_s) * m.carriage.inverse_speed >
+          kSpeedMiss) {
+    const InputVector refined =
+        cruise_inputs(model, c, rails_N, w + half.motor_rad_per_s, v + half.carriage_m_per_s);
+    add_input(*c.mode, kMotorTorque, refined[kMotorTorque] - inputs[kMotorTorque], next);
+    add_input(*c.mode, kCarriageForce, refined[kCarriageForce] - inputs[kCarriageForce], next);
   }
   const double demanded_V =
       m.proportional_gain_V_per_A * (c.set_point_A - next[kCurrent]) + next[kIntegral];
-  const double next_m = m.metres_per_radian * next[kMotorAngle] - next[kStretch];
+  const double next_m = carriage_position_m(model, next);
   return std::fabs(demanded_V) <= c.limit_V && c.motor_direction * next[kMotorSpeed] >= 0 &&
          c.carriage_direction * next[kCarriageSpeed] >= 0 && next_m >= c.min_m && next_m <= c.max_m;
 }

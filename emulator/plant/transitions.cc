@@ -38,16 +38,6 @@ void settle_voltage_mode(const AxisModel& model, Situation& s, const StateVector
   regime.drive_sign = sign;
 }
 
-void settle_drive(const AxisModel& model, Situation& s, StateVector& z) noexcept {
-  if (!s.held.enabled) {
-    settle_disabled(s, z);
-  } else if (model.parameters.amplifier.mode == AmplifierMode::kCurrent) {
-    settle_current_mode(model, s, z);
-  } else {
-    settle_voltage_mode(model, s, z);
-  }
-}
-
 // 0 while `level` holds `load`, else the direction in which the body starts.
 double direction_under(double load, double level) noexcept {
   if (load > level) {
@@ -131,6 +121,16 @@ void cross_drive(const AxisModel& model, Event event, double sign, Situation& s,
 }
 
 }  // namespace
+
+void settle_drive(const AxisModel& model, Situation& s, StateVector& z) noexcept {
+  if (!s.held.enabled) {
+    settle_disabled(s, z);
+  } else if (model.parameters.amplifier.mode == AmplifierMode::kCurrent) {
+    settle_current_mode(model, s, z);
+  } else {
+    settle_voltage_mode(model, s, z);
+  }
+}
 
 void settle(const AxisModel& model, Situation& s, StateVector& z) noexcept {
   settle_drive(model, s, z);

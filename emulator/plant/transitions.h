@@ -12,4 +12,7 @@ TOWBENCH_REALTIME void settle(const AxisModel& model, Situation& s, StateVector&
 TOWBENCH_REALTIME void cross(const AxisModel& model, Event event, double sign, Situation& s,
                              StateVector& z) noexcept;
 
+// The drive's part of it alone, for a step on which only the command changed.
+TOWBENCH_REALTIME void settle_drive(const AxisModel& model, Situation& s, StateVector& z) noexcept;
+
 }  // namespace towbench::emulator
