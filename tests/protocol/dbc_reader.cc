@@ -30,7 +30,8 @@ std::int64_t raw_value(const DbcSignal& signal, const CanFrame& frame) {
   std::uint64_t value = 0;
   for (unsigned i = 0; i < signal.length; ++i) {
     const unsigned bit = signal.start + i;
-    const std::uint64_t set = (frame.data[bit / 8] >> (bit % 8)) & 1U;
+    const auto byte = static_cast<unsigned>(frame.data[bit / 8]);
+    const std::uint64_t set = (byte >> (bit % 8)) & 1U;
     value |= set << i;
   }
   const bool is_negative =
