@@ -1,6 +1,18 @@
 #include "emulator/command_path.h"
 
+#include <cmath>
+
+#include "core/deterministic_math.h"
+
 namespace towbench::emulator {
+
+void CommandPath::aim_at(double target_V) noexcept {
+  target_V_ = target_V;
+  if (ripple_at_half_duty_V_ > 0.0) {
+    const double turns = 0.5 * std::fabs(target_V) / amplitude_V_;
+    ripple_V_ = ripple_at_half_duty_V_ * core::sine_cosine_of_turns(turns).sine;
+  }
+}
 
 core::ErrorCode CommandPath::accept(const protocol::PwmDuty& duty) noexcept {
   if (duty.period_ticks == 0 || duty.channel_a_ticks > duty.period_ticks ||
@@ -19,15 +31,15 @@ core::ErrorCode CommandPath::accept(const protocol::PwmDuty& duty) noexcept {
   sequence_ = duty.sequence;
   sequence_known_ = true;
   if (!duty.enable) {
-    target_V_ = 0.0;
+    aim_at(0.0);
     return verdict;
   }
   if (duty.channel_a_ticks != 0 && duty.channel_b_ticks != 0) {
-    target_V_ = 0.0;
+    aim_at(0.0);
     return core::ErrorCode::kBothChannelsActive;
   }
   const int net_ticks = static_cast<int>(duty.channel_a_ticks) - duty.channel_b_ticks;
-  target_V_ = amplitude_V_ * net_ticks / duty.period_ticks;
+  aim_at(amplitude_V_ * net_ticks / duty.period_ticks);
   return verdict;
 }
 

@@ -32,8 +32,8 @@ void sort_by_time(LineChanges& changes) noexcept {
 
 }  // namespace
 
-RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, std::uint64_t seed)
-    : command(p.command),
+RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, const Seeds& seeds)
+    : command(p.command, seeds.ripple),
       plant_(p.plant, p.start_m),
       encoder_(p.encoder, plant_.state().motor_angle_rad),
       wiring_(encoder_.levels()),
@@ -42,7 +42,7 @@ RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, std::uint64_t seed)
       resistance_ohm_(p.plant.winding.resistance_ohm),
       torque_constant_Nm_per_A_(p.plant.torque_constant_Nm_per_A) {
   if (p.current_monitor.fitted) {
-    current_monitor_.emplace(p.current_monitor, axis, seed);
+    current_monitor_.emplace(p.current_monitor, axis, seeds.current_monitor);
   }
 }
 
@@ -113,13 +113,25 @@ Rig::Rig(const RigParameters& parameters, std::uint64_t seed)
   core::Random seeds(seed);
   const core::PerAxis<std::uint64_t> axis_seed{{seeds.bits(), seeds.bits()}};
   const std::uint64_t force_seed = seeds.bits();
+  const core::PerAxis<std::uint64_t> ripple_seed{{seeds.bits(), seeds.bits()}};
+  if (parameters.water.present()) {
+    water_.emplace(parameters.water);
+    for (RigAxisParameters& axis : parameters_.axes) {
+      axis.plant.water_mass_kg = added_mass_kg(parameters.water);
+    }
+  }
   if (parameters.force_sensor.fitted) {
-    force_sensor_.emplace(parameters.force_sensor, force_seed);
+    // The water that moves with the load pulls at the sensor like the load itself.
+    ForceSensorParameters sensor = parameters.force_sensor;
+    sensor.load_mass_kg += added_mass_kg(parameters.water);
+    force_sensor_.emplace(sensor, force_seed);
   }
   unsigned lines = 0;
   for (const Axis which : core::kAxes) {
     if (parameters_.axes[which].exists) {
-      axes_[which].emplace(which, parameters_.axes[which], axis_seed[which]);
+      axes_[which].emplace(
+          which, parameters_.axes[which],
+          RigAxis::Seeds{.current_monitor = axis_seed[which], .ripple = ripple_seed[which]});
       lines |= axes_[which]->hall_lines();
       lines |= supply_.ready() ? protocol::mask_of(kReadyLine[which]) : 0U;
     }
@@ -184,6 +196,9 @@ void Rig::step() noexcept {
                             (machine_lines_ & protocol::mask_of(InputLine::kKillSwitch)) != 0;
   const bool may_drive = supply_.ready() && !hardware_cut;
   const core::PerAxis<double> cross_N{{cross_axis_force_N(Axis::kY), cross_axis_force_N(Axis::kX)}};
+  if (water_) {
+    feel_water();
+  }
   double power_W = 0.0;
   for (const Axis which : core::kAxes) {
     if (!axes_[which]) {
@@ -192,7 +207,8 @@ void Rig::step() noexcept {
     axes_[which]->step(now_ns_,
                        {.supply_V = supply_.voltage_V(),
                         .amplifier_may_drive = may_drive,
-                        .external_N = push_N_[which] + push_correction_N_[which] + cross_N[which]},
+                        .external_N = push_N_[which] + push_correction_N_[which] + cross_N[which] +
+                                      water_N_[which]},
                        changes_);
     push_correction_N_[which] = 0.0;
     power_W += std::max(0.0, axes_[which]->output_power_W());
@@ -211,14 +227,24 @@ void Rig::step() noexcept {
   input_wiring_.step(machine_lines_, arriving_lines_, changes_);
 }
 
-// A push acts on the load, below the sensor (FR-3).
+void Rig::feel_water() noexcept {
+  core::PerAxis<double> velocity{};
+  for (const Axis which : core::kAxes) {
+    velocity[which] = axes_[which] ? axes_[which]->coming_carriage_speed_m_per_s() : 0.0;
+  }
+  water_N_ = water_->force_N(now_ns_, velocity);
+}
+
+// A push acts on the load, below the sensor (FR-3), and so does the water.
 void Rig::measure_force() noexcept {
   core::PerAxis<double> acceleration{};
+  core::PerAxis<double> load_N = push_N_;
   for (const Axis which : core::kAxes) {
     acceleration[which] = axes_[which] ? axes_[which]->carriage_acceleration_m_per_s2() : 0.0;
+    load_N[which] += water_N_[which];
   }
   protocol::ForceSample sample;
-  const bool taken = force_sensor_->step(now_ns_, push_N_, acceleration, sample);
+  const bool taken = force_sensor_->step(now_ns_, load_N, acceleration, sample);
   force_sample_ = taken ? std::optional(sample) : std::nullopt;
 }
 

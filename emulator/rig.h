@@ -2,8 +2,9 @@
 // the kill chain. Knows nothing of messages; plant_node.cc carries its inputs and outputs.
 //
 // Order of a tick, the same for every carrier and clock: supply voltage and kill chain of the tick
-// before -> command voltage -> both axes -> encoders and halls -> supply. Axes meet in the supply
-// and in `cross_axis_force_ratio` only (MACS-A-6), and there with one tick of delay.
+// before -> water at the tick's predicted middle -> command voltage -> both axes -> encoders and
+// halls -> supply. Axes meet in the supply, in the water and in `cross_axis_force_ratio` only
+// (MACS-A-6); in supply and cross force with one tick of delay.
 #pragma once
 
 #include <cstdint>
@@ -24,13 +25,18 @@
 #include "emulator/sensors/quadrature_encoder.h"
 #include "emulator/supply.h"
 #include "emulator/truth_row.h"
+#include "emulator/water/water.h"
 
 namespace towbench::emulator {
 
 // One axis with everything that hangs on it.
 class RigAxis {
  public:
-  RigAxis(core::Axis axis, const RigAxisParameters& parameters, std::uint64_t seed);
+  struct Seeds {
+    std::uint64_t current_monitor = 0;
+    std::uint64_t ripple = 0;
+  };
+  RigAxis(core::Axis axis, const RigAxisParameters& parameters, const Seeds& seeds);
 
   struct Surroundings {
     double supply_V = 0;
@@ -56,6 +62,11 @@ class RigAxis {
   // Mean over the last step.
   [[nodiscard]] double carriage_acceleration_m_per_s2() const noexcept {
     return acceleration_m_per_s2_;
+  }
+  // In the middle of the next step, if the speed changes as in the last one.
+  [[nodiscard]] double coming_carriage_speed_m_per_s() const noexcept {
+    return plant_.state().carriage_speed_m_per_s +
+           0.5 * core::kPlantTick_s * acceleration_m_per_s2_;
   }
   // What the amplifier puts into the winding: heat and back EMF. What the inductance borrows it
   // gives back within a millisecond.
@@ -112,9 +123,12 @@ class Rig {
   [[nodiscard]] const std::optional<protocol::ForceSample>& force_sample() const noexcept {
     return force_sample_;
   }
+  // Of the last tick, on the carriage: drag and thrust, without the added mass's inertia.
+  [[nodiscard]] const core::PerAxis<double>& water_force_N() const noexcept { return water_N_; }
   [[nodiscard]] TruthRow truth() const noexcept;
 
  private:
+  void feel_water() noexcept;
   void measure_force() noexcept;
   void update_ready_lines() noexcept;
   [[nodiscard]] double cross_axis_force_N(core::Axis which) const noexcept;
@@ -122,6 +136,8 @@ class Rig {
   RigParameters parameters_;
   core::PerAxis<std::optional<RigAxis>> axes_;
   Supply supply_;
+  std::optional<Water> water_;
+  core::PerAxis<double> water_N_{};
   std::optional<ForceSensor> force_sensor_;
   std::optional<protocol::ForceSample> force_sample_;
   core::Nanoseconds now_ns_ = 0;

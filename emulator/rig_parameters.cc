@@ -45,6 +45,20 @@ void place_halls(RigAxisParameters& axis, double min_counts, double max_counts) 
   return (p.inertia_kg_m2 - p.rotor_inertia_kg_m2) * motor_rad_per_m * motor_rad_per_m;
 }
 
+// Drag is held over a tick: that is stable and second order while it takes little of the speed in
+// one. At 2 m/s, four times what the drive can do.
+[[nodiscard]] bool too_thick(const WaterParameters& water, double moved_kg) noexcept {
+  constexpr double kFastest_m_per_s = 2.0;
+  constexpr double kLargestShare = 0.2;
+  double slope_N_s_per_m = 0.0;
+  for (const WaterBodyParameters* body : {&water.shaft, &water.object}) {
+    const double along =
+        2.0 * body->quadratic_drag_N_s2_per_m2 * kFastest_m_per_s + body->linear_drag_N_s_per_m;
+    slope_N_s_per_m += body->in_water ? along * std::fmax(1.0, body->across_drag_ratio) : 0.0;
+  }
+  return slope_N_s_per_m * core::kPlantTick_s > kLargestShare * moved_kg;
+}
+
 const char* inconsistency(const RigAxisParameters& axis) noexcept {
   if (!axis.exists) {
     return nullptr;
@@ -108,6 +122,12 @@ const char* inconsistency(const RigParameters& rig) noexcept {
         rig.force_sensor.load_mass_kg > carriage_mass_kg(axis.plant)) {
       return "force_sensor.load_mass_kg is more than an axis moves";
     }
+    if (axis.exists && too_thick(rig.water, carriage_mass_kg(axis.plant))) {
+      return "water: drag stops what an axis moves within a few 100 us ticks";
+    }
+  }
+  if (const char* found = inconsistency(rig.water)) {
+    return found;
   }
   if (!any_axis) {
     return "axis.y.exists and axis.x.exists are both false";

@@ -4,7 +4,10 @@
 // X rides on Y: the carriage of Y carries the X platform, motor and load, so Y's inertia and
 // friction include them (Table 7.4 was identified that way). X's platform moves along X only, and
 // the axes are orthogonal, so X's mass loads Y but X's motion does not push Y (MACS-A-6); what
-// residual push there is, is `cross_axis_force_ratio`, zero by default.
+// residual push there is, is `cross_axis_force_ratio`, zero by default. In symbols: the kinetic
+// energy 1/2 (M_carriage + M_platform) y'^2 + 1/2 M_platform x'^2 has no product x' y' and depends
+// on no position, so neither Coriolis nor position terms arise. The water is what couples the two:
+// a body moves through it with both velocities (water/water.h).
 #pragma once
 
 #include <cstdint>
@@ -14,6 +17,7 @@
 #include "core/time.h"
 #include "emulator/plant/axis_parameters.h"
 #include "emulator/sensors/sensor_parameters.h"
+#include "emulator/water/water_parameters.h"
 
 namespace towbench::emulator {
 
@@ -21,6 +25,7 @@ namespace towbench::emulator {
 struct CommandPathParameters {
   double pwm_amplitude_V = 10.0;  // at 100 % duty
   double delay_s = 20e-6;         // assumed; PWM-R-3: below 100 us
+  double ripple_rms_V = 0.0;      // what the 100 kHz carrier leaves, at 50 % duty
 
   template <typename Visitor>
   void visit(Visitor& v) {
@@ -28,6 +33,8 @@ struct CommandPathParameters {
             "voltage at the amplifier's input at 100 % duty");
     v.value("command_delay_s", delay_s, core::between(0.0, core::kPlantTick_s),
             "from the PWM's output to the amplifier's input");
+    v.value("pwm_ripple_rms_V", ripple_rms_V, core::between(0.0, 10.0),
+            "noise that the carrier leaves at the amplifier's input, at 50 % duty");
   }
 };
 
@@ -112,6 +119,7 @@ struct RigParameters {
   SupplyParameters supply;
   KillSwitchParameters kill_switch;
   ForceSensorParameters force_sensor;
+  WaterParameters water;
   // Of the file this was read from; no parameter. 0 = not known.
   std::uint64_t fixture_hash = 0;
 
@@ -124,6 +132,7 @@ struct RigParameters {
     v.group("supply", supply, "shared 12 V supply");
     v.group("kill_switch", kill_switch, "the operator's kill switch");
     v.group("force_sensor", force_sensor, "six-axis force/torque sensor at the load's mount");
+    v.group("water", water, "what hangs in the water");
   }
 };
 

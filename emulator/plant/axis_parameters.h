@@ -100,6 +100,9 @@ struct AxisParameters {
   FrictionParameters friction;
   ChainParameters chain;
   HardEndParameters hard_ends;
+  // Water that moves with the carriage, (3.9): on top of the inertia, which was identified in air.
+  // No key of the axis: the rig sets it from what is in its water.
+  double water_mass_kg = 0.0;
 
   template <typename Visitor>
   void visit(Visitor& v) {

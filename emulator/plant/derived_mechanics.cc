@@ -54,6 +54,9 @@ DerivedMechanics derive(const AxisParameters& p) noexcept {
   if (!p.chain.rigid) {
     derive_chain(p, d);
   }
+  // The spring was found without water: its mode gets slower with it, the spring no softer.
+  d.carriage_mass_kg += p.water_mass_kg;
+  d.motor_inertia_kg_m2 += p.chain.rigid ? p.water_mass_kg * r * r : 0.0;
   derive_current_loop(p, d);
   return d;
 }

@@ -1,7 +1,8 @@
 // From effective, motor-side parameters to the two bodies of (3.37)-(3.38).
 //
 //   r   = R/n                            metres of chain a radian of motor
-//   M   = (J - J_m) / r^2                from (3.39), sprockets counted with the rotor
+//   M   = (J - J_m) / r^2                from (3.39), sprockets counted with the rotor; the water's
+//                                        mass (3.9) comes on top once the spring is known
 //   B_m = (1 - share) B,  B_c = share B / r^2
 //   C_m = (1 - share) C,  C_c = share C / r     likewise S
 //   K_s = w0^2 / (r^2/J_m + 1/M)         free-free mode: w0^2 = K_s (r^2/J_m + 1/M)

@@ -1,9 +1,9 @@
 // Six-axis force/torque sensor between the mount and the support shaft (5.1, ch. 8).
 //
-// Newton's second law of what hangs below it, mass m, moving with the carriage (X, Y) and at rest
-// in Z: the shaft pulls the mount with
+// Newton's second law of what hangs below it, mass m with the water it takes along, moving with the
+// carriage (X, Y) and at rest in Z: the shaft pulls the mount with
 //
-//   F = F_load - m a                (F_load: from outside on the load; a: of the carriage)
+//   F = F_load - m a                (F_load: on the load, a hand's, drag, thrust; a: carriage's)
 //   T = r x F,  r = (0, 0, -lever)  (both act at the end of the lever)
 //
 // Frame: tank frame at zero yaw, X across, Y along the tank, Z up. Weight is tared away, so F_z is

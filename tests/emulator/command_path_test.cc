@@ -1,5 +1,8 @@
 #include "emulator/command_path.h"
 
+#include <cmath>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 namespace towbench::emulator {
@@ -88,6 +91,34 @@ TEST(CommandPath, RemovedIsZeroWhateverWasCommanded) {
   ASSERT_EQ(path.accept(duty(1000, 0, 0)), ErrorCode::kNone);
   path.remove();
   EXPECT_DOUBLE_EQ(path.step(), 0.0);
+}
+
+// The fundamental of a PWM goes with sin(pi duty), and a filter scales it.
+TEST(CommandPath, RipplesByTheCarriersFundamentalAtItsDuty) {
+  constexpr int kSteps = 50'000;
+  for (const auto& [ticks, share] : {std::pair{500, 1.0}, std::pair{250, std::sqrt(0.5)},
+                                     std::pair{0, 0.0}, std::pair{1000, 0.0}}) {
+    CommandPath path({.pwm_amplitude_V = 10.0, .delay_s = 0.0, .ripple_rms_V = 0.2}, 3);
+    ASSERT_EQ(path.accept(duty(static_cast<std::uint16_t>(ticks), 0, 0)), ErrorCode::kNone);
+    double sum = 0.0;
+    double squares = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double off_V = path.step() - 0.01 * ticks;
+      sum += off_V;
+      squares += off_V * off_V;
+    }
+    EXPECT_NEAR(sum / kSteps, 0.0, 4.0 * 0.2 / std::sqrt(kSteps)) << ticks;
+    EXPECT_NEAR(std::sqrt(squares / kSteps), 0.2 * share, 0.2 * 4.0 / std::sqrt(2.0 * kSteps))
+        << ticks;
+  }
+}
+
+TEST(CommandPath, RipplesNoMoreOnceItsDriveIsRemoved) {
+  CommandPath path({.pwm_amplitude_V = 10.0, .delay_s = 0.0, .ripple_rms_V = 0.2}, 3);
+  ASSERT_EQ(path.accept(duty(500, 0, 0)), ErrorCode::kNone);
+  EXPECT_NE(path.step(), 5.0);
+  path.remove();
+  EXPECT_EQ(path.step(), 0.0);
 }
 
 }  // namespace

@@ -77,6 +77,18 @@ TEST(RigParameters, TheNominalMachineHasTheResolutionAndPlacesOfTheThesis) {
   EXPECT_NEAR(x.hall_max.position_m / metres_per_count(x), 500'000.0, 1e-6);
 }
 
+// X rides on Y: what Y moves includes the platform that X moves.
+TEST(RigParameters, TheNominalCarriageOfYCarriesThePlatformOfX) {
+  const RigParameters rig;
+  const auto moved_kg = [&](Axis axis) {
+    const AxisParameters& p = rig.axes[axis].plant;
+    const double motor_rad_per_m = p.gear_ratio / p.sprocket_radius_m;
+    return (p.inertia_kg_m2 - p.rotor_inertia_kg_m2) * motor_rad_per_m * motor_rad_per_m;
+  };
+  EXPECT_NEAR(moved_kg(Axis::kY), 6.63, 0.01);
+  EXPECT_NEAR(moved_kg(Axis::kX), 0.95, 0.01);
+}
+
 TEST(RigParameters, RefusesWhatNoSingleRangeCanSay) {
   const auto refuses = [](const std::function<void(RigParameters&)>& spoil, const char* key) {
     RigParameters rig;
@@ -116,6 +128,12 @@ TEST(RigParameters, RefusesWhatNoSingleRangeCanSay) {
       "current_monitor.sample_period_s");
   refuses([](RigParameters& r) { r.force_sensor = {.fitted = true, .load_mass_kg = 2.0}; },
           "load_mass_kg");
+  refuses([](RigParameters& r) { r.water.fin.fitted = true; }, "water.fin.fitted");
+  refuses(
+      [](RigParameters& r) {
+        r.water.object = {.in_water = true, .quadratic_drag_N_s2_per_m2 = 600.0};
+      },
+      "water");
 }
 
 TEST(RigParameters, AnAxisThatDoesNotExistNeedNotMakeSense) {
