@@ -35,26 +35,41 @@ int pulse(std::uint32_t ms, int ticks) {
   return phase < 150 || phase >= 450 ? ticks : -ticks;
 }
 
-void rig_step(benchmark::State& state) {
-  emulator::Rig rig(rig_in_the_middle(), 1);
+// Towing the cylinder of chapter 8, with a force sensor above it.
+emulator::RigParameters rig_in_water() {
+  emulator::RigParameters rig = rig_in_the_middle();
+  rig.water.object = {.in_water = true, .quadratic_drag_N_s2_per_m2 = 8.78, .added_mass_kg = 0.5};
+  rig.force_sensor.fitted = true;
+  return rig;
+}
+
+void step(benchmark::State& state, const emulator::RigParameters& parameters) {
+  emulator::Rig rig(parameters, 1);
   const int ticks = static_cast<int>(state.range(0));
   for (const Axis axis : core::kAxes) {
     rig.axis(axis)->enable_line = true;
   }
-  std::uint32_t step = 0;
+  std::uint32_t tick = 0;
   for (auto _ : state) {
-    if (step % 10 == 0) {
-      (void)rig.axis(Axis::kY)->command.accept(duty(Axis::kY, pulse(step / 10, ticks), step / 10));
+    if (tick % 10 == 0) {
+      (void)rig.axis(Axis::kY)->command.accept(duty(Axis::kY, pulse(tick / 10, ticks), tick / 10));
       (void)rig.axis(Axis::kX)->command.accept(
-          duty(Axis::kX, pulse(step / 10, ticks / 3), step / 10));
+          duty(Axis::kX, pulse(tick / 10, ticks / 3), tick / 10));
     }
     rig.step();
-    ++step;
+    ++tick;
   }
   state.counters["times_real_time"] = benchmark::Counter(
-      static_cast<double>(step) * core::kPlantTick_s, benchmark::Counter::kIsRate);
+      static_cast<double>(tick) * core::kPlantTick_s, benchmark::Counter::kIsRate);
+}
+void rig_step(benchmark::State& state) {
+  step(state, rig_in_the_middle());
+}
+void rig_step_in_water(benchmark::State& state) {
+  step(state, rig_in_water());
 }
 BENCHMARK(rig_step)->Arg(0)->Arg(150)->Arg(300);
+BENCHMARK(rig_step_in_water)->Arg(0)->Arg(150)->Arg(300);
 
 void exchange_of_1_ms(benchmark::State& state) {
   struct Peer : protocol::MessageSink, emulator::PlantObserver {

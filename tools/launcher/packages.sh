@@ -8,7 +8,7 @@ run_packages=(
 )
 # To build and test the bench in every way that CI does.
 test_packages=(
-  libgtest-dev libgmock-dev libbenchmark-dev libsundials-dev
+  libgtest-dev libgmock-dev libbenchmark-dev libsundials-dev libode-dev
   clang clang-format clang-tidy libclang-rt-14-dev shellcheck chromium python3 debootstrap
 )
 
