@@ -38,6 +38,9 @@ TEST(PlantNodeRealtime, ExchangesWithEdgesLinesFaultsAndContactsTakeNoHeap) {
   rig.axes[Axis::kX].encoder.phase_deg = 70.0;
   rig.axes[Axis::kY].current_monitor.fitted = true;
   rig.force_sensor.fitted = true;
+  rig.axes[Axis::kY].command.ripple_rms_V = 0.05;
+  rig.water.object = {.in_water = true, .quadratic_drag_N_s2_per_m2 = 8.78, .added_mass_kg = 0.5};
+  rig.water.fin = {.fitted = true, .thrust_amplitude_N = 0.5};
   std::vector<ScheduledEvent> events{{.kind = ScheduledEventKind::kRewireEncoder,
                                       .axis = Axis::kX,
                                       .encoder_line = protocol::EncoderLine::kB,

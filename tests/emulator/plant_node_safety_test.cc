@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -31,6 +32,25 @@ TEST(PlantNodeSafety, NothingFlowsBeforeTheAmplifierIsEnabled) {
   c.run_for(20 * kMs);
   EXPECT_GT(y_current(c), 0.5);
   EXPECT_EQ(c.peer.truth.back().axes[Axis::kX].current_A, 0.0);
+}
+
+// 20 kHz a channel is 80,000 counts/s, which Y passes at 0.18 m/s.
+TEST(PlantNodeSafety, AnEncoderFasterThanItsChannelsCarryIsReportedOnceAndLosesNoEdge) {
+  RigParameters rig = rig_starting_at(1.0, 0.3);
+  rig.axes[Axis::kY].encoder.max_channel_Hz = 20e3;
+  rig.axes[Axis::kY].plant.chain.rigid = true;  // passes it once, without swinging
+  auto c = driven(rig);
+  c.greet();
+  c.enable();
+  c.drive(Axis::kY, 300);
+  c.run_for(300 * kMs);
+  const auto faults = c.peer.all<protocol::Fault>();
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].code, ErrorCode::kEncoderRateExceeded);
+  const AxisTruth y = c.peer.truth.back().axes[Axis::kY];
+  ASSERT_GT(y.motor_speed_rad_per_s * 4000.0 / (2.0 * std::numbers::pi), 80e3);
+  EXPECT_EQ(y.count, static_cast<std::int64_t>(
+                         std::floor(y.motor_angle_rad * 4000.0 / (2.0 * std::numbers::pi))));
 }
 
 TEST(PlantNodeSafety, LosingThePeerRemovesTheDriveAndEnds) {

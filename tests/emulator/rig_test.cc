@@ -1,6 +1,7 @@
 #include "emulator/rig.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -37,6 +38,36 @@ void run(Rig& rig, double duration_s) {
   for (int i = 0; i < ticks; ++i) {
     rig.step();
   }
+}
+
+// The plant's own motion, stick-slip and reversals inside a tick included. Where the angle is
+// within rounding of a whole count either side is right.
+TEST(Rig, TheCountIsTheFloorOfTheMotorsAngleAtTheEndOfEveryTick) {
+  Rig rig = driven_rig(rig_starting_at(1.0, 0.3), 0, 0);
+  std::uint32_t sequence = 1;
+  int reversals = 0;
+  core::PerAxis<double> last_speed{};
+  for (int tick = 0; tick < 30'000; ++tick) {
+    if (tick % 350 == 0) {
+      const int sign = tick % 700 == 0 ? 1 : -1;
+      for (const Axis which : core::kAxes) {
+        ASSERT_EQ(rig.axis(which)->command.accept(duty(which, sign * 120, sequence)),
+                  core::ErrorCode::kNone);
+      }
+      ++sequence;
+    }
+    rig.step();
+    for (const Axis which : core::kAxes) {
+      const AxisTruth axis = rig.truth().axes[which];
+      const double counts = axis.motor_angle_rad * 4000.0 / (2.0 * std::numbers::pi);
+      if (std::fabs(counts - std::round(counts)) > 1e-6) {
+        ASSERT_EQ(axis.count, static_cast<std::int64_t>(std::floor(counts))) << tick;
+      }
+      reversals += axis.motor_speed_rad_per_s * last_speed[which] < 0.0 ? 1 : 0;
+      last_speed[which] = axis.motor_speed_rad_per_s;
+    }
+  }
+  EXPECT_GT(reversals, 20);
 }
 
 TEST(Rig, AxesAreIndependentWithoutACrossTerm) {
