@@ -47,7 +47,7 @@ void HallSensor::follow_field(core::Nanoseconds start_ns, const CarriageMotion& 
   const CubicMotion path(core::kPlantTick_s, start, sign_ * motion.before_m_per_s, end,
                          sign_ * motion.after_m_per_s);
   core::BoundedVector<double, 3> stretch_ends = {};
-  for (const double turn : path.turning_points().view()) {
+  for (const double turn : path.turning_points()) {
     (void)stretch_ends.push_back(turn);
   }
   (void)stretch_ends.push_back(1.0);

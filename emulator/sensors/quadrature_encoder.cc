@@ -82,7 +82,7 @@ void QuadratureEncoder::follow(const MotionSegment& segment, StepEdges& edges) n
     return;
   }
   double u_from = 0.0;
-  for (const double turn : stretch.motion.turning_points().view()) {
+  for (const double turn : stretch.motion.turning_points()) {
     cross_one_by_one(stretch, u_from, turn, start + stretch.motion.displacement(turn), edges);
     u_from = turn;
   }
