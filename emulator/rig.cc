@@ -35,7 +35,8 @@ void sort_by_time(LineChanges& changes) noexcept {
 RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, const Seeds& seeds)
     : command(p.command, seeds.ripple),
       plant_(p.plant, p.start_m),
-      encoder_(p.encoder, plant_.state().motor_angle_rad),
+      state_(plant_.state()),
+      encoder_(p.encoder, state_.motor_angle_rad),
       wiring_(encoder_.levels()),
       hall_min_(p.hall_min, TravelEnd::kMin, kHallMinLine[axis], p.start_m),
       hall_max_(p.hall_max, TravelEnd::kMax, kHallMaxLine[axis], p.start_m),
@@ -53,11 +54,12 @@ void RigAxis::step(core::Nanoseconds start_ns, const Surroundings& around,
                         .supply_V = around.supply_V,
                         .carriage_force_N = around.external_N,
                         .amplifier_enabled = enable_line && around.amplifier_may_drive};
-  const AxisState before = plant_.state();
+  const AxisState before = state_;
   plant_.step(input, segments_);
   encoder_.step(segments_, edges_);
   wiring_.step(encoder_.levels(), edges_);
-  const AxisState after = plant_.state();
+  state_ = plant_.state();
+  const AxisState& after = state_;
   const CarriageMotion motion{.before_m = before.carriage_m,
                               .before_m_per_s = before.carriage_speed_m_per_s,
                               .after_m = after.carriage_m,
@@ -75,10 +77,9 @@ void RigAxis::step(core::Nanoseconds start_ns, const Surroundings& around,
 }
 
 double RigAxis::output_power_W() const noexcept {
-  const AxisState state = plant_.state();
-  return (resistance_ohm_ * state.current_A +
-          torque_constant_Nm_per_A_ * state.motor_speed_rad_per_s) *
-         state.current_A;
+  return (resistance_ohm_ * state_.current_A +
+          torque_constant_Nm_per_A_ * state_.motor_speed_rad_per_s) *
+         state_.current_A;
 }
 
 std::uint16_t RigAxis::hall_lines() const noexcept {
@@ -90,7 +91,7 @@ std::uint16_t RigAxis::hall_lines() const noexcept {
 }
 
 AxisTruth RigAxis::truth() const noexcept {
-  const AxisState state = plant_.state();
+  const AxisState& state = state_;
   const AxisForces forces = plant_.forces();
   return {.motor_angle_rad = state.motor_angle_rad,
           .motor_speed_rad_per_s = state.motor_speed_rad_per_s,
@@ -138,13 +139,6 @@ Rig::Rig(const RigParameters& parameters, std::uint64_t seed)
   }
   machine_lines_ = static_cast<std::uint16_t>(lines);
   arriving_lines_ = machine_lines_;
-}
-
-RigAxis* Rig::axis(Axis which) noexcept {
-  return axes_[which] ? &*axes_[which] : nullptr;
-}
-const RigAxis* Rig::axis(Axis which) const noexcept {
-  return axes_[which] ? &*axes_[which] : nullptr;
 }
 
 std::uint8_t Rig::axes_mask() const noexcept {

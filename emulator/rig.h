@@ -65,8 +65,7 @@ class RigAxis {
   }
   // In the middle of the next step, if the speed changes as in the last one.
   [[nodiscard]] double coming_carriage_speed_m_per_s() const noexcept {
-    return plant_.state().carriage_speed_m_per_s +
-           0.5 * core::kPlantTick_s * acceleration_m_per_s2_;
+    return state_.carriage_speed_m_per_s + 0.5 * core::kPlantTick_s * acceleration_m_per_s2_;
   }
   // What the amplifier puts into the winding: heat and back EMF. What the inductance borrows it
   // gives back within a millisecond.
@@ -77,6 +76,7 @@ class RigAxis {
  private:
   // Each starts from the state of the one before it.
   AxisPlant plant_;
+  AxisState state_;  // the plant's, at the end of the last step
   QuadratureEncoder encoder_;
   EncoderWiring wiring_;
   HallSensor hall_min_;
@@ -97,8 +97,12 @@ class Rig {
   Rig(const RigParameters& parameters, std::uint64_t seed);
 
   // The axis, or null when the machine has none.
-  [[nodiscard]] RigAxis* axis(core::Axis which) noexcept;
-  [[nodiscard]] const RigAxis* axis(core::Axis which) const noexcept;
+  [[nodiscard]] RigAxis* axis(core::Axis which) noexcept {
+    return axes_[which] ? &*axes_[which] : nullptr;
+  }
+  [[nodiscard]] const RigAxis* axis(core::Axis which) const noexcept {
+    return axes_[which] ? &*axes_[which] : nullptr;
+  }
   [[nodiscard]] std::uint8_t axes_mask() const noexcept;
 
   // Inputs of the tick about to run. Times lie inside it, ascending.

@@ -17,27 +17,10 @@ HallSensor::HallSensor(const HallParameters& parameters, TravelEnd end, protocol
       field_is_on_(fitted_ && depth(carriage_m) >= 0.0),
       line_is_active_(field_is_on_) {}
 
-void HallSensor::step(core::Nanoseconds start_ns, const CarriageMotion& motion,
-                      LineChanges& changes) noexcept {
-  if (!fitted_ || far_from_change(motion)) {
-    return;
-  }
+void HallSensor::follow(core::Nanoseconds start_ns, const CarriageMotion& motion,
+                        LineChanges& changes) noexcept {
   follow_field(start_ns, motion, changes);
   settle_line(start_ns + core::kPlantTick_ns, changes);
-}
-
-// The usual case, settled without solving anything: no way within reach during this step.
-bool HallSensor::far_from_change(const CarriageMotion& motion) const noexcept {
-  const double reach_m =
-      std::max(std::fabs(motion.before_m_per_s), std::fabs(motion.after_m_per_s)) *
-      core::kPlantTick_s;
-  const double before = depth(motion.before_m);
-  const double after = depth(motion.after_m);
-  if (field_is_on_ != line_is_active_) {
-    return false;
-  }
-  return field_is_on_ ? std::min(before, after) - reach_m >= release_depth_m_
-                      : std::max(before, after) + reach_m < 0.0;
 }
 
 void HallSensor::follow_field(core::Nanoseconds start_ns, const CarriageMotion& motion,

@@ -5,6 +5,7 @@
 // comparator behind a filter, so a touch shorter than the delay leaves no trace.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "core/realtime.h"
@@ -32,7 +33,11 @@ class HallSensor {
 
   // One plant step from `start_ns` on. Appends the changes of the line in [start, start + tick).
   TOWBENCH_REALTIME void step(core::Nanoseconds start_ns, const CarriageMotion& motion,
-                              LineChanges& changes) noexcept;
+                              LineChanges& changes) noexcept {
+    if (fitted_ && !far_from_change(motion)) {
+      follow(start_ns, motion, changes);
+    }
+  }
 
   [[nodiscard]] bool active() const noexcept { return line_is_active_; }
   [[nodiscard]] protocol::InputLine line() const noexcept { return line_; }
@@ -41,7 +46,21 @@ class HallSensor {
   [[nodiscard]] double depth(double carriage_m) const noexcept {
     return sign_ * (carriage_m - position_m_);
   }
-  [[nodiscard]] bool far_from_change(const CarriageMotion& motion) const noexcept;
+  // The usual case, settled without solving anything: no way within reach during this step.
+  [[nodiscard]] bool far_from_change(const CarriageMotion& motion) const noexcept {
+    const double start_speed = std::fabs(motion.before_m_per_s);
+    const double end_speed = std::fabs(motion.after_m_per_s);
+    const double reach_m = (start_speed > end_speed ? start_speed : end_speed) * core::kPlantTick_s;
+    const double before = depth(motion.before_m);
+    const double after = depth(motion.after_m);
+    if (field_is_on_ != line_is_active_) {
+      return false;
+    }
+    return field_is_on_ ? (before < after ? before : after) - reach_m >= release_depth_m_
+                        : (before > after ? before : after) + reach_m < 0.0;
+  }
+  void follow(core::Nanoseconds start_ns, const CarriageMotion& motion,
+              LineChanges& changes) noexcept;
   void follow_field(core::Nanoseconds start_ns, const CarriageMotion& motion,
                     LineChanges& changes) noexcept;
   void toggle_field(core::Nanoseconds time_ns, LineChanges& changes) noexcept;
