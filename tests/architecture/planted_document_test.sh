@@ -1,5 +1,6 @@
 #!/bin/sh
 # A document that names a file which is not there, and one that names none, must be found.
+# shellcheck disable=SC2016  # the backticks are Markdown
 set -u
 check=$1/tests/architecture/document_files_test.sh
 folder=$(mktemp -d)
