@@ -15,6 +15,7 @@ void add_emulate(CLI::App& app, int& exit_code);
 void add_control(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
+void add_completion(CLI::App& app, int& exit_code);
 
 // The whole command line. Never throws.
 [[nodiscard]] int run_command_line(int argc, char** argv) noexcept;

@@ -1,14 +1,38 @@
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "harness/commands/command.h"
 #include "harness/fixtures/fixture_error.h"
+#include "harness/fixtures/nearest_key.h"
 #include "harness/judge/check.h"
 
 namespace towbench::harness {
 namespace {
+
+std::vector<std::string> verbs_of(const CLI::App& app) {
+  std::vector<std::string> verbs = {"test"};  // the launcher's own
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+    verbs.push_back(verb->get_name());
+  }
+  return verbs;
+}
+
+// CLI11 would say that a verb is missing. False when `word` is one, or an option.
+bool refuse_unknown_verb(const std::vector<std::string>& verbs, std::string_view word) {
+  if (word.starts_with('-') || std::find(verbs.begin(), verbs.end(), word) != verbs.end()) {
+    return false;
+  }
+  const std::string nearest = nearest_key(word, verbs);
+  fmt::print(stderr, "towbench: no verb '{}'{} (allowed: {})\n", word,
+             nearest.empty() ? "" : "; did you mean " + nearest + "?", fmt::join(verbs, " "));
+  return true;
+}
 
 int parse_and_run(int argc, char** argv) {
   CLI::App app{
@@ -22,8 +46,11 @@ int parse_and_run(int argc, char** argv) {
       "4 INVALID (the run proves nothing), 99 skipped.\n\nExample: towbench demo");
   int exit_code = kExitRuntime;
   for (const auto add : {add_demo, add_run, add_list, add_validate, add_emulate, add_control,
-                         add_replay, add_report}) {
+                         add_replay, add_report, add_completion}) {
     add(app, exit_code);
+  }
+  if (argc > 1 && refuse_unknown_verb(verbs_of(app), argv[1])) {
+    return kExitBadInput;
   }
   try {
     app.parse(argc, argv);

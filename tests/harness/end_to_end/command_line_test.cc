@@ -18,9 +18,9 @@ struct Output {
   std::string text;  // stdout and stderr
 };
 
-Output towbench(const std::string& arguments) {
+Output shell(const std::string& command) {
   Output output;
-  std::FILE* pipe = popen((std::string(TOWBENCH_PROGRAM) + " " + arguments + " 2>&1").c_str(), "r");
+  std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
   std::array<char, 4096> bytes{};
   for (std::size_t count = 0; (count = fread(bytes.data(), 1, bytes.size(), pipe)) > 0;) {
     output.text.append(bytes.data(), count);
@@ -29,9 +29,17 @@ Output towbench(const std::string& arguments) {
   return output;
 }
 
+Output towbench(const std::string& arguments) {
+  return shell(std::string(TOWBENCH_PROGRAM) + " " + arguments);
+}
+
+Output bash(const std::string& script) {
+  return shell("bash -c '" + script + "'");
+}
+
 TEST(CommandLine, EveryVerbHasHelpWithAnExample) {
-  for (const char* verb :
-       {"demo", "run", "list", "validate", "emulate", "control", "replay", "report"}) {
+  for (const char* verb : {"demo", "run", "list", "validate", "emulate", "control", "replay",
+                           "report", "completion"}) {
     const auto help = towbench(std::string(verb) + " --help");
     EXPECT_EQ(help.code, 0) << verb;
     EXPECT_THAT(help.text, HasSubstr("Example: towbench " + std::string(verb)));
@@ -45,6 +53,25 @@ TEST(CommandLine, BadArgumentsAreTwo) {
         "emulate --rig x --listen tcp:1", "validate no/such/file.toml"}) {
     EXPECT_EQ(towbench(arguments).code, kExitBadInput) << arguments;
   }
+}
+
+TEST(CommandLine, AMisspeltVerbIsToldOnOneLine) {
+  const auto output = towbench("replya");
+  EXPECT_EQ(output.code, kExitBadInput);
+  EXPECT_THAT(output.text, HasSubstr("no verb 'replya'; did you mean replay?"));
+  EXPECT_EQ(std::count(output.text.begin(), output.text.end(), '\n'), 1);
+}
+
+TEST(CommandLine, BashCompletesVerbsOptionsAndExperiments) {
+  const std::string script = "source <(" + std::string(TOWBENCH_PROGRAM) + " completion); ";
+  const auto completes = [&](const std::string& words, int at) {
+    return script + "COMP_WORDS=(towbench " + words + "); COMP_CWORD=" + std::to_string(at) +
+           "; _towbench; echo \"<${COMPREPLY[*]}>\"";
+  };
+  EXPECT_THAT(bash(completes("rep", 1)).text, EndsWith("<replay report>\n"));
+  EXPECT_THAT(bash(completes("run circ", 2)).text, EndsWith("<circle>\n"));
+  EXPECT_THAT(bash(completes("run --car", 2)).text, EndsWith("<--carrier>\n"));
+  EXPECT_THAT(bash(completes("nonsense x", 2)).text, EndsWith("<>\n"));
 }
 
 TEST(CommandLine, AMisspeltExperimentIsToldOnOneLine) {
