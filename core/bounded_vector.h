@@ -65,7 +65,7 @@ class BoundedVector {
   // Not of a temporary: the view would outlive it, most easily in the head of a range-for, where
   // the vector itself can be named instead.
   [[nodiscard]] std::span<const T> view() const& noexcept { return {items_.data(), size_}; }
-  std::span<const T> view() const&& = delete;
+  std::span<const T> view() const&& = delete;  // NOLINT(modernize-use-nodiscard): never returns
   [[nodiscard]] const T* begin() const noexcept { return items_.data(); }
   [[nodiscard]] const T* end() const noexcept { return items_.data() + size_; }
 
