@@ -12,7 +12,9 @@ struct AxisForces {
   double chain_force_N = 0;        // on the carriage; its reaction is on the sprocket
   double carriage_friction_N = 0;  // on the carriage; viscous part included
   double end_force_N = 0;          // of a hard end on the carriage
-  double external_force_N = 0;     // everything from outside on the carriage
+  double external_force_N = 0;     // from outside on the carriage, as given
+  double standing_force_N = 0;     // of cable, tilt and place on the carriage
+  double ripple_torque_Nm = 0;     // on the motor
   bool motor_sticks = true;
   bool carriage_sticks = true;
   bool voltage_limited = false;

@@ -8,6 +8,7 @@ namespace {
 struct ModeBuilder {
   const AxisParameters& axis;
   const DerivedMechanics& mechanics;
+  ChainContact chain;
   ContinuousMode mode;
 
   // d z[row] / dt += value * z[column]
@@ -44,8 +45,9 @@ struct ModeBuilder {
 
   // gain * F_chain into a speed row.
   void chain_force(StateIndex row, double gain) noexcept {
-    const double damping = mechanics.chain_damping_N_s_per_m;
-    add(row, kStretch, gain * mechanics.chain_stiffness_N_per_m);
+    const ChainLaw law = chain_law(mechanics, {}, chain, 0.0);
+    const double damping = law.damping_N_s_per_m;
+    add(row, kStretch, gain * law.stiffness_N_per_m);
     add(row, kMotorSpeed, gain * damping * mechanics.metres_per_radian);
     add(row, kCarriageSpeed, -gain * damping);
   }
@@ -56,6 +58,27 @@ struct ModeBuilder {
     add(row, kMotorAngle, -gain * stiffness * mechanics.metres_per_radian);
     add(row, kStretch, gain * stiffness);
     add(row, kCarriageSpeed, -gain * axis.hard_ends.damping_N_s_per_m);
+  }
+
+  // gain * F_cable into a speed row; the constant K_w x_w is part of the held force.
+  void cable_force(StateIndex row, double gain) noexcept {
+    const double stiffness = axis.disturbances.cable.stiffness_N_per_m;
+    add(row, kMotorAngle, -gain * stiffness * mechanics.metres_per_radian);
+    add(row, kStretch, gain * stiffness);
+  }
+
+  // The contact of a motor at rest; sigma_0 theta_0 is part of the held torque.
+  void motor_contact(const ElasticContact& contact) noexcept {
+    const double mobility = 1.0 / mechanics.motor_inertia_kg_m2;
+    add(kMotorSpeed, kMotorAngle, -contact.stiffness * mobility);
+    add(kMotorSpeed, kMotorSpeed, -contact.damping * mobility);
+  }
+
+  void carriage_contact(const ElasticContact& contact) noexcept {
+    const double mobility = 1.0 / mechanics.carriage_mass_kg;
+    add(kCarriageSpeed, kMotorAngle, -contact.stiffness * mobility * mechanics.metres_per_radian);
+    add(kCarriageSpeed, kStretch, contact.stiffness * mobility);
+    add(kCarriageSpeed, kCarriageSpeed, -contact.damping * mobility);
   }
 
   void motor() noexcept {
@@ -77,6 +100,7 @@ struct ModeBuilder {
     if (end_pushes) {
       end_force(kCarriageSpeed, mobility);
     }
+    cable_force(kCarriageSpeed, mobility);
   }
 
   // The carriage follows the motor: its force joins the motor's row, and its speed row is r times
@@ -88,6 +112,7 @@ struct ModeBuilder {
     if (end_pushes) {
       end_force(kMotorSpeed, r * mobility);
     }
+    cable_force(kMotorSpeed, r * mobility);
     for (auto& column : mode.state) {
       column[kCarriageSpeed] = r * column[kMotorSpeed];
     }
@@ -97,40 +122,106 @@ struct ModeBuilder {
   }
 };
 
+ChainContact contact_of(ChainPull pull) noexcept {
+  switch (pull) {
+    case ChainPull::kBothStrands:
+      return ChainContact::kTaut;
+    case ChainPull::kOneStrand:
+      return ChainContact::kOneStrand;
+    case ChainPull::kNone:
+      break;
+  }
+  return ChainContact::kOpen;
+}
+
+// A friction that differs by direction needs to know the direction.
+bool skews_viscous(const AxisParameters& axis) noexcept {
+  return axis.friction.options.asymmetry.viscous != 0;
+}
+
+// What the fast path of a nominal axis does not know.
+bool any_term(const AxisModel& model) noexcept {
+  const FrictionOptions& options = model.parameters.friction.options;
+  const FrictionAsymmetry& asymmetry = options.asymmetry;
+  return model.ripple.present() || model.sprocket.present() || model.position_force.present() ||
+         model.play.present() || model.gear_loss.present() || model.motor_contact.present() ||
+         model.carriage_contact.present() || options.load_ratio != 0 ||
+         options.warming.depth != 0 || asymmetry.coulomb != 0 || asymmetry.breakaway != 0 ||
+         asymmetry.viscous != 0;
+}
+
 }  // namespace
 
 ContinuousMode continuous_mode(const AxisParameters& axis, const DerivedMechanics& mechanics,
                                const ModeKey& key) noexcept {
-  ModeBuilder builder{axis, mechanics, {}};
+  ModeBuilder builder{axis, mechanics, contact_of(key.pull), {}};
+  const ElasticContact at_motor = motor_contact(axis, mechanics);
+  const ElasticContact at_carriage = carriage_contact(axis, mechanics);
+  const bool motor_moves = key.motor_moves || at_motor.present();
   builder.winding(key.winding);
-  if (key.motor_moves) {
+  if (motor_moves) {
     builder.motor();
   }
+  if (!key.motor_moves && at_motor.present()) {
+    builder.motor_contact(at_motor);
+  }
   if (axis.chain.rigid) {
-    if (key.motor_moves) {
+    if (motor_moves) {
       builder.rigid_carriage(key.end_pushes);
     }
     return builder.mode;
   }
   builder.add(kStretch, kMotorSpeed, mechanics.metres_per_radian);
   builder.add(kStretch, kCarriageSpeed, -1.0);
-  if (key.carriage_moves) {
+  if (key.carriage_moves || at_carriage.present()) {
     builder.carriage(key.end_pushes);
   }
+  if (!key.carriage_moves && at_carriage.present()) {
+    builder.carriage_contact(at_carriage);
+  }
   return builder.mode;
+}
+
+ElasticContact motor_contact(const AxisParameters& axis,
+                             const DerivedMechanics& mechanics) noexcept {
+  const Presliding& p = axis.friction.options.presliding;
+  return elastic_contact(mechanics.motor, p.travel_rad, p.damping_ratio,
+                         mechanics.motor_inertia_kg_m2);
+}
+
+ElasticContact carriage_contact(const AxisParameters& axis,
+                                const DerivedMechanics& mechanics) noexcept {
+  const Presliding& p = axis.friction.options.presliding;
+  return elastic_contact(mechanics.carriage, p.travel_rad * mechanics.metres_per_radian,
+                         p.damping_ratio, mechanics.carriage_mass_kg);
+}
+
+std::size_t modes_in_use(const ChainPlay& play) noexcept {
+  return play.present() ? kModeCount : kModesPerPull;
 }
 
 AxisModel::AxisModel(const AxisParameters& axis, double tick_length_s) noexcept
     : parameters(axis),
       mechanics(derive(axis)),
       stribeck(axis.friction.stribeck_form),
-      position_friction(axis.friction.position,
+      position_friction(axis.friction.position.position_m, axis.friction.position.friction_Nm,
                         axis.chain.rigid ? 1.0 : 1.0 / mechanics.metres_per_radian),
+      position_force(axis.disturbances.position_force.position_m,
+                     axis.disturbances.position_force.torque_Nm, 1.0 / mechanics.metres_per_radian),
+      ripple(axis.disturbances.torque_ripple),
+      sprocket(axis),
+      gear_loss(axis.gear.efficiency),
+      play(chain_play(axis, mechanics)),
+      motor_contact(emulator::motor_contact(axis, mechanics)),
+      carriage_contact(emulator::carriage_contact(axis, mechanics)),
       tick_s(tick_length_s),
-      motor_is_dry(mechanics.motor.present() || (axis.chain.rigid && position_friction.present())),
+      motor_is_dry(mechanics.motor.present() || gear_loss.present() || skews_viscous(axis) ||
+                   (axis.chain.rigid && position_friction.present())),
       carriage_is_dry(!axis.chain.rigid &&
-                      (mechanics.carriage.present() || position_friction.present())) {
-  for (std::size_t index = 0; index < kModeCount; ++index) {
+                      (mechanics.carriage.present() || position_friction.present() ||
+                       skews_viscous(axis) || axis.friction.options.load_ratio != 0)),
+      has_terms(any_term(*this)) {
+  for (std::size_t index = 0; index < modes_in_use(play); ++index) {
     flows[index] = continuous_mode(axis, mechanics, ModeKey::of_index(index));
     core::check(discretise(flows[index], tick_s, ticks[index]));
   }

@@ -7,7 +7,11 @@
 //              i' = 0, q' = 0                                           kFixedCurrent
 //   motor      J_m w' = K_T i - B_m w - r F_chain + tau                 (3.37), errata of plant.md
 //   carriage   M v'   = F_chain - B_c v + F + F_end                     (3.38)
-//   chain      F_chain = K_s d + B_s d',  d = r theta - x,  d' = r w - v
+//   chain      F_chain = K_s d + B_s d',  d = r theta - x,  d' = r w - v; half of both on one
+//              strand, none in a gap (chain_play.h)
+//   cable      F_cable = -K_w (x - x_w)
+//   at rest    w = 0, or on an elastic contact: tau = -sigma_0 (theta - theta_0) - sigma_1 w
+//              (presliding.h); the carriage likewise
 //   hard end   F_end = -K_e (x - x_end) - B_e v, only while it pushes
 //   rigid      J w' = K_T i - B w + tau + r (F + F_end),  v = r w       (3.33)
 //
@@ -16,16 +20,21 @@
 // an integrator that merely stops there it has one, and where the set-point cannot be reached the
 // axis would chatter between the two.
 //
-// tau and F are what is held during a step: dry friction, outside forces. A body that sticks has
-// its speed row zero.
+// tau and F are what is held during a step: dry friction, outside forces, what held_terms.h adds. A
+// body that sticks without presliding has its speed row zero.
 #pragma once
 
 #include <array>
 
+#include "emulator/plant/chain_play.h"
 #include "emulator/plant/derived_mechanics.h"
 #include "emulator/plant/friction_law.h"
+#include "emulator/plant/gear_loss.h"
 #include "emulator/plant/linear_mode.h"
+#include "emulator/plant/presliding.h"
 #include "emulator/plant/regime.h"
+#include "emulator/plant/sprocket.h"
+#include "emulator/plant/torque_ripple.h"
 
 namespace towbench::emulator {
 
@@ -36,10 +45,19 @@ struct AxisModel {
   AxisParameters parameters;
   DerivedMechanics mechanics;
   StribeckCurve stribeck;
-  PositionFrictionCurve position_friction;  // N, or N m when the chain is rigid
+  PositionCurve position_friction;  // N, or N m when the chain is rigid
+  PositionCurve position_force;     // N
+  SineTable sine;
+  TorqueRipple ripple;
+  Sprocket sprocket;
+  GearLoss gear_loss;
+  ChainPlay play;
+  ElasticContact motor_contact;
+  ElasticContact carriage_contact;
   double tick_s;
   bool motor_is_dry;     // has friction to stick with
   bool carriage_is_dry;  // likewise; false when the chain is rigid
+  bool has_terms;        // whether held_terms.h has anything to add
   std::array<DiscreteMode, kModeCount> ticks{};
   std::array<ContinuousMode, kModeCount> flows{};
 };
@@ -47,5 +65,14 @@ struct AxisModel {
 [[nodiscard]] ContinuousMode continuous_mode(const AxisParameters& axis,
                                              const DerivedMechanics& mechanics,
                                              const ModeKey& key) noexcept;
+
+// Of each body with itself; absent without presliding.
+[[nodiscard]] ElasticContact motor_contact(const AxisParameters& axis,
+                                           const DerivedMechanics& mechanics) noexcept;
+[[nodiscard]] ElasticContact carriage_contact(const AxisParameters& axis,
+                                              const DerivedMechanics& mechanics) noexcept;
+
+// Modes that can occur: a chain without play never lets go.
+[[nodiscard]] std::size_t modes_in_use(const ChainPlay& play) noexcept;
 
 }  // namespace towbench::emulator

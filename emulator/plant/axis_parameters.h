@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/parameter.h"
+#include "emulator/plant/disturbance_parameters.h"
 #include "emulator/plant/friction_parameters.h"
 
 namespace towbench::emulator {
@@ -51,12 +52,28 @@ struct AmplifierParameters {
   }
 };
 
+// The gearhead's own faults; off in the nominal rig. Its friction at no load is part of the
+// effective friction, as identified.
+struct GearParameters {
+  double backlash_deg = 0;  // App. A: 0.35
+  double efficiency = 1;    // App. A: 0.8
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("backlash_deg", backlash_deg, core::between(0.0, 10.0), "free play at the output");
+    v.value("efficiency", efficiency, core::between(0.3, 1.0),
+            "share of the power passing through that arrives");
+  }
+};
+
 // The chain between sprocket and carriage as one spring and damper (3.36)-(3.38), given by the
 // free-free mode that an open-loop motor shows; a carriage against a held motor swings slower.
 struct ChainParameters {
   bool rigid = false;           // (3.33) instead
   double resonance_Hz = 9.0;    // assumed; seen in Fig. 7.4, never identified
   double damping_ratio = 0.06;  // assumed
+  double slack_m = 0;           // off in the nominal rig
+  double pretension_N = 0;      // none: no strand ever goes slack
 
   template <typename Visitor>
   void visit(Visitor& v) {
@@ -64,6 +81,9 @@ struct ChainParameters {
     v.value("resonance_Hz", resonance_Hz, core::between(0.5, 500.0),
             "undamped natural frequency of motor against carriage, both free");
     v.value("damping_ratio", damping_ratio, core::between(0.0, 1.0), "of that mode");
+    v.value("slack_m", slack_m, core::between(0.0, 0.1), "length the carriage can move freely");
+    v.value("pretension_N", pretension_N, core::between(0.0, 1e4),
+            "of each strand at rest; 0: strands never go slack");
   }
 };
 
@@ -98,8 +118,10 @@ struct AxisParameters {
   WindingParameters winding;
   AmplifierParameters amplifier;
   FrictionParameters friction;
+  GearParameters gear;
   ChainParameters chain;
   HardEndParameters hard_ends;
+  DisturbanceParameters disturbances;
   // Water that moves with the carriage, (3.9): on top of the inertia, which was identified in air.
   // No key of the axis: the rig sets it from what is in its water.
   double water_mass_kg = 0.0;
@@ -124,8 +146,10 @@ struct AxisParameters {
     v.group("winding", winding, "motor winding");
     v.group("amplifier", amplifier, "servo amplifier");
     v.group("friction", friction, "dry friction");
+    v.group("gear", gear, "gearhead");
     v.group("chain", chain, "chain between sprocket and carriage");
     v.group("hard_ends", hard_ends, "mechanical stops");
+    v.group("disturbances", disturbances, "what else pushes");
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include "emulator/plant/event_search.h"
 #include "emulator/plant/transitions.h"
+#include "emulator/plant/warming.h"
 
 namespace towbench::emulator {
 namespace {
@@ -36,13 +37,45 @@ bool prediction_failed(const AxisModel& model, double motor, double motor_miss, 
          failed(model.mechanics.carriage, carriage, carriage_miss);
 }
 
+// r theta + delta(theta) = x; a real sprocket differs little from a circle.
+double angle_of_relaxed_chain(const AxisModel& model, double carriage_m) noexcept {
+  const double r = model.mechanics.metres_per_radian;
+  double angle_rad = carriage_m / r;
+  if (model.sprocket.present()) {
+    constexpr int kRounds = 60;
+    for (int i = 0; i < kRounds; ++i) {
+      angle_rad = (carriage_m - model.sprocket(model.sine, angle_rad).offset_m) / r;
+    }
+  }
+  return angle_rad;
+}
+
+// Where the middle of the coming tick will be, if speeds change as in the tick before.
+MiddleOfMotion predicted_middle(const AxisModel& model, const StateVector& z,
+                                const HalfChange& change) noexcept {
+  const double half_s = 0.5 * model.tick_s;
+  const double w = z[kMotorSpeed];
+  const double v = z[kCarriageSpeed];
+  return {
+      .motor_rad = z[kMotorAngle] + half_s * (w + 0.5 * change.motor_rad_per_s),
+      .motor_rad_per_s = w + change.motor_rad_per_s,
+      .carriage_m = carriage_position_m(model, z) + half_s * (v + 0.5 * change.carriage_m_per_s),
+      .carriage_m_per_s = v + change.carriage_m_per_s,
+      .travel_rad = model.tick_s * (w + change.motor_rad_per_s)};
+}
+
 }  // namespace
 
 AxisPlant::AxisPlant(const AxisParameters& parameters, double carriage_m, double tick_s)
     : model_(std::make_shared<const AxisModel>(parameters, tick_s)) {
-  z_[kMotorAngle] = carriage_m / model_->mechanics.metres_per_radian;
-  settle(*model_, situation_, z_);
-  enter_mode();
+  const AxisModel& model = *model_;
+  z_[kMotorAngle] = angle_of_relaxed_chain(model, carriage_m);
+  z_[kStretch] = model.mechanics.metres_per_radian * z_[kMotorAngle] - carriage_m;
+  situation_.motor_anchor_rad = z_[kMotorAngle];
+  situation_.carriage_anchor_m = carriage_m;
+  situation_.regime.chain = model.play.has_gap() ? ChainContact::kOpen : ChainContact::kTaut;
+  situation_.chain = chain_law(model.mechanics, model.play, situation_.regime.chain, 0.0);
+  take(input_);
 }
 
 void AxisPlant::enter_mode() noexcept {
@@ -60,7 +93,9 @@ void AxisPlant::take(const AxisInput& input) noexcept {
   held.set_point_A = clamp(axis.amplifier_gain_A_per_V * input.command_V, axis.current_limit_A);
   held.command_terminal_V =
       clamp(axis.amplifier.voltage_gain_V_per_V * input.command_V, held.limit_V);
-  held.carriage_force_N = input.carriage_force_N;
+  const CableParameters& cable = axis.disturbances.cable;
+  held.carriage_force_N = input.carriage_force_N + model_->mechanics.tilt_force_N +
+                          cable.stiffness_N_per_m * cable.reference_m;
   const bool only_the_command = input.supply_V == input_.supply_V &&
                                 input.carriage_force_N == input_.carriage_force_N &&
                                 input.amplifier_enabled == input_.amplifier_enabled;
@@ -110,6 +145,35 @@ void AxisPlant::step(const AxisInput& input, MotionSegments& segments) noexcept 
   }
 }
 
+[[gnu::always_inline]] inline void AxisPlant::hold_middle_of_tick(
+    const HalfChange& change) noexcept {
+  const AxisModel& model = *model_;
+  if (model.has_terms) {
+    hold_terms(model, situation_, predicted_middle(model, z_, change));
+    return;
+  }
+  update_friction(z_[kMotorSpeed] + change.motor_rad_per_s,
+                  z_[kCarriageSpeed] + change.carriage_m_per_s,
+                  carriage_position_m(model, z_) + 0.5 * model.tick_s * z_[kCarriageSpeed]);
+}
+
+// The middle of the flow's first part.
+void AxisPlant::hold_middle_of(const TaylorFlow& flow, double fraction, double span_s) noexcept {
+  const AxisModel& model = *model_;
+  const StateVector end = flow.at(fraction);
+  const double motor_rad_per_s = 0.5 * (z_[kMotorSpeed] + end[kMotorSpeed]);
+  const double carriage_m_per_s = 0.5 * (z_[kCarriageSpeed] + end[kCarriageSpeed]);
+  if (model.has_terms) {
+    MiddleOfMotion middle = motion_at(model, flow.at(0.5 * fraction), fraction * span_s);
+    middle.motor_rad_per_s = motor_rad_per_s;
+    middle.carriage_m_per_s = carriage_m_per_s;
+    hold_terms(model, situation_, middle);
+    return;
+  }
+  update_friction(motor_rad_per_s, carriage_m_per_s,
+                  0.5 * (carriage_position_m(model, z_) + carriage_position_m(model, end)));
+}
+
 // The whole tick by its matrices. Friction is taken where the tick's middle will be if the speed
 // changes as in the tick before; where that turns out wrong and friction depends on speed, what was
 // missed is added afterwards, as a linear mode allows. False, and nothing changed but friction
@@ -117,17 +181,16 @@ void AxisPlant::step(const AxisInput& input, MotionSegments& segments) noexcept 
 bool AxisPlant::step_without_event(MotionSegments& segments) noexcept {
   const AxisModel& model = *model_;
   const DiscreteMode& mode = *mode_;
-  const double middle_m = carriage_position_m(model, z_) + 0.5 * model.tick_s * z_[kCarriageSpeed];
-  const double motor_middle = z_[kMotorSpeed] + half_change_.motor_rad_per_s;
-  const double carriage_middle = z_[kCarriageSpeed] + half_change_.carriage_m_per_s;
-  update_friction(motor_middle, carriage_middle, middle_m);
+  hold_middle_of_tick(half_change_);
   const InputVector inputs = held_inputs(model, situation_);
   StateVector next = emulator::step(mode, z_, inputs);
-  const double motor_change = 0.5 * (next[kMotorSpeed] - z_[kMotorSpeed]);
-  const double carriage_change = 0.5 * (next[kCarriageSpeed] - z_[kCarriageSpeed]);
-  if (prediction_failed(model, motor_middle, motor_change - half_change_.motor_rad_per_s,
-                        carriage_middle, carriage_change - half_change_.carriage_m_per_s)) {
-    update_friction(z_[kMotorSpeed] + motor_change, z_[kCarriageSpeed] + carriage_change, middle_m);
+  const HalfChange change{.motor_rad_per_s = 0.5 * (next[kMotorSpeed] - z_[kMotorSpeed]),
+                          .carriage_m_per_s = 0.5 * (next[kCarriageSpeed] - z_[kCarriageSpeed])};
+  if (prediction_failed(model, z_[kMotorSpeed] + half_change_.motor_rad_per_s,
+                        change.motor_rad_per_s - half_change_.motor_rad_per_s,
+                        z_[kCarriageSpeed] + half_change_.carriage_m_per_s,
+                        change.carriage_m_per_s - half_change_.carriage_m_per_s)) {
+    hold_middle_of_tick(change);
     const InputVector refined = held_inputs(model, situation_);
     add_input(mode, kMotorTorque, refined[kMotorTorque] - inputs[kMotorTorque], next);
     add_input(mode, kCarriageForce, refined[kCarriageForce] - inputs[kCarriageForce], next);
@@ -135,24 +198,26 @@ bool AxisPlant::step_without_event(MotionSegments& segments) noexcept {
   if (!regime_holds(model, situation_, next)) {
     return false;
   }
-  half_change_ = {.motor_rad_per_s = motor_change, .carriage_m_per_s = carriage_change};
+  half_change_ = change;
   append(segments, 0.0, model.tick_s, z_, next);
+  warm(z_, next, model.tick_s);
   z_ = next;
   return true;
 }
 
-// The flow for the rest of the tick, with the friction of its middle. Expanded twice only where the
-// first guess of that friction was off.
+// The flow for the rest of the tick, with what is held taken in its middle. Expanded twice only
+// where the first guess of that was off.
 TaylorFlow AxisPlant::flow_from_here(double span_s) noexcept {
   const AxisModel& model = *model_;
   const ContinuousMode& mode = model.flows[mode_index_];
-  update_friction(z_[kMotorSpeed], z_[kCarriageSpeed], carriage_position_m(model, z_));
+  if (model.has_terms) {
+    hold_terms(model, situation_, motion_at(model, z_, span_s));
+  } else {
+    update_friction(z_[kMotorSpeed], z_[kCarriageSpeed], carriage_position_m(model, z_));
+  }
   const InputVector inputs = held_inputs(model, situation_);
   TaylorFlow flow(mode, z_, inputs, span_s);
-  const StateVector end = flow.at(1.0);
-  update_friction(0.5 * (z_[kMotorSpeed] + end[kMotorSpeed]),
-                  0.5 * (z_[kCarriageSpeed] + end[kCarriageSpeed]),
-                  0.5 * (carriage_position_m(model, z_) + carriage_position_m(model, end)));
+  hold_middle_of(flow, 1.0, span_s);
   const InputVector refined = held_inputs(model, situation_);
   constexpr double kNegligible = 1e-6;  // of the body's break-away level
   const bool good = std::fabs(refined[kMotorTorque] - inputs[kMotorTorque]) <=
@@ -163,6 +228,21 @@ TaylorFlow AxisPlant::flow_from_here(double span_s) noexcept {
     flow = TaylorFlow(mode, z_, refined, span_s);
   }
   return flow;
+}
+
+void AxisPlant::warm(const StateVector& before, const StateVector& after,
+                     double duration_s) noexcept {
+  const FrictionWarming& law = model_->parameters.friction.options.warming;
+  if (law.depth == 0) {
+    return;
+  }
+  const double dissipated_J = dissipated_by_dry_friction_J(
+      situation_, after[kMotorAngle] - before[kMotorAngle],
+      carriage_position_m(*model_, after) - carriage_position_m(*model_, before));
+  const double cooler = warmth_;
+  warmth_ = warmed(law, warmth_, dissipated_J, duration_s);
+  // The next tick's middle, if it warms as this one did.
+  situation_.terms.level_scale = level_scale(law, warmth_ + 0.5 * (warmth_ - cooler));
 }
 
 void AxisPlant::record_contact(double time_s, double sign) noexcept {
@@ -177,6 +257,19 @@ void AxisPlant::record_contact(double time_s, double sign) noexcept {
               .energy_J = carriage_J + 0.5 * m.motor_inertia_kg_m2 * w * w};
 }
 
+// Where the first event ends the flow. Optional terms were held in the middle of all that is left
+// of the tick: they are moved to the middle of the piece before the event, and the event with them.
+Crossing AxisPlant::first_piece(double span_s, TaylorFlow& flow) noexcept {
+  const AxisModel& model = *model_;
+  const Crossing crossing = first_event(model, situation_, flow);
+  if (!crossing.found || !model.has_terms) {
+    return crossing;
+  }
+  hold_middle_of(flow, crossing.fraction, span_s);
+  flow = TaylorFlow(model.flows[mode_index_], z_, held_inputs(model, situation_), span_s);
+  return first_event(model, situation_, flow);
+}
+
 void AxisPlant::step_through_events(MotionSegments& segments) noexcept {
   const AxisModel& model = *model_;
   double time_s = 0;
@@ -184,12 +277,13 @@ void AxisPlant::step_through_events(MotionSegments& segments) noexcept {
   // so many in one tick are chatter at the edge of rounding.
   for (std::size_t piece = 0; piece < kMaxSegmentsPerStep; ++piece) {
     const double span_s = model.tick_s - time_s;
-    const TaylorFlow flow = flow_from_here(span_s);
+    TaylorFlow flow = flow_from_here(span_s);
     const Crossing crossing =
-        piece + 1 < kMaxSegmentsPerStep ? first_event(model, situation_, flow) : Crossing{};
+        piece + 1 < kMaxSegmentsPerStep ? first_piece(span_s, flow) : Crossing{};
     const double end_s = crossing.found ? time_s + crossing.fraction * span_s : model.tick_s;
     const StateVector start = z_;
     z_ = flow.at(crossing.fraction);
+    warm(start, z_, end_s - time_s);
     if (end_s > time_s) {
       append(segments, time_s, end_s, start, z_);
     }

@@ -1,7 +1,8 @@
 // One axis of the carriage, stepped at 10 kHz: amplifier, winding, gear, elastic chain, friction,
 // hard ends. Pure: the next state follows from parameters, state and input alone.
 //
-// Laws: axis_model.h (linear part), friction_law.h (dry friction), guards.h (what ends a regime).
+// Laws: axis_model.h (linear part), friction_law.h (dry friction), held_terms.h (optional laws),
+// guards.h (what ends a regime).
 // Between events the axis is linear and the step is exact; reversals, break-away, limits and
 // contacts are located inside the step (docs/design/0002-friction-and-stepping.md).
 //
@@ -18,6 +19,8 @@
 #include "emulator/plant/axis_forces.h"
 #include "emulator/plant/axis_parameters.h"
 #include "emulator/plant/cruise.h"
+#include "emulator/plant/event_search.h"
+#include "emulator/plant/held_terms.h"
 #include "emulator/plant/taylor_flow.h"
 
 namespace towbench::emulator {
@@ -79,6 +82,8 @@ class AxisPlant {
   [[nodiscard]] const HardEndContact& contact() const noexcept { return contact_; }
   // At the end of the last step.
   [[nodiscard]] AxisForces forces() const noexcept;
+  // Of the friction, 0 cold to 1 fully warm (warming.h).
+  [[nodiscard]] double warmth() const noexcept { return warmth_; }
 
  private:
   void take(const AxisInput& input) noexcept;
@@ -87,6 +92,10 @@ class AxisPlant {
   void step_through_events(MotionSegments& segments) noexcept;
   [[nodiscard]] TaylorFlow flow_from_here(double span_s) noexcept;
   void update_friction(double motor_rad_per_s, double carriage_m_per_s, double carriage_m) noexcept;
+  void hold_middle_of_tick(const HalfChange& change) noexcept;
+  void hold_middle_of(const TaylorFlow& flow, double fraction, double span_s) noexcept;
+  [[nodiscard]] Crossing first_piece(double span_s, TaylorFlow& flow) noexcept;
+  void warm(const StateVector& before, const StateVector& after, double duration_s) noexcept;
   void record_contact(double time_s, double sign) noexcept;
 
   std::shared_ptr<const AxisModel> model_;
@@ -96,7 +105,8 @@ class AxisPlant {
   const DiscreteMode* mode_ = nullptr;
   Cruise cruise_;
   HalfChange half_change_;
-  AxisInput input_;  // of the step before
+  double warmth_ = 0;  // 1: fully warm (warming.h)
+  AxisInput input_;    // of the step before
   HardEndContact contact_;
 };
 

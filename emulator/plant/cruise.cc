@@ -9,7 +9,7 @@ Cruise prepare_cruise(const AxisModel& model, const Situation& s) noexcept {
   const auto& ends = model.parameters.hard_ends;
   return {.possible = s.regime.drive == Drive::kRegulated && s.regime.end == HardEnd::kClear &&
                       s.regime.motor_direction != 0 && s.regime.carriage_direction != 0 &&
-                      model.motor_is_dry && model.carriage_is_dry,
+                      model.motor_is_dry && model.carriage_is_dry && !model.has_terms,
           .mode = &model.ticks[mode_of(s.regime).index()],
           .motor_direction = s.regime.motor_direction,
           .carriage_direction = s.regime.carriage_direction,

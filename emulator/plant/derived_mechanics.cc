@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "core/deterministic_math.h"
+
 namespace towbench::emulator {
 namespace {
 
@@ -54,6 +56,9 @@ DerivedMechanics derive(const AxisParameters& p) noexcept {
   if (!p.chain.rigid) {
     derive_chain(p, d);
   }
+  constexpr double kGravity_m_per_s2 = 9.80665;
+  d.tilt_force_N = -d.carriage_mass_kg * kGravity_m_per_s2 *
+                   core::sine_cosine_of_turns(p.disturbances.tilt_deg / 360.0).sine;
   // The spring was found without water: its mode gets slower with it, the spring no softer.
   d.carriage_mass_kg += p.water_mass_kg;
   d.motor_inertia_kg_m2 += p.chain.rigid ? p.water_mass_kg * r * r : 0.0;

@@ -8,6 +8,8 @@
 //   K_s = w0^2 / (r^2/J_m + 1/M)         free-free mode: w0^2 = K_s (r^2/J_m + 1/M)
 //   B_s = 2 zeta w0 / (r^2/J_m + 1/M)    its damping: 2 zeta w0 = B_s (r^2/J_m + 1/M)
 //
+//   F_tilt = -M g sin(tilt)              the carriage alone climbs
+//
 // A rigid chain lets no one tell the bodies apart: everything is then on the motor, (3.33).
 #pragma once
 
@@ -37,6 +39,7 @@ struct DerivedMechanics {
   double chain_damping_N_s_per_m = 0;
   double proportional_gain_V_per_A = 0;  // of the current loop
   double integral_gain_V_per_A_s = 0;
+  double tilt_force_N = 0;  // -M g sin(tilt)
 };
 
 [[nodiscard]] DerivedMechanics derive(const AxisParameters& parameters) noexcept;

@@ -7,7 +7,7 @@ Crossing first_event(const AxisModel& model, const Situation& s, const TaylorFlo
     bool leaves = false;
     double last = 1.0;
   };
-  constexpr std::size_t kMostMargins = 8;
+  constexpr std::size_t kMostMargins = 10;
   std::array<Suspect, kMostMargins> suspects{};
   bool any = false;
   for (const double fraction : {1.0, 0.5}) {

@@ -28,15 +28,14 @@ StribeckCurve::StribeckCurve(StribeckForm form) noexcept : form_(form) {
   }
 }
 
-PositionFrictionCurve::PositionFrictionCurve(const PositionFriction& table, double scale) noexcept
-    : present_(!table.position_m.empty()) {
+PositionCurve::PositionCurve(const PositionFriction::Table& x, const PositionFriction::Table& f,
+                             double scale) noexcept
+    : present_(!x.empty()) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (!present_) {
     add(-kInfinity, kInfinity, 0.0, 0.0, 0.0);
     return;
   }
-  const auto& x = table.position_m;
-  const auto& f = table.friction_Nm;
   const std::size_t last = x.size() - 1;
   add(-kInfinity, x[0], x[0], f[0] * scale, 0.0);
   for (std::size_t i = 0; i < last; ++i) {
@@ -45,8 +44,8 @@ PositionFrictionCurve::PositionFrictionCurve(const PositionFriction& table, doub
   add(x[last], kInfinity, x[last], f[last] * scale, 0.0);
 }
 
-void PositionFrictionCurve::add(double start_m, double end_m, double reference_m, double level,
-                                double slope_per_m) noexcept {
+void PositionCurve::add(double start_m, double end_m, double reference_m, double level,
+                        double slope_per_m) noexcept {
   core::check(count_ < pieces_.size());
   pieces_[count_++] = {.start_m = start_m,
                        .end_m = end_m,

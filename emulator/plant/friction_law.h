@@ -48,10 +48,11 @@ class StribeckCurve {
 };
 
 // F_P(x): piecewise linear, constant outside the knots.
-class PositionFrictionCurve {
+class PositionCurve {
  public:
-  // `scale` turns the table's motor-side torque into this body's unit.
-  PositionFrictionCurve(const PositionFriction& table, double scale) noexcept;
+  // One level a position; `scale` turns motor-side torque into this body's unit.
+  PositionCurve(const PositionFriction::Table& position_m, const PositionFriction::Table& level,
+                double scale) noexcept;
 
   [[nodiscard]] bool present() const noexcept { return present_; }
   // `interval` remembers where x was last: a carriage seldom changes it. Any value from 0 up that

@@ -9,6 +9,7 @@
 
 #include "core/bounded_vector.h"
 #include "core/parameter.h"
+#include "emulator/plant/friction_option_parameters.h"
 
 namespace towbench::emulator {
 
@@ -41,6 +42,7 @@ struct FrictionParameters {
   StribeckForm stribeck_form = StribeckForm::kGaussian;
   double carriage_share = 0.65;  // assumed; of Coulomb, break-away and viscous friction
   PositionFriction position;
+  FrictionOptions options;
 
   template <typename Visitor>
   void visit(Visitor& v) {
@@ -52,6 +54,7 @@ struct FrictionParameters {
     v.value("carriage_share", carriage_share, core::between(0.0, 1.0),
             "share of Coulomb, break-away and viscous friction that acts on the carriage");
     v.group("position", position, "friction that depends on where the carriage is");
+    options.visit(v);
   }
 };
 

@@ -24,6 +24,11 @@ enum class Event : std::uint8_t {
   kEndReleases,
   kEndPushesAgain,
   kEndCleared,
+  kChainPulls,
+  kChainReleases,
+  kChainClears,
+  kStrandSlackens,
+  kStrandTightens,
 };
 
 // sink(event, sign, margin): the regime holds while margin >= 0.
@@ -62,6 +67,23 @@ template <typename Sink>
   }
 }
 
+// Of a body at rest: its load below break-away, or its elastic contact bent less than its travel.
+template <typename Sink>
+[[gnu::always_inline]] inline void visit_rest_guards(const AxisModel& model, const Situation& s,
+                                                     const StateVector& z, double one, Event event,
+                                                     const ElasticContact& contact, double bend,
+                                                     const BreakAway& level, double load,
+                                                     Sink&& sink) noexcept {
+  if (contact.present()) {
+    sink(event, 1.0, one * contact.travel - bend);
+    sink(event, -1.0, one * contact.travel + bend);
+    return;
+  }
+  const double chain_N = model.has_terms ? chain_force_N(model, s, z, one) : 0.0;
+  sink(event, 1.0, breakaway_margin(level, 1.0, load, chain_N, one));
+  sink(event, -1.0, breakaway_margin(level, -1.0, load, chain_N, one));
+}
+
 template <typename Sink>
 [[gnu::always_inline]] inline void visit_friction_guards(const AxisModel& model, const Situation& s,
                                                          const StateVector& z, double one,
@@ -70,18 +92,18 @@ template <typename Sink>
     if (s.regime.motor_direction != 0) {
       sink(Event::kMotorStops, 0.0, s.regime.motor_direction * z[kMotorSpeed]);
     } else {
-      const double load = motor_load_Nm(model, s, z, one);
-      sink(Event::kMotorBreaksAway, 1.0, one * s.motor_friction_Nm - load);
-      sink(Event::kMotorBreaksAway, -1.0, one * s.motor_friction_Nm + load);
+      visit_rest_guards(model, s, z, one, Event::kMotorBreaksAway, model.motor_contact,
+                        motor_bend_rad(s, z, one), s.motor_breakaway,
+                        motor_load_Nm(model, s, z, one), sink);
     }
   }
   if (model.carriage_is_dry) {
     if (s.regime.carriage_direction != 0) {
       sink(Event::kCarriageStops, 0.0, s.regime.carriage_direction * z[kCarriageSpeed]);
     } else {
-      const double load = carriage_load_N(model, s, z, one);
-      sink(Event::kCarriageBreaksAway, 1.0, one * s.carriage_friction_N - load);
-      sink(Event::kCarriageBreaksAway, -1.0, one * s.carriage_friction_N + load);
+      visit_rest_guards(model, s, z, one, Event::kCarriageBreaksAway, model.carriage_contact,
+                        carriage_bend_m(model, s, z, one), s.carriage_breakaway,
+                        carriage_load_N(model, s, z, one), sink);
     }
   }
 }
@@ -108,6 +130,48 @@ template <typename Sink>
   }
 }
 
+// Only for a chain with play or strands that may go slack (chain_play.h).
+template <typename Sink>
+[[gnu::always_inline]] inline void visit_chain_guards(const AxisModel& model, const Situation& s,
+                                                      const StateVector& z, double one,
+                                                      Sink&& sink) noexcept {
+  const ChainPlay& play = model.play;
+  const double side = s.regime.chain_sign;
+  const double stretch_m = chain_stretch_m(s, z, one);
+  const double gap_m = one * play.half_gap_m;
+  const double slack_from_m = one * (play.half_gap_m + play.strand_slack_m);
+  switch (s.regime.chain) {
+    case ChainContact::kTaut:
+      if (!play.has_gap()) {
+        sink(Event::kStrandSlackens, 1.0, slack_from_m - stretch_m);
+        sink(Event::kStrandSlackens, -1.0, slack_from_m + stretch_m);
+        return;
+      }
+      sink(Event::kChainReleases, side, side * chain_force_N(model, s, z, one));
+      if (play.has_strands()) {
+        sink(Event::kStrandSlackens, side, slack_from_m - side * stretch_m);
+      }
+      return;
+    case ChainContact::kOneStrand:
+      if (play.has_strands()) {
+        sink(Event::kStrandTightens, side, side * stretch_m - slack_from_m);
+      } else {
+        sink(Event::kChainReleases, side, side * chain_force_N(model, s, z, one));
+      }
+      return;
+    case ChainContact::kOpen:
+      sink(Event::kChainPulls, 1.0, gap_m - stretch_m);
+      sink(Event::kChainPulls, -1.0, gap_m + stretch_m);
+      return;
+    case ChainContact::kLeaving: {
+      const ChainLaw engaged = chain_law(model.mechanics, play, play.engaged, side);
+      sink(Event::kChainPulls, side, -side * chain_force_N(model, engaged, s, z, one));
+      sink(Event::kChainClears, side, side * stretch_m - gap_m);
+      return;
+    }
+  }
+}
+
 template <typename Sink>
 [[gnu::always_inline]] inline void visit_guards(const AxisModel& model, const Situation& s,
                                                 const StateVector& z, double one,
@@ -115,6 +179,9 @@ template <typename Sink>
   visit_drive_guards(model, s, z, one, sink);
   visit_friction_guards(model, s, z, one, sink);
   visit_end_guards(model, s, z, one, sink);
+  if (model.play.present()) {
+    visit_chain_guards(model, s, z, one, sink);
+  }
 }
 
 // Whether z lies inside the regime.

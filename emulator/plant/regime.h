@@ -22,37 +22,53 @@ enum class HardEnd : std::uint8_t {
   kRebounding,  // the carriage leaves faster than the stop follows
 };
 
+// Between motor and carriage (chain_play.h). Without play or strands always taut.
+enum class ChainContact : std::uint8_t {
+  kTaut,       // the chain pulls
+  kOneStrand,  // by one strand only
+  kOpen,       // inside the gap
+  kLeaving,    // past it, but the force would pull apart
+};
+
 struct Regime {
   Drive drive = Drive::kOpen;
   HardEnd end = HardEnd::kClear;
+  ChainContact chain = ChainContact::kTaut;
   double drive_sign = 1;          // of limit or current: +1, -1
   double end_sign = 1;            // +1 max stop, -1 min stop
+  double chain_sign = 0;          // side of the gap; 0: there is none
   double motor_direction = 0;     // +1, -1; 0: sticks
   double carriage_direction = 0;  // likewise; unused with a rigid chain
 };
 
 // Linear modes differ in these only.
 enum class Winding : std::uint8_t { kCurrentLoop, kLimitedLoop, kFixedVoltage, kFixedCurrent };
-inline constexpr std::size_t kModeCount = 4 * 2 * 2 * 2;
+enum class ChainPull : std::uint8_t { kBothStrands, kOneStrand, kNone };
+inline constexpr std::size_t kModesPerPull = 4 * 2 * 2 * 2;
+inline constexpr std::size_t kModeCount = 3 * kModesPerPull;
 
 struct ModeKey {
   Winding winding = Winding::kFixedCurrent;
   bool motor_moves = false;
   bool carriage_moves = false;
   bool end_pushes = false;
+  ChainPull pull = ChainPull::kBothStrands;
 
   // 0 .. kModeCount - 1, and back.
   [[nodiscard]] constexpr std::size_t index() const noexcept {
-    return ((static_cast<std::size_t>(winding) * 2 + (motor_moves ? 1U : 0U)) * 2 +
+    return (((static_cast<std::size_t>(pull) * 4 + static_cast<std::size_t>(winding)) * 2 +
+             (motor_moves ? 1U : 0U)) *
+                2 +
             (carriage_moves ? 1U : 0U)) *
                2 +
            (end_pushes ? 1U : 0U);
   }
   [[nodiscard]] static constexpr ModeKey of_index(std::size_t index) noexcept {
-    return {.winding = static_cast<Winding>(index / 8),
+    return {.winding = static_cast<Winding>(index % kModesPerPull / 8),
             .motor_moves = (index & 4U) != 0,
             .carriage_moves = (index & 2U) != 0,
-            .end_pushes = (index & 1U) != 0};
+            .end_pushes = (index & 1U) != 0,
+            .pull = static_cast<ChainPull>(index / kModesPerPull)};
   }
 };
 
@@ -72,11 +88,25 @@ struct ModeKey {
   return Winding::kFixedCurrent;
 }
 
+[[nodiscard]] constexpr ChainPull pull_of(ChainContact contact) noexcept {
+  switch (contact) {
+    case ChainContact::kTaut:
+      return ChainPull::kBothStrands;
+    case ChainContact::kOneStrand:
+      return ChainPull::kOneStrand;
+    case ChainContact::kOpen:
+    case ChainContact::kLeaving:
+      break;
+  }
+  return ChainPull::kNone;
+}
+
 [[nodiscard]] constexpr ModeKey mode_of(const Regime& regime) noexcept {
   return {.winding = winding_of(regime.drive),
           .motor_moves = regime.motor_direction != 0,
           .carriage_moves = regime.carriage_direction != 0,
-          .end_pushes = regime.end == HardEnd::kPushing};
+          .end_pushes = regime.end == HardEnd::kPushing,
+          .pull = pull_of(regime.chain)};
 }
 
 }  // namespace towbench::emulator

@@ -18,14 +18,42 @@ struct HeldInput {
   double carriage_force_N = 0;
 };
 
+// Level at which a body at rest breaks away, by direction: constant + per_chain * F_chain. N m or
+// N.
+struct BreakAway {
+  double towards_max = 0;
+  double towards_min = 0;
+  double towards_max_per_chain_N = 0;
+  double towards_min_per_chain_N = 0;
+};
+
+// What the optional laws add (held_terms.h); all zero without them.
+struct HeldTerms {
+  double motor_Nm = 0;           // + towards max
+  double carriage_N = 0;         // likewise
+  double sprocket_offset_m = 0;  // the sprocket's excess, offset + slope theta around the middle
+  double sprocket_slope_m_per_rad = 0;
+  double chain_N = 0;              // chain force in the middle
+  double extra_chain_N = 0;        // the part of it that the linear mode does not have
+  double extra_motor_grip_Nm = 0;  // of the elastic contacts, likewise
+  double extra_carriage_grip_N = 0;
+  double level_scale = 1;  // of dry friction, falls with warmth
+};
+
 struct Situation {
   Regime regime;
   HeldInput held;
-  // Dry friction, absolute: while a body moves the level that brakes it, while it sticks the level
-  // at which it breaks away. N m and N.
+  // Dry friction that brakes a moving body, absolute. N m and N.
   double motor_friction_Nm = 0;
   double carriage_friction_N = 0;
+  BreakAway motor_breakaway;
+  BreakAway carriage_breakaway;
+  double motor_anchor_rad = 0;  // where a resting body's elastic contact is relaxed
+  double carriage_anchor_m = 0;
+  ChainLaw chain;  // the regime's
+  HeldTerms terms;
   std::size_t position_interval = 0;  // of the position friction, where the carriage was last
+  std::size_t force_interval = 0;     // of the position force, likewise
 };
 
 [[nodiscard]] inline double carriage_position_m(const AxisModel& model,
@@ -33,14 +61,32 @@ struct Situation {
   return model.mechanics.metres_per_radian * z[kMotorAngle] - z[kStretch];
 }
 
-[[nodiscard]] inline double chain_force_N(const AxisModel& model, const StateVector& z) noexcept {
-  const auto& m = model.mechanics;
-  return m.chain_stiffness_N_per_m * z[kStretch] +
-         m.chain_damping_N_s_per_m * (m.metres_per_radian * z[kMotorSpeed] - z[kCarriageSpeed]);
+// What the chain is stretched by, sprocket and all. `one` is 1, or 0 for the linear part alone.
+[[nodiscard]] inline double chain_stretch_m(const Situation& s, const StateVector& z,
+                                            double one) noexcept {
+  return z[kStretch] +
+         (one * s.terms.sprocket_offset_m + s.terms.sprocket_slope_m_per_rad * z[kMotorAngle]);
 }
 
-// Penetration, + when beyond the stop that `sign` names. `one` is 1, or 0 for the linear part
-// alone.
+[[nodiscard]] inline double chain_lever_m(const AxisModel& model, const Situation& s) noexcept {
+  return model.mechanics.metres_per_radian + s.terms.sprocket_slope_m_per_rad;
+}
+
+// Of a given law, which may be another than the regime's.
+[[nodiscard]] inline double chain_force_N(const AxisModel& model, const ChainLaw& law,
+                                          const Situation& s, const StateVector& z,
+                                          double one) noexcept {
+  return law.stiffness_N_per_m * chain_stretch_m(s, z, one) +
+         law.damping_N_s_per_m * (chain_lever_m(model, s) * z[kMotorSpeed] - z[kCarriageSpeed]) +
+         one * law.constant_N;
+}
+
+[[nodiscard]] inline double chain_force_N(const AxisModel& model, const Situation& s,
+                                          const StateVector& z, double one) noexcept {
+  return chain_force_N(model, s.chain, s, z, one);
+}
+
+// Penetration, + when beyond the stop that `sign` names. `one` as above.
 [[nodiscard]] inline double penetration_m(const AxisModel& model, const StateVector& z, double one,
                                           double sign) noexcept {
   const auto& ends = model.parameters.hard_ends;
@@ -58,7 +104,10 @@ struct Situation {
 // Everything on the carriage but its own friction and chain, N; `one` as above.
 [[nodiscard]] inline double outside_force_N(const AxisModel& model, const Situation& s,
                                             const StateVector& z, double one) noexcept {
-  double force = one * s.held.carriage_force_N;
+  double force = one * (s.held.carriage_force_N + s.terms.carriage_N);
+  if (const double k = model.parameters.disturbances.cable.stiffness_N_per_m; k != 0) {
+    force -= k * carriage_position_m(model, z);
+  }
   if (s.regime.end == HardEnd::kPushing) {
     force -= s.regime.end_sign * end_push_N(model, z, one, s.regime.end_sign);
   }
@@ -68,16 +117,33 @@ struct Situation {
 // What friction must hold for the motor to stay at rest, N m.
 [[nodiscard]] inline double motor_load_Nm(const AxisModel& model, const Situation& s,
                                           const StateVector& z, double one) noexcept {
-  const double r = model.mechanics.metres_per_radian;
-  const double on_sprocket_N =
-      model.parameters.chain.rigid ? outside_force_N(model, s, z, one) : -chain_force_N(model, z);
-  return model.parameters.torque_constant_Nm_per_A * z[kCurrent] + r * on_sprocket_N;
+  const double on_sprocket_N = model.parameters.chain.rigid ? outside_force_N(model, s, z, one)
+                                                            : -chain_force_N(model, s, z, one);
+  return model.parameters.torque_constant_Nm_per_A * z[kCurrent] + one * s.terms.motor_Nm +
+         chain_lever_m(model, s) * on_sprocket_N;
 }
 
 // What friction must hold for the carriage to stay at rest, N. Elastic chain only.
 [[nodiscard]] inline double carriage_load_N(const AxisModel& model, const Situation& s,
                                             const StateVector& z, double one) noexcept {
-  return chain_force_N(model, z) + outside_force_N(model, s, z, one);
+  return chain_force_N(model, s, z, one) + outside_force_N(model, s, z, one);
+}
+
+// How far a resting body's elastic contact is bent.
+[[nodiscard]] inline double motor_bend_rad(const Situation& s, const StateVector& z,
+                                           double one) noexcept {
+  return z[kMotorAngle] - one * s.motor_anchor_rad;
+}
+[[nodiscard]] inline double carriage_bend_m(const AxisModel& model, const Situation& s,
+                                            const StateVector& z, double one) noexcept {
+  return carriage_position_m(model, z) - one * s.carriage_anchor_m;
+}
+
+// How much more than `load` it would take to break away in the direction `sign`.
+[[nodiscard]] inline double breakaway_margin(const BreakAway& level, double sign, double load,
+                                             double chain_N, double one) noexcept {
+  return sign > 0 ? one * level.towards_max + level.towards_max_per_chain_N * chain_N - load
+                  : one * level.towards_min + level.towards_min_per_chain_N * chain_N + load;
 }
 
 // (3.34) without sign and viscous part.
@@ -120,11 +186,24 @@ struct Situation {
 TOWBENCH_REALTIME [[nodiscard]] inline InputVector held_inputs(const AxisModel& model,
                                                                const Situation& s) noexcept {
   double force = s.held.carriage_force_N - s.regime.carriage_direction * s.carriage_friction_N;
+  double torque = -s.regime.motor_direction * s.motor_friction_Nm;
   if (s.regime.end == HardEnd::kPushing) {
     const auto& ends = model.parameters.hard_ends;
     force += ends.stiffness_N_per_m * (s.regime.end_sign > 0 ? ends.max_m : ends.min_m);
   }
-  return {electrical_input(s), -s.regime.motor_direction * s.motor_friction_Nm, force};
+  if (model.has_terms) {
+    const HeldTerms& t = s.terms;
+    force += t.carriage_N + t.extra_chain_N;
+    torque += t.motor_Nm - model.mechanics.metres_per_radian * t.extra_chain_N -
+              t.sprocket_slope_m_per_rad * t.chain_N;
+    if (s.regime.motor_direction == 0) {
+      torque += model.motor_contact.stiffness * s.motor_anchor_rad - t.extra_motor_grip_Nm;
+    }
+    if (s.regime.carriage_direction == 0) {
+      force += model.carriage_contact.stiffness * s.carriage_anchor_m - t.extra_carriage_grip_N;
+    }
+  }
+  return {electrical_input(s), torque, force};
 }
 
 }  // namespace towbench::emulator

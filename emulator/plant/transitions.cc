@@ -1,5 +1,7 @@
 #include "emulator/plant/transitions.h"
 
+#include "emulator/plant/held_terms.h"
+
 namespace towbench::emulator {
 namespace {
 
@@ -38,25 +40,33 @@ void settle_voltage_mode(const AxisModel& model, Situation& s, const StateVector
   regime.drive_sign = sign;
 }
 
-// 0 while `level` holds `load`, else the direction in which the body starts.
-double direction_under(double load, double level) noexcept {
-  if (load > level) {
-    return 1.0;
+// 0 while friction holds `load`, else the direction in which the body starts.
+double direction_under(const BreakAway& level, double load, double chain_N) noexcept {
+  for (const double sign : {1.0, -1.0}) {
+    if (breakaway_margin(level, sign, load, chain_N, 1.0) < 0) {
+      return sign;
+    }
   }
-  return load < -level ? -1.0 : 0.0;
+  return 0.0;
 }
 
+// A body on an elastic contact is never torn off by a jump: it must bend the contact first.
 void settle_resting_motor(const AxisModel& model, Situation& s, const StateVector& z) noexcept {
-  s.motor_friction_Nm =
-      motor_level_Nm(model, 0.0, carriage_position_m(model, z), s.position_interval);
-  s.regime.motor_direction = direction_under(motor_load_Nm(model, s, z, 1.0), s.motor_friction_Nm);
+  s.regime.motor_direction = 0;
+  hold_motor_breakaway(model, s, carriage_position_m(model, z));
+  if (!model.motor_contact.present()) {
+    s.regime.motor_direction = direction_under(s.motor_breakaway, motor_load_Nm(model, s, z, 1.0),
+                                               chain_force_N(model, s, z, 1.0));
+  }
 }
 
 void settle_resting_carriage(const AxisModel& model, Situation& s, const StateVector& z) noexcept {
-  s.carriage_friction_N =
-      carriage_level_N(model, 0.0, carriage_position_m(model, z), s.position_interval);
-  s.regime.carriage_direction =
-      direction_under(carriage_load_N(model, s, z, 1.0), s.carriage_friction_N);
+  s.regime.carriage_direction = 0;
+  hold_carriage_breakaway(model, s, carriage_position_m(model, z));
+  if (!model.carriage_contact.present()) {
+    s.regime.carriage_direction = direction_under(
+        s.carriage_breakaway, carriage_load_N(model, s, z, 1.0), chain_force_N(model, s, z, 1.0));
+  }
 }
 
 void settle_friction(const AxisModel& model, Situation& s, const StateVector& z) noexcept {
@@ -88,11 +98,45 @@ void settle_end(const AxisModel& model, Situation& s, const StateVector& z) noex
 }
 
 void stop_motor(const AxisModel& model, Situation& s, StateVector& z) noexcept {
+  s.motor_anchor_rad =
+      anchor_after_sliding(model.motor_contact, z[kMotorAngle], s.regime.motor_direction);
   z[kMotorSpeed] = 0;
   if (model.parameters.chain.rigid) {
     z[kCarriageSpeed] = 0;
   }
   settle_resting_motor(model, s, z);
+}
+
+void stop_carriage(const AxisModel& model, Situation& s, StateVector& z) noexcept {
+  s.carriage_anchor_m = anchor_after_sliding(model.carriage_contact, carriage_position_m(model, z),
+                                             s.regime.carriage_direction);
+  z[kCarriageSpeed] = 0;
+  settle_resting_carriage(model, s, z);
+}
+
+void cross_chain(const AxisModel& model, Event event, double sign, Situation& s) noexcept {
+  Regime& regime = s.regime;
+  switch (event) {
+    case Event::kChainPulls:
+      regime.chain = model.play.engaged;
+      regime.chain_sign = sign;
+      break;
+    case Event::kChainReleases:
+      regime.chain = ChainContact::kLeaving;
+      break;
+    case Event::kChainClears:
+      regime.chain = ChainContact::kOpen;
+      break;
+    case Event::kStrandSlackens:
+      regime.chain = ChainContact::kOneStrand;
+      regime.chain_sign = sign;
+      break;
+    default:
+      regime.chain = ChainContact::kTaut;
+      regime.chain_sign = model.play.has_gap() ? sign : 0.0;
+      break;
+  }
+  s.chain = chain_law(model.mechanics, model.play, regime.chain, regime.chain_sign);
 }
 
 void cross_drive(const AxisModel& model, Event event, double sign, Situation& s,
@@ -135,6 +179,9 @@ void settle_drive(const AxisModel& model, Situation& s, StateVector& z) noexcept
 void settle(const AxisModel& model, Situation& s, StateVector& z) noexcept {
   settle_drive(model, s, z);
   settle_end(model, s, z);
+  if (model.has_terms) {
+    hold_terms(model, s, motion_at(model, z));
+  }
   settle_friction(model, s, z);
 }
 
@@ -155,8 +202,7 @@ void cross(const AxisModel& model, Event event, double sign, Situation& s,
       s.regime.motor_direction = sign;
       return;
     case Event::kCarriageStops:
-      z[kCarriageSpeed] = 0;
-      settle_resting_carriage(model, s, z);
+      stop_carriage(model, s, z);
       return;
     case Event::kCarriageBreaksAway:
       s.regime.carriage_direction = sign;
@@ -171,6 +217,15 @@ void cross(const AxisModel& model, Event event, double sign, Situation& s,
       return;
     case Event::kEndCleared:
       s.regime.end = HardEnd::kClear;
+      return;
+    case Event::kChainPulls:
+    case Event::kChainReleases:
+    case Event::kChainClears:
+    case Event::kStrandSlackens:
+    case Event::kStrandTightens:
+      cross_chain(model, event, sign, s);
+      hold_terms(model, s, motion_at(model, z));
+      settle_friction(model, s, z);
       return;
   }
 }

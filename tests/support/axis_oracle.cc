@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace towbench::tests {
 namespace {
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 double limited(double value, double limit) {
   return std::clamp(value, -limit, limit);
@@ -35,7 +32,21 @@ AxisOracle::AxisOracle(const emulator::AxisParameters& parameters, double carria
   kp_ = 2 * pi * p_.amplifier.current_loop_bandwidth_Hz *
         (p_.winding.inductance_H + p_.winding.choke_inductance_H);
   ki_ = 2 * pi * p_.amplifier.current_loop_bandwidth_Hz * p_.winding.resistance_ohm;
-  y_ = {0, 0, carriage_m / r_, 0, carriage_m, 0};
+  y_ = {0, 0, carriage_m / r_, 0, carriage_m, 0, 0};
+  for (int i = 0; i < 50; ++i) {
+    y_[2] -= stretch_m(y_) / lever_m(y_);
+  }
+  half_gap_m_ = 0.5 * (p_.gear.backlash_deg * pi / 180 * p_.sprocket_radius_m + p_.chain.slack_m);
+  play_ = half_gap_m_ > 0 ? Play::kGap : Play::kTaut;
+  const auto& yielding = p_.friction.options.presliding;
+  if (yielding.travel_rad > 0) {
+    motor_spring_ = (1 - share_) * p_.friction.breakaway_Nm / yielding.travel_rad;
+    motor_damper_ = 2 * yielding.damping_ratio * std::sqrt(motor_spring_ * jm_);
+    carriage_spring_ = share_ * p_.friction.breakaway_Nm / yielding.travel_rad / (r_ * r_);
+    carriage_damper_ = 2 * yielding.damping_ratio * std::sqrt(carriage_spring_ * mass_);
+  }
+  motor_anchor_ = y_[2];
+  carriage_anchor_ = y_[4];
 }
 
 double AxisOracle::motor_counts() const {
@@ -62,8 +73,54 @@ double AxisOracle::terminal_V(const State& y) const {
   return p_.winding.resistance_ohm * y[0] + p_.torque_constant_Nm_per_A * y[3];
 }
 
+// Chain paid out by a sprocket of true shape, less where the carriage is.
+double AxisOracle::stretch_m(const State& y) const {
+  const auto& sprocket = p_.disturbances.sprocket;
+  const double radius = p_.sprocket_radius_m;
+  const double turned = y[2] / p_.gear_ratio;
+  const double phase = sprocket.eccentricity_phase_deg * std::numbers::pi / 180;
+  double paid_out =
+      radius * turned + sprocket.eccentricity_m * (std::sin(turned + phase) - std::sin(phase));
+  if (sprocket.teeth > 0) {
+    const double half = std::numbers::pi / sprocket.teeth;
+    const double psi = std::remainder(turned, 2 * half);
+    paid_out += radius * half / std::sin(half) * std::sin(psi) - radius * psi;
+  }
+  return paid_out - y[4];
+}
+
+double AxisOracle::lever_m(const State& y) const {
+  const auto& sprocket = p_.disturbances.sprocket;
+  const double turned = y[2] / p_.gear_ratio;
+  const double phase = sprocket.eccentricity_phase_deg * std::numbers::pi / 180;
+  double radius = p_.sprocket_radius_m + sprocket.eccentricity_m * std::cos(turned + phase);
+  if (sprocket.teeth > 0) {
+    const double half = std::numbers::pi / sprocket.teeth;
+    radius += p_.sprocket_radius_m *
+              (half / std::sin(half) * std::cos(std::remainder(turned, 2 * half)) - 1);
+  }
+  return radius / p_.gear_ratio;
+}
+
+// Two strands, each half the spring, each pulling its way.
+double AxisOracle::strands_N(const State& y, Play play) const {
+  const double tight = p_.chain.pretension_N;
+  const double pull =
+      0.5 * (ks_ * (stretch_m(y) - side_ * half_gap_m_) + bs_ * (lever_m(y) * y[3] - y[5]));
+  const double upper = tight + pull;
+  const double lower = tight - pull;
+  switch (play) {
+    case Play::kTaut:
+      return upper - lower;
+    case Play::kHalf:
+      return side_ > 0 ? upper : -lower;
+    default:
+      return 0;
+  }
+}
+
 double AxisOracle::chain_N(const State& y) const {
-  return ks_ * (r_ * y[2] - y[4]) + bs_ * (r_ * y[3] - y[5]);
+  return p_.chain.rigid ? 0.0 : strands_N(y, play_);
 }
 
 double AxisOracle::push_N(const State& y) const {
@@ -75,17 +132,11 @@ double AxisOracle::end_N(const State& y) const {
   return end_ == End::kTouching ? -end_sign_ * push_N(y) : 0.0;
 }
 
-double AxisOracle::friction(double coulomb, double breakaway, double speed, double scale) const {
-  const double ratio = speed / scale;
-  const double shape = p_.friction.stribeck_form == emulator::StribeckForm::kGaussian
-                           ? std::exp(-ratio * ratio)
-                           : 1 / (1 + ratio * ratio);
-  return coulomb + (breakaway - coulomb) * shape;
-}
+namespace {
 
-double AxisOracle::position_Nm(double x) const {
-  const auto& xs = p_.friction.position.position_m;
-  const auto& fs = p_.friction.position.friction_Nm;
+// Linear between knots, level beyond them.
+double interpolated(const emulator::PositionFriction::Table& xs,
+                    const emulator::PositionFriction::Table& fs, double x) {
   if (xs.empty() || x <= xs[0]) {
     return xs.empty() ? 0.0 : fs[0];
   }
@@ -97,29 +148,76 @@ double AxisOracle::position_Nm(double x) const {
   return fs[fs.size() - 1];
 }
 
-double AxisOracle::motor_limit_Nm(const State& y) const {
-  const double speed = motor_ == 0 ? 0.0 : y[3];
-  const double own =
-      friction((1 - share_) * p_.coulomb_friction_Nm, (1 - share_) * p_.friction.breakaway_Nm,
-               speed, p_.friction.stribeck_speed_rad_per_s);
-  return own + (p_.chain.rigid ? position_Nm(y[4]) : 0.0);
+}  // namespace
+
+double AxisOracle::friction_Nm(const State& y, double share, int direction,
+                               double speed_rad_per_s) const {
+  const auto& options = p_.friction.options;
+  const double ratio = speed_rad_per_s / p_.friction.stribeck_speed_rad_per_s;
+  const double shape = p_.friction.stribeck_form == emulator::StribeckForm::kGaussian
+                           ? std::exp(-ratio * ratio)
+                           : 1 / (1 + ratio * ratio);
+  const double coulomb = p_.coulomb_friction_Nm * (1 + direction * options.asymmetry.coulomb);
+  const double breakaway = p_.friction.breakaway_Nm * (1 + direction * options.asymmetry.breakaway);
+  const double warm = 1 - options.warming.depth * std::min(y[6], 1.0);
+  return share * (warm * std::lerp(coulomb, breakaway, shape) +
+                  direction * options.asymmetry.viscous * p_.viscous_friction_Nm_s_per_rad *
+                      std::abs(speed_rad_per_s));
 }
 
-double AxisOracle::carriage_limit_N(const State& y) const {
-  const double speed = carriage_ == 0 ? 0.0 : y[5] / r_;
-  return (friction(share_ * p_.coulomb_friction_Nm, share_ * p_.friction.breakaway_Nm, speed,
-                   p_.friction.stribeck_speed_rad_per_s) +
-          position_Nm(y[4])) /
-         r_;
+double AxisOracle::motor_limit_Nm(const State& y, int direction) const {
+  const double own = friction_Nm(y, 1 - share_, direction, motor_ == 0 ? 0.0 : y[3]);
+  const double passed_on = lever_m(y) * chain_N(y);
+  const double efficiency = p_.gear.efficiency;
+  const double lost = direction * passed_on > 0
+                          ? std::abs(passed_on) / efficiency - std::abs(passed_on)
+                          : std::abs(passed_on) - efficiency * std::abs(passed_on);
+  const auto& rails = p_.friction.position;
+  return own + lost +
+         (p_.chain.rigid ? interpolated(rails.position_m, rails.friction_Nm, y[4]) : 0.0);
+}
+
+double AxisOracle::carriage_limit_N(const State& y, int direction) const {
+  const auto& rails = p_.friction.position;
+  const double at_motor = friction_Nm(y, share_, direction, carriage_ == 0 ? 0.0 : y[5] / r_) +
+                          interpolated(rails.position_m, rails.friction_Nm, y[4]);
+  return at_motor / r_ + p_.friction.options.load_ratio * std::abs(chain_N(y));
+}
+
+double AxisOracle::outside_N(const State& y) const {
+  const auto& d = p_.disturbances;
+  const double weight = -mass_ * 9.80665 * std::sin(d.tilt_deg * std::numbers::pi / 180);
+  return in_.force_N + weight + d.cable.stiffness_N_per_m * (d.cable.reference_m - y[4]) +
+         interpolated(d.position_force.position_m, d.position_force.torque_Nm, y[4]) / r_ +
+         end_N(y);
 }
 
 double AxisOracle::motor_load_Nm(const State& y) const {
-  const double load_N = p_.chain.rigid ? in_.force_N + end_N(y) : -chain_N(y);
-  return p_.torque_constant_Nm_per_A * y[0] + r_ * load_N;
+  const auto& ripple = p_.disturbances.torque_ripple;
+  const double cogging = ripple.amplitude_Nm * std::sin(ripple.periods_per_turn * y[2] +
+                                                        ripple.phase_deg * std::numbers::pi / 180);
+  const double load_N = p_.chain.rigid ? outside_N(y) : -chain_N(y);
+  return p_.torque_constant_Nm_per_A * y[0] + cogging + lever_m(y) * load_N;
 }
 
 double AxisOracle::carriage_load_N(const State& y) const {
-  return chain_N(y) + in_.force_N + end_N(y);
+  return chain_N(y) + outside_N(y);
+}
+
+// What a resting body's contact holds: the share of its break-away level to which it is bent.
+double AxisOracle::motor_grip_Nm(const State& y) const {
+  if (motor_spring_ == 0) {
+    return motor_load_Nm(y);
+  }
+  const double bent = (y[2] - motor_anchor_) / p_.friction.options.presliding.travel_rad;
+  return bent * motor_limit_Nm(y, bent < 0 ? -1 : 1) + motor_damper_ * y[3];
+}
+double AxisOracle::carriage_grip_N(const State& y) const {
+  if (carriage_spring_ == 0) {
+    return carriage_load_N(y);
+  }
+  const double bent = (y[4] - carriage_anchor_) / r_ / p_.friction.options.presliding.travel_rad;
+  return bent * carriage_limit_N(y, bent < 0 ? -1 : 1) + carriage_damper_ * y[5];
 }
 
 void AxisOracle::derivative(const State& y, State& rate) const {
@@ -133,160 +231,24 @@ void AxisOracle::derivative(const State& y, State& rate) const {
   const bool loop = drive_ == Drive::kLoop || drive_ == Drive::kSaturated;
   rate[1] = loop ? (terminal_V(y) - y[1]) * ki_ / kp_ : 0.0;
   rate[2] = y[3];
-  rate[3] = motor_ == 0 ? 0.0 : (motor_load_Nm(y) - bm_ * y[3] - motor_ * motor_limit_Nm(y)) / jm_;
+  const double motor_dry = motor_ == 0 ? motor_grip_Nm(y) : motor_ * motor_limit_Nm(y, motor_);
+  const bool motor_stands = motor_ == 0 && motor_spring_ == 0;
+  rate[3] = motor_stands ? 0.0 : (motor_load_Nm(y) - bm_ * y[3] - motor_dry) / jm_;
   rate[4] = y[5];
   if (p_.chain.rigid) {
     rate[5] = r_ * rate[3];
   } else {
-    rate[5] = carriage_ == 0
-                  ? 0.0
-                  : (carriage_load_N(y) - bc_ * y[5] - carriage_ * carriage_limit_N(y)) / mass_;
+    const double dry =
+        carriage_ == 0 ? carriage_grip_N(y) : carriage_ * carriage_limit_N(y, carriage_);
+    const bool stands = carriage_ == 0 && carriage_spring_ == 0;
+    rate[5] = stands ? 0.0 : (carriage_load_N(y) - bc_ * y[5] - dry) / mass_;
   }
-}
-
-// What must stay positive for the present regime to go on; one slot a cause, kNever when unused.
-AxisOracle::Margins AxisOracle::margins(const State& y) const {
-  Margins m;
-  m.fill(kNever);
-  const double demanded = kp_ * (set_point_A_ - y[0]) + y[1];
-  switch (drive_) {
-    case Drive::kLoop:
-      m[0] = limit_V_ - demanded;
-      m[1] = limit_V_ + demanded;
-      break;
-    case Drive::kSaturated:
-      m[0] = drive_sign_ * demanded - limit_V_;
-      break;
-    case Drive::kVoltage:
-      m[0] = p_.current_limit_A - y[0];
-      m[1] = p_.current_limit_A + y[0];
-      break;
-    case Drive::kCurrentHeld:
-      m[0] = drive_sign_ *
-             (limited(p_.amplifier.voltage_gain_V_per_V * in_.command_V, limit_V_) - terminal_V(y));
-      break;
-    case Drive::kDiodes:
-      m[0] = drive_sign_ * y[0];
-      break;
-    case Drive::kOpen:
-      break;
-  }
-  if (motor_ != 0) {
-    m[2] = motor_ * y[3];
-  } else {
-    m[2] = motor_limit_Nm(y) - motor_load_Nm(y);
-    m[3] = motor_limit_Nm(y) + motor_load_Nm(y);
-  }
-  if (!p_.chain.rigid && carriage_ != 0) {
-    m[4] = carriage_ * y[5];
-  } else if (!p_.chain.rigid) {
-    m[4] = carriage_limit_N(y) - carriage_load_N(y);
-    m[5] = carriage_limit_N(y) + carriage_load_N(y);
-  }
-  const double over_max = y[4] - p_.hard_ends.max_m;
-  const double under_min = p_.hard_ends.min_m - y[4];
-  if (end_ == End::kFree && p_.hard_ends.fitted) {
-    m[6] = -over_max;
-    m[7] = -under_min;
-  } else if (end_ == End::kTouching) {
-    m[6] = push_N(y);
-  } else if (end_ == End::kLeaving) {
-    m[6] = -push_N(y);
-    m[7] = end_sign_ > 0 ? over_max : under_min;
-  }
-  return m;
-}
-
-void AxisOracle::settle_rest() {
-  if (motor_ == 0 && std::abs(motor_load_Nm(y_)) > motor_limit_Nm(y_)) {
-    motor_ = motor_load_Nm(y_) > 0 ? 1 : -1;
-  }
-  if (!p_.chain.rigid && carriage_ == 0 && std::abs(carriage_load_N(y_)) > carriage_limit_N(y_)) {
-    carriage_ = carriage_load_N(y_) > 0 ? 1 : -1;
-  }
-}
-
-void AxisOracle::begin(const Input& input) {
-  in_ = input;
-  limit_V_ = p_.amplifier.output_limit_ratio * in_.supply_V;
-  set_point_A_ = limited(p_.amplifier_gain_A_per_V * in_.command_V, p_.current_limit_A);
-  const bool was_off = drive_ == Drive::kOpen || drive_ == Drive::kDiodes;
-  if (!in_.enabled) {
-    if (!was_off) {
-      y_[1] = 0;
-      drive_ = y_[0] == 0 ? Drive::kOpen : Drive::kDiodes;
-      drive_sign_ = y_[0] < 0 ? -1 : 1;
-    }
-  } else if (p_.amplifier.mode == emulator::AmplifierMode::kCurrent) {
-    const double demanded = kp_ * (set_point_A_ - y_[0]) + y_[1];
-    drive_ = std::abs(demanded) > limit_V_ ? Drive::kSaturated : Drive::kLoop;
-    drive_sign_ = demanded < 0 ? -1 : 1;
-  } else {
-    drive_ = Drive::kCurrentHeld;
-    drive_sign_ = y_[0] < 0 ? -1 : 1;
-    if (std::abs(y_[0]) < p_.current_limit_A || margins(y_)[0] <= 0) {
-      drive_ = Drive::kVoltage;
-    }
-  }
-  settle_rest();
-}
-
-void AxisOracle::handle(std::size_t margin) {
-  ++events_;
-  const int side = margin % 2 == 0 ? 1 : -1;
-  if (margin < 2) {
-    switch (drive_) {
-      case Drive::kLoop:
-        drive_ = Drive::kSaturated;
-        drive_sign_ = side;
-        return;
-      case Drive::kSaturated:
-        drive_ = Drive::kLoop;
-        return;
-      case Drive::kVoltage:
-        drive_ = Drive::kCurrentHeld;
-        drive_sign_ = side;
-        y_[0] = side * p_.current_limit_A;
-        return;
-      case Drive::kCurrentHeld:
-        drive_ = Drive::kVoltage;
-        return;
-      case Drive::kDiodes:
-      case Drive::kOpen:
-        drive_ = Drive::kOpen;
-        y_[0] = 0;
-        return;
-    }
-  }
-  if (margin < 4) {
-    if (motor_ == 0) {
-      motor_ = side;
-      return;
-    }
-    y_[3] = 0;
-    y_[5] = p_.chain.rigid ? 0 : y_[5];
-    motor_ = 0;
-    settle_rest();
-    return;
-  }
-  if (margin < 6) {
-    if (carriage_ == 0) {
-      carriage_ = side;
-      return;
-    }
-    y_[5] = 0;
-    carriage_ = 0;
-    settle_rest();
-    return;
-  }
-  if (end_ == End::kFree) {
-    end_ = End::kTouching;
-    end_sign_ = side;
-  } else if (end_ == End::kTouching) {
-    end_ = End::kLeaving;
-  } else {
-    end_ = margin == 6 ? End::kTouching : End::kFree;
-  }
+  const auto& warming = p_.friction.options.warming;
+  const double heating_W =
+      (motor_ == 0 ? 0.0 : motor_limit_Nm(y, motor_) * std::abs(y[3])) +
+      (carriage_ == 0 || p_.chain.rigid ? 0.0 : carriage_limit_N(y, carriage_) * std::abs(y[5]));
+  rate[6] =
+      warming.depth > 0 ? (heating_W / warming.full_power_W - y[6]) / warming.time_constant_s : 0.0;
 }
 
 }  // namespace towbench::tests

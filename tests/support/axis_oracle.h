@@ -13,8 +13,8 @@ namespace towbench::tests {
 
 class AxisOracle {
  public:
-  // [0] A, [1] V integrator, [2] rad, [3] rad/s, [4] m, [5] m/s
-  using State = std::array<double, 6>;
+  // [0] A, [1] V integrator, [2] rad, [3] rad/s, [4] m, [5] m/s, [6] warmth
+  using State = std::array<double, 7>;
 
   struct Input {
     double command_V = 0;
@@ -35,7 +35,7 @@ class AxisOracle {
   [[nodiscard]] double carriage_counts() const;  // the same scale, by (3.42)
   [[nodiscard]] long events() const { return events_; }
 
-  static constexpr std::size_t kMargins = 8;
+  static constexpr std::size_t kMargins = 10;
   using Margins = std::array<double, kMargins>;
   void derivative(const State& y, State& rate) const;
   [[nodiscard]] Margins margins(const State& y) const;
@@ -43,29 +43,44 @@ class AxisOracle {
  private:
   enum class Drive { kLoop, kSaturated, kVoltage, kCurrentHeld, kDiodes, kOpen };
   enum class End { kFree, kTouching, kLeaving };
+  enum class Play { kTaut, kHalf, kGap, kParting };
 
   void begin(const Input& input);
   void settle_rest();
   void handle(std::size_t margin);
   [[nodiscard]] double terminal_V(const State& y) const;
+  [[nodiscard]] double stretch_m(const State& y) const;
+  [[nodiscard]] double lever_m(const State& y) const;
+  [[nodiscard]] double strands_N(const State& y, Play play) const;
   [[nodiscard]] double chain_N(const State& y) const;
+  [[nodiscard]] double outside_N(const State& y) const;
+  void chain_margins(const State& y, Margins& m) const;
+  void handle_chain(std::size_t margin);
   [[nodiscard]] double end_N(const State& y) const;
   [[nodiscard]] double push_N(const State& y) const;
-  [[nodiscard]] double friction(double coulomb, double breakaway, double speed, double scale) const;
-  [[nodiscard]] double position_Nm(double x) const;
-  [[nodiscard]] double motor_limit_Nm(const State& y) const;
-  [[nodiscard]] double carriage_limit_N(const State& y) const;
+  // At the motor, a share of the axis's, in one direction.
+  [[nodiscard]] double friction_Nm(const State& y, double share, int direction,
+                                   double speed_rad_per_s) const;
+  [[nodiscard]] double motor_limit_Nm(const State& y, int direction) const;
+  [[nodiscard]] double carriage_limit_N(const State& y, int direction) const;
   [[nodiscard]] double motor_load_Nm(const State& y) const;
   [[nodiscard]] double carriage_load_N(const State& y) const;
+  [[nodiscard]] double motor_grip_Nm(const State& y) const;
+  [[nodiscard]] double carriage_grip_N(const State& y) const;
 
   emulator::AxisParameters p_;
   double tolerance_;
   double r_, jm_, mass_, bm_, bc_, ks_, bs_, kp_, ki_, share_;
+  double half_gap_m_ = 0;
+  double motor_spring_ = 0, motor_damper_ = 0, carriage_spring_ = 0, carriage_damper_ = 0;
+  double motor_anchor_ = 0, carriage_anchor_ = 0;
   Input in_;
   double set_point_A_ = 0, limit_V_ = 0;
   Drive drive_ = Drive::kOpen;
   int drive_sign_ = 1;
   int motor_ = 0, carriage_ = 0;  // direction of sliding, 0: sticks
+  Play play_ = Play::kTaut;
+  int side_ = 0;
   End end_ = End::kFree;
   int end_sign_ = 1;
   State y_{};

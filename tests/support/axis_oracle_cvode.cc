@@ -55,10 +55,10 @@ void AxisOracle::advance_by_cvode(const Input& input, double duration_s) {
   begin(input);
   SUNContext context = nullptr;
   demand(SUNContext_Create(nullptr, &context));
-  constexpr sunindextype kSize = 6;
+  constexpr sunindextype kSize = 7;
   N_Vector y = N_VNew_Serial(kSize, context);
   N_Vector absolute = N_VNew_Serial(kSize, context);
-  const State size{1, 1, 100, 100, 1, 0.1};
+  const State size{1, 1, 100, 100, 1, 0.1, 1};
   for (std::size_t i = 0; i < size.size(); ++i) {
     NV_DATA_S(absolute)[i] = tolerance_ * size[i];
   }

@@ -12,7 +12,7 @@ namespace odeint = boost::numeric::odeint;
 using State = AxisOracle::State;
 
 // To order one: A, V, 100 rad, 100 rad/s, m, 0.1 m/s. The error norm is taken on scaled states.
-constexpr State kScale{1, 1, 100, 100, 1, 0.1};
+constexpr State kScale{1, 1, 100, 100, 1, 0.1, 1};
 
 State scaled(const State& y) {
   State s{};

@@ -1,0 +1,120 @@
+#include "emulator/plant/held_terms.h"
+
+namespace towbench::emulator {
+namespace {
+
+// Coulomb, break-away and Stribeck part in one direction, skewed and warmed; viscous skew on top.
+double skewed_level(const AxisModel& model, const DryFriction& law, double viscous, double scale,
+                    double direction, double speed) noexcept {
+  const FrictionAsymmetry& share = model.parameters.friction.options.asymmetry;
+  const double coulomb = law.coulomb * (1.0 + direction * share.coulomb);
+  const double breakaway = law.breakaway * (1.0 + direction * share.breakaway);
+  const double fade = model.stribeck(std::fabs(speed) * law.inverse_speed);
+  return scale * (coulomb + (breakaway - coulomb) * fade) +
+         direction * share.viscous * viscous * std::fabs(speed);
+}
+
+double motor_level(const AxisModel& model, Situation& s, double direction, double speed,
+                   double carriage_m) noexcept {
+  const double level =
+      skewed_level(model, model.mechanics.motor, model.mechanics.motor_viscous_Nm_s_per_rad,
+                   s.terms.level_scale, direction, speed);
+  return model.parameters.chain.rigid
+             ? level + model.position_friction(carriage_m, s.position_interval)
+             : level;
+}
+
+double carriage_level(const AxisModel& model, Situation& s, double direction, double speed,
+                      double carriage_m) noexcept {
+  return skewed_level(model, model.mechanics.carriage, model.mechanics.carriage_viscous_N_s_per_m,
+                      s.terms.level_scale, direction, speed) +
+         model.position_friction(carriage_m, s.position_interval);
+}
+
+double carriage_load_factor(const AxisModel& model, double chain_N) noexcept {
+  const double ratio = model.parameters.friction.options.load_ratio;
+  return chain_N < 0 ? -ratio : ratio;
+}
+
+void hold_chain(const AxisModel& model, Situation& s, const MiddleOfMotion& middle) noexcept {
+  const double r = model.mechanics.metres_per_radian;
+  HeldTerms& t = s.terms;
+  Sprocket::Excess excess;
+  if (model.sprocket.present()) {
+    excess = model.sprocket(model.sine, middle.motor_rad);
+    t.sprocket_slope_m_per_rad = excess.slope_m_per_rad;
+    t.sprocket_offset_m = excess.offset_m - excess.slope_m_per_rad * middle.motor_rad;
+  }
+  t.extra_chain_N = s.chain.stiffness_N_per_m * excess.offset_m +
+                    s.chain.damping_N_s_per_m * excess.slope_m_per_rad * middle.motor_rad_per_s +
+                    s.chain.constant_N;
+  t.chain_N = s.chain.stiffness_N_per_m * (r * middle.motor_rad - middle.carriage_m) +
+              s.chain.damping_N_s_per_m * (r * middle.motor_rad_per_s - middle.carriage_m_per_s) +
+              t.extra_chain_N;
+}
+
+// What break-away takes on the side to which a contact is bent.
+double level_at_bend(const BreakAway& level, double bend, double chain_N) noexcept {
+  return breakaway_margin(level, bend < 0 ? -1.0 : 1.0, 0.0, chain_N, 1.0);
+}
+
+double extra_grip(const ElasticContact& contact, const BreakAway& level, double bend,
+                  double chain_N) noexcept {
+  return (level_at_bend(level, bend, chain_N) - contact.breakaway) * bend / contact.travel;
+}
+
+}  // namespace
+
+void hold_terms(const AxisModel& model, Situation& s, const MiddleOfMotion& middle) noexcept {
+  hold_chain(model, s, middle);
+  HeldTerms& t = s.terms;
+  if (model.ripple.present()) {
+    t.motor_Nm = model.ripple.mean(model.sine, middle.motor_rad, middle.travel_rad);
+  }
+  if (model.position_force.present()) {
+    t.carriage_N = model.position_force(middle.carriage_m, s.force_interval);
+  }
+  const double along = s.regime.motor_direction;
+  if (model.motor_is_dry && along != 0) {
+    s.motor_friction_Nm =
+        motor_level(model, s, along, middle.motor_rad_per_s, middle.carriage_m) +
+        model.gear_loss.factor(chain_lever_m(model, s), along, t.chain_N) * t.chain_N;
+  } else if (model.motor_is_dry) {
+    hold_motor_breakaway(model, s, middle.carriage_m);
+    if (model.motor_contact.present()) {
+      t.extra_motor_grip_Nm = extra_grip(model.motor_contact, s.motor_breakaway,
+                                         middle.motor_rad - s.motor_anchor_rad, t.chain_N);
+    }
+  }
+  const double forth = s.regime.carriage_direction;
+  if (model.carriage_is_dry && forth != 0) {
+    s.carriage_friction_N =
+        carriage_level(model, s, forth, middle.carriage_m_per_s, middle.carriage_m) +
+        carriage_load_factor(model, t.chain_N) * t.chain_N;
+  } else if (model.carriage_is_dry) {
+    hold_carriage_breakaway(model, s, middle.carriage_m);
+    if (model.carriage_contact.present()) {
+      t.extra_carriage_grip_N = extra_grip(model.carriage_contact, s.carriage_breakaway,
+                                           middle.carriage_m - s.carriage_anchor_m, t.chain_N);
+    }
+  }
+}
+
+void hold_motor_breakaway(const AxisModel& model, Situation& s, double carriage_m) noexcept {
+  const double lever = chain_lever_m(model, s);
+  s.motor_breakaway = {
+      .towards_max = motor_level(model, s, 1.0, 0.0, carriage_m),
+      .towards_min = motor_level(model, s, -1.0, 0.0, carriage_m),
+      .towards_max_per_chain_N = model.gear_loss.factor(lever, 1.0, s.terms.chain_N),
+      .towards_min_per_chain_N = model.gear_loss.factor(lever, -1.0, s.terms.chain_N)};
+}
+
+void hold_carriage_breakaway(const AxisModel& model, Situation& s, double carriage_m) noexcept {
+  const double factor = carriage_load_factor(model, s.terms.chain_N);
+  s.carriage_breakaway = {.towards_max = carriage_level(model, s, 1.0, 0.0, carriage_m),
+                          .towards_min = carriage_level(model, s, -1.0, 0.0, carriage_m),
+                          .towards_max_per_chain_N = factor,
+                          .towards_min_per_chain_N = factor};
+}
+
+}  // namespace towbench::emulator
