@@ -43,14 +43,21 @@ class Sprocket {
   }
 
  private:
+  // 1 - z a (1 - z b (1 - z c (1 - z d))); factors, not divisors: those would cost too much time.
+  [[nodiscard, gnu::always_inline]] static double one_minus_nested(double z,
+                                                                   const double (&f)[4]) noexcept {
+    return 1.0 - z * f[0] * (1.0 - z * f[1] * (1.0 - z * f[2] * (1.0 - z * f[3])));
+  }
+
   // |psi| <= pi/5: the series ends below 1e-9.
   [[gnu::always_inline]] void add_polygon(double turns, Excess& excess) const noexcept {
     const double pitches = turns * teeth_;
     const double psi = (pitches - core::floor_exact(pitches + 0.5)) * pitch_angle_rad_;
     const double z = psi * psi;
-    const double sine =
-        psi * (1.0 - z / 6.0 * (1.0 - z / 20.0 * (1.0 - z / 42.0 * (1.0 - z / 72.0))));
-    const double cosine = 1.0 - z / 2.0 * (1.0 - z / 12.0 * (1.0 - z / 30.0 * (1.0 - z / 56.0)));
+    constexpr double kSine[] = {1.0 / 6.0, 1.0 / 20.0, 1.0 / 42.0, 1.0 / 72.0};
+    constexpr double kCosine[] = {1.0 / 2.0, 1.0 / 12.0, 1.0 / 30.0, 1.0 / 56.0};
+    const double sine = psi * one_minus_nested(z, kSine);
+    const double cosine = one_minus_nested(z, kCosine);
     excess.offset_m += pitch_radius_m_ * sine - radius_m_ * psi;
     excess.slope_m_per_rad += (pitch_radius_m_ * cosine - radius_m_) * per_gear_;
   }
