@@ -16,6 +16,13 @@ namespace {
              : axis->wiring().swap_channels(event.value != 0.0, in_tick_ns);
 }
 
+[[nodiscard]] bool fail_axis(Rig& rig, const ScheduledEvent& event) noexcept {
+  if (RigAxis* axis = rig.axis(event.axis)) {
+    axis->fail(event.kind, event.value);
+  }
+  return true;
+}
+
 // False when this tick has no room for it: the next one takes it.
 [[nodiscard]] bool fire(Rig& rig, const ScheduledEvent& event, core::Nanoseconds time_ns) noexcept {
   switch (event.kind) {
@@ -28,9 +35,29 @@ namespace {
       return true;
     case ScheduledEventKind::kRewireInput:
       return rig.input_wiring().set_line(event.input_line, event.condition, time_ns);
+    case ScheduledEventKind::kCrossInputs:
+      return rig.input_wiring().cross(event.input_line, event.other_line, time_ns);
     case ScheduledEventKind::kRewireEncoder:
     case ScheduledEventKind::kSwapEncoderChannels:
       return rewire_encoder(rig, event, static_cast<std::uint32_t>(time_ns - rig.now_ns()));
+    case ScheduledEventKind::kLoadSupply:
+      rig.supply().load(event.value);
+      return true;
+    case ScheduledEventKind::kSagSupply:
+      rig.supply().sag(event.value);
+      return true;
+    case ScheduledEventKind::kAmplifierOff:
+    case ScheduledEventKind::kHoldCommand:
+    case ScheduledEventKind::kScaleCommand:
+    case ScheduledEventKind::kLimitCommand:
+    case ScheduledEventKind::kShortBridge:
+    case ScheduledEventKind::kJamCarriage:
+    case ScheduledEventKind::kDragCarriage:
+    case ScheduledEventKind::kObstacle:
+    case ScheduledEventKind::kDropLoad:
+    case ScheduledEventKind::kSlipDisc:
+    case ScheduledEventKind::kTurnDisc:
+      return fail_axis(rig, event);
   }
   return true;
 }

@@ -37,6 +37,7 @@ RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, const Seeds& seeds)
       plant_(p.plant, p.start_m),
       state_(plant_.state()),
       encoder_(p.encoder, state_.motor_angle_rad),
+      disc_(p.encoder),
       wiring_(encoder_.levels()),
       hall_min_(p.hall_min, TravelEnd::kMin, kHallMinLine[axis], p.start_m),
       hall_max_(p.hall_max, TravelEnd::kMax, kHallMaxLine[axis], p.start_m),
@@ -50,14 +51,16 @@ RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, const Seeds& seeds)
 void RigAxis::step(core::Nanoseconds start_ns, const Surroundings& around,
                    LineChanges& changes) noexcept {
   command_V_ = command.step();
-  const AxisInput input{.command_V = command_V_,
-                        .supply_V = around.supply_V,
-                        .carriage_force_N = around.external_N,
-                        .amplifier_enabled = enable_line && around.amplifier_may_drive};
+  AxisInput input{.command_V = command_V_,
+                  .supply_V = around.supply_V,
+                  .carriage_force_N = around.external_N,
+                  .amplifier_enabled = enable_line && around.amplifier_may_drive};
   const AxisState before = state_;
+  faults_.apply(before, acceleration_m_per_s2_, input);
+  command_V_ = input.command_V;
   plant_.step(input, segments_);
   encoder_.step(segments_, edges_);
-  wiring_.step(encoder_.levels(), edges_);
+  wiring_.step(disc_.step(encoder_.levels(), edges_), edges_);
   state_ = plant_.state();
   const AxisState& after = state_;
   const CarriageMotion motion{.before_m = before.carriage_m,
@@ -73,6 +76,16 @@ void RigAxis::step(core::Nanoseconds start_ns, const Surroundings& around,
     const bool taken =
         current_monitor_->step(start_ns + core::kPlantTick_ns, after.current_A, sample);
     current_sample_ = taken ? std::optional(sample) : std::nullopt;
+  }
+}
+
+void RigAxis::fail(ScheduledEventKind kind, double value) noexcept {
+  if (kind == ScheduledEventKind::kSlipDisc) {
+    disc_.slip(static_cast<std::int64_t>(value), encoder_.count());
+  } else if (kind == ScheduledEventKind::kTurnDisc) {
+    disc_.turn(static_cast<std::int64_t>(value), encoder_.count());
+  } else {
+    faults_.set(kind, value, state_, command_V_);
   }
 }
 
@@ -104,7 +117,7 @@ AxisTruth RigAxis::truth() const noexcept {
           .chain_force_N = forces.chain_force_N,
           .command_V = command_V_,
           .count = encoder_.count(),
-          .edges_total = encoder_.edges_total() + wiring_.surplus_edges()};
+          .edges_total = encoder_.edges_total() + disc_.surplus_edges() + wiring_.surplus_edges()};
 }
 
 Rig::Rig(const RigParameters& parameters, std::uint64_t seed)

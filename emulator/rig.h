@@ -14,6 +14,8 @@
 #include "core/realtime.h"
 #include "core/time.h"
 #include "emulator/command_path.h"
+#include "emulator/faults/axis_faults.h"
+#include "emulator/faults/slipping_disc.h"
 #include "emulator/plant/axis_plant.h"
 #include "emulator/rig_parameters.h"
 #include "emulator/sensors/current_monitor.h"
@@ -51,6 +53,8 @@ class RigAxis {
   bool enable_line = false;
 
   [[nodiscard]] EncoderWiring& wiring() noexcept { return wiring_; }
+  // Breaks something between connectors and carriage, or puts it right, from the next tick on.
+  TOWBENCH_REALTIME void fail(ScheduledEventKind kind, double value) noexcept;
   [[nodiscard]] const AxisPlant& plant() const noexcept { return plant_; }
   [[nodiscard]] const QuadratureEncoder& encoder() const noexcept { return encoder_; }
   // Of the last step, as they arrive at the controller.
@@ -78,6 +82,7 @@ class RigAxis {
   AxisPlant plant_;
   AxisState state_;  // the plant's, at the end of the last step
   QuadratureEncoder encoder_;
+  SlippingDisc disc_;
   EncoderWiring wiring_;
   HallSensor hall_min_;
   HallSensor hall_max_;
@@ -85,6 +90,7 @@ class RigAxis {
   std::optional<protocol::CurrentSample> current_sample_;
   MotionSegments segments_;
   StepEdges edges_;
+  AxisFaults faults_;
   double resistance_ohm_;
   double torque_constant_Nm_per_A_;
   double command_V_ = 0.0;
@@ -123,6 +129,7 @@ class Rig {
   [[nodiscard]] std::uint16_t lines() const noexcept { return arriving_lines_; }
   [[nodiscard]] const LineChanges& line_changes() const noexcept { return changes_; }
   [[nodiscard]] const Supply& supply() const noexcept { return supply_; }
+  [[nodiscard]] Supply& supply() noexcept { return supply_; }
   // Taken at the end of the last tick, if one was due.
   [[nodiscard]] const std::optional<protocol::ForceSample>& force_sample() const noexcept {
     return force_sample_;

@@ -9,9 +9,10 @@ void Supply::step(double output_power_W) noexcept {
     return;
   }
   // At a dead voltage nothing is drawn; the amplifiers are long cut out.
-  current_A_ =
-      voltage_V_ > 1.0 ? output_power_W / (parameters_.amplifier_efficiency * voltage_V_) : 0.0;
-  voltage_V_ = parameters_.voltage_V - parameters_.source_resistance_ohm * current_A_;
+  current_A_ = voltage_V_ > 1.0 ? output_power_W / (parameters_.amplifier_efficiency * voltage_V_) +
+                                      foreign_power_W_ / voltage_V_
+                                : 0.0;
+  voltage_V_ = parameters_.voltage_V - lost_V_ - parameters_.source_resistance_ohm * current_A_;
   voltage_V_ = voltage_V_ > 0.0 ? voltage_V_ : 0.0;
   over_current_s_ =
       current_A_ > parameters_.over_current_A ? over_current_s_ + core::kPlantTick_s : 0.0;

@@ -23,6 +23,10 @@ class Supply {
   // After a plant step: electrical power that each amplifier put out, summed where positive.
   TOWBENCH_REALTIME void step(double output_power_W) noexcept;
 
+  // From outside: power that somebody else draws, volts that the source has lost.
+  void load(double power_W) noexcept { foreign_power_W_ = power_W; }
+  void sag(double lost_V) noexcept { lost_V_ = lost_V; }
+
   [[nodiscard]] double voltage_V() const noexcept { return voltage_V_; }
   [[nodiscard]] double current_A() const noexcept { return current_A_; }
   // Whether the amplifiers can work.
@@ -35,6 +39,8 @@ class Supply {
   double voltage_V_;
   double current_A_ = 0.0;
   double over_current_s_ = 0.0;
+  double foreign_power_W_ = 0.0;
+  double lost_V_ = 0.0;
   bool tripped_ = false;
   bool cut_out_;
 };

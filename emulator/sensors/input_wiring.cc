@@ -1,6 +1,7 @@
 #include "emulator/sensors/input_wiring.h"
 
 #include <limits>
+#include <utility>
 
 namespace towbench::emulator {
 
@@ -8,7 +9,24 @@ using protocol::InputLine;
 
 bool InputWiring::set_line(InputLine line, WireCondition condition,
                            core::Nanoseconds time_ns) noexcept {
-  return pending_.push_back({.time_ns = time_ns, .line = line, .condition = condition});
+  return pending_.push_back(
+      {.time_ns = time_ns, .line = line, .condition = condition, .crossed_with = line});
+}
+
+bool InputWiring::cross(InputLine a, InputLine b, core::Nanoseconds time_ns) noexcept {
+  return pending_.push_back({.time_ns = time_ns, .line = a, .crossed_with = b});
+}
+
+void InputWiring::rewire(const Change& change, std::uint16_t near, std::uint16_t& far,
+                         LineChanges& arrived) noexcept {
+  if (change.crossed_with == change.line) {
+    condition_[static_cast<std::size_t>(change.line)] = change.condition;
+  } else {
+    std::swap(arrives_as_[static_cast<std::size_t>(change.line)],
+              arrives_as_[static_cast<std::size_t>(change.crossed_with)]);
+    deliver(change.time_ns, change.crossed_with, near, far, arrived);
+  }
+  deliver(change.time_ns, change.line, near, far, arrived);
 }
 
 void InputWiring::step(std::uint16_t& near, std::uint16_t& far, LineChanges& changes) noexcept {
@@ -20,9 +38,7 @@ void InputWiring::step(std::uint16_t& near, std::uint16_t& far, LineChanges& cha
   std::size_t next = 0;
   const auto rewire_until = [&](core::Nanoseconds time_ns) {
     for (; next < pending_.size() && pending_[next].time_ns <= time_ns; ++next) {
-      const Change& change = pending_[next];
-      condition_[static_cast<std::size_t>(change.line)] = change.condition;
-      deliver(change.time_ns, change.line, near, far, changes);
+      rewire(pending_[next], near, far, changes);
     }
   };
   for (const LineChange& change : made.view()) {
@@ -37,13 +53,15 @@ void InputWiring::step(std::uint16_t& near, std::uint16_t& far, LineChanges& cha
 
 void InputWiring::deliver(core::Nanoseconds time_ns, InputLine line, std::uint16_t near,
                           std::uint16_t& far, LineChanges& arrived) const noexcept {
-  const unsigned mask = protocol::mask_of(line);
-  const bool level = level_behind(condition_[static_cast<std::size_t>(line)], (near & mask) != 0);
+  const bool made = (near & protocol::mask_of(line)) != 0;
+  const bool level = level_behind(condition_[static_cast<std::size_t>(line)], made);
+  const InputLine arriving = arrives_as_[static_cast<std::size_t>(line)];
+  const unsigned mask = protocol::mask_of(arriving);
   if (level == ((far & mask) != 0)) {
     return;
   }
   far = static_cast<std::uint16_t>(level ? far | mask : far & ~mask);
-  (void)arrived.push_back({.time_ns = time_ns, .line = line, .active = level});
+  (void)arrived.push_back({.time_ns = time_ns, .line = arriving, .active = level});
 }
 
 }  // namespace towbench::emulator

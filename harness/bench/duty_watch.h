@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/axis.h"
-#include "harness/record/controller_recorder.h"
+#include "harness/bench/bench_recorder.h"
 #include "protocol/message_sink.h"
 
 namespace towbench::harness {
@@ -11,7 +11,7 @@ namespace towbench::harness {
 class DutyWatch final : public protocol::MessageSink {
  public:
   // May be null: nothing is recorded. The recorder outlives this.
-  explicit DutyWatch(ControllerRecorder* recorder) noexcept : recorder_(recorder) {}
+  explicit DutyWatch(BenchRecorder* recorder) noexcept : recorder_(recorder) {}
 
   using MessageSink::on;
   void on(const protocol::PwmDuty& duty) noexcept override {
@@ -28,7 +28,7 @@ class DutyWatch final : public protocol::MessageSink {
   }
 
  private:
-  ControllerRecorder* recorder_;
+  BenchRecorder* recorder_;
   core::PerAxis<bool> driven_;
   bool was_driven_ = false;
   core::Nanoseconds now_ns_ = 0;

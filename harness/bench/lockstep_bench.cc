@@ -5,7 +5,7 @@
 namespace towbench::harness {
 
 LockstepBench::LockstepBench(const bbmc::Configuration& configuration, std::uint64_t rig_hash,
-                             PlantEnd& plant, ControllerRecorder* recorder)
+                             PlantEnd& plant, BenchRecorder* recorder)
     : plant_(plant),
       recorder_(recorder),
       controller_(configuration, rig_hash),
@@ -31,7 +31,9 @@ core::Status LockstepBench::start() noexcept {
 }
 
 std::string_view LockstepBench::serve() noexcept {
-  controller_.serve(now_ns_);
+  if (host_ == nullptr || host_->serves_at(now_ns_)) {
+    controller_.serve(now_ns_);
+  }
   take_records();
   return console_;
 }

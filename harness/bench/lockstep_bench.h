@@ -8,7 +8,9 @@
 #include "bbmc/host/controller_node.h"
 #include "core/result.h"
 #include "core/time.h"
+#include "harness/bench/bench_recorder.h"
 #include "harness/bench/duty_watch.h"
+#include "harness/bench/host_schedule.h"
 #include "harness/bench/plant_end.h"
 #include "protocol/tee_sink.h"
 
@@ -18,7 +20,11 @@ class LockstepBench {
  public:
   // Plant and recorder outlive this; without a recorder rows and console are thrown away.
   LockstepBench(const bbmc::Configuration& configuration, std::uint64_t rig_hash, PlantEnd& plant,
-                ControllerRecorder* recorder);
+                BenchRecorder* recorder);
+
+  // The host that the controller runs on does not serve it while the schedule says so. Outlives
+  // this; before start().
+  void run_on(const HostSchedule& host) noexcept { host_ = &host; }
 
   // Handshake. Before anything else.
   [[nodiscard]] core::Status start() noexcept;
@@ -39,10 +45,11 @@ class LockstepBench {
   void take_records() noexcept;
 
   PlantEnd& plant_;
-  ControllerRecorder* recorder_;
+  BenchRecorder* recorder_;
   bbmc::ControllerNode controller_;
   DutyWatch duty_watch_;
   protocol::TeeSink to_plant_;
+  const HostSchedule* host_ = nullptr;
   core::Nanoseconds now_ns_ = 0;
   std::string console_;
 };

@@ -21,7 +21,7 @@ std::string told(core::ErrorCode code) {
 
 class Loop {
  public:
-  Loop(const Experiment& experiment, LockstepBench& bench, ControllerRecorder& recorder,
+  Loop(const Experiment& experiment, LockstepBench& bench, BenchRecorder& recorder,
        const LoopWatchers& watchers)
       : bench_(bench),
         recorder_(recorder),
@@ -90,7 +90,7 @@ class Loop {
   }
 
   LockstepBench& bench_;
-  ControllerRecorder& recorder_;
+  BenchRecorder& recorder_;
   const LoopWatchers& watchers_;
   ConsoleScript script_;
   core::Nanoseconds limit_ns_;
@@ -100,7 +100,7 @@ class Loop {
 
 }  // namespace
 
-RunOutcome play(const Experiment& experiment, LockstepBench& bench, ControllerRecorder& recorder,
+RunOutcome play(const Experiment& experiment, LockstepBench& bench, BenchRecorder& recorder,
                 const LoopWatchers& watchers) {
   auto outcome = Loop(experiment, bench, recorder, watchers).run();
   recorder.flush();

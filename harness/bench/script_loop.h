@@ -19,6 +19,6 @@ struct LoopWatchers {
 };
 
 [[nodiscard]] RunOutcome play(const Experiment& experiment, LockstepBench& bench,
-                              ControllerRecorder& recorder, const LoopWatchers& watchers);
+                              BenchRecorder& recorder, const LoopWatchers& watchers);
 
 }  // namespace towbench::harness

@@ -18,6 +18,7 @@
 #include "harness/fixtures/controller_fixture.h"
 #include "harness/fixtures/rig_fixture.h"
 #include "harness/judge/check.h"
+#include "harness/record/controller_recorder.h"
 #include "harness/record/plant_recorder.h"
 #include "protocol/carriers/local_socket.h"
 

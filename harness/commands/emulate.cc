@@ -13,6 +13,7 @@
 #include "harness/commands/local_address.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/experiment/experiment_fixture.h"
+#include "harness/faults/faulted_experiment.h"
 #include "harness/judge/check.h"
 #include "harness/record/plant_recorder.h"
 #include "protocol/carriers/local_socket.h"
@@ -45,6 +46,11 @@ Machine machine_of(const Options& options) {
     machine.rig = fixture.rig.parameters;
     machine.events = fixture.experiment.events;
     machine.seed = fixture.experiment.seed;
+    if (!fixture.experiment.faults.empty()) {
+      const FaultedExperiment faulted(fixture, options.seed.value_or(machine.seed));
+      machine.rig = faulted.fixture().rig.parameters;
+      machine.events = faulted.fixture().experiment.events;
+    }
   } else {
     throw FixtureError({"command line"}, "no machine", "--rig FILE, or an experiment");
   }

@@ -11,12 +11,16 @@
 #include "harness/commands/experiment_options.h"
 #include "harness/commands/fixture_paths.h"
 #include "harness/commands/verdict_table.h"
+#include "harness/faults/fault_text.h"
+#include "harness/faults/faulted_experiment.h"
 
 namespace towbench::harness {
 namespace {
 
 struct Options {
   std::vector<std::string> experiments;
+  std::vector<std::string> faults;
+  std::string fault_plan;
   ExperimentOptions shared;
 };
 
@@ -27,11 +31,24 @@ nlohmann::json result_of(const RunResult& run) {
   return result;
 }
 
+FaultPlan plan_of(const Options& options) {
+  FaultPlan plan;
+  if (!options.fault_plan.empty()) {
+    plan = read_fault_plan(FixtureFile::load(options.fault_plan));
+  }
+  for (const auto& words : options.faults) {
+    plan.push_back(parse_fault(words));
+  }
+  return plan;
+}
+
 int execute(const Options& options) {
   // All fixtures first: a slip in the last file is told before the first run.
   std::vector<ExperimentFixture> fixtures;
+  const auto plan = plan_of(options);
   for (const auto& named : options.experiments) {
     fixtures.push_back(load_experiment(find_experiment(named)));
+    add_faults(fixtures.back(), plan);
   }
   int exit_code = kExitPass;
   auto results = nlohmann::json::array();
@@ -68,8 +85,14 @@ void add_run(CLI::App& app, int& exit_code) {
   verb->add_option("experiment", options->experiments,
                    "name of an experiment of fixtures/experiments, or a path")
       ->required();
+  verb->add_option("--fault", options->faults,
+                   "break something: \"PART KIND at=TIME ...\"; several make several faults")
+      ->take_all();
+  verb->add_option("--fault-plan", options->fault_plan, "break what this file says");
   add_experiment_options(*verb, options->shared);
-  verb->footer("Example: towbench run trapezoid-400 --carrier local --out runs");
+  verb->footer(
+      "Example: towbench run trapezoid-400 --carrier local --out runs\n"
+      "         towbench run trapezoid-400 --fault \"encoder.y frozen phase=cruise after=0.5s\"");
   verb->callback([options, &exit_code] { exit_code = execute(*options); });
 }
 

@@ -7,6 +7,7 @@
 #include "harness/commands/command.h"
 #include "harness/commands/fixture_paths.h"
 #include "harness/experiment/experiment_fixture.h"
+#include "harness/faults/fault_text.h"
 #include "harness/judge/check.h"
 
 namespace towbench::harness {
@@ -19,6 +20,8 @@ void read_by_kind(const std::filesystem::path& path) {
   const auto& table = file.table();
   if (table.contains("rig") || table.contains("console") || table.contains("budget")) {
     (void)load_experiment(path);
+  } else if (table.contains("fault")) {
+    (void)read_fault_plan(file);
   } else if (table.contains("plants")) {
     (void)load_rig(path, sources);
   } else if (table.contains("control_rate_Hz") || table.contains("safety") ||
@@ -36,7 +39,7 @@ int execute(const std::vector<std::string>& named) {
     paths.push_back(find_experiment(name));
   }
   if (paths.empty()) {
-    for (const char* kind : {"plants", "rigs", "controllers", "experiments"}) {
+    for (const char* kind : {"plants", "rigs", "controllers", "experiments", "faults"}) {
       for (auto& path : toml_files_in(fixtures_directory() / kind)) {
         paths.push_back(std::move(path));
       }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "emulator/scheduled_event.h"
+#include "harness/faults/fault.h"
 
 namespace towbench::harness {
 
@@ -50,8 +51,10 @@ struct Experiment {
   std::uint64_t seed = 1;
   std::vector<ConsoleStep> console;
   std::vector<emulator::ScheduledEvent> events;  // sorted by time
+  FaultPlan faults;
   std::vector<EvaluationWindow> windows;         // the first is "whole"
   std::vector<Budget> budgets;
+  bool budgets_apply = true;  // not to a machine that was broken on the command line
 };
 
 }  // namespace towbench::harness

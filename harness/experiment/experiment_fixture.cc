@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/time.h"
+#include "harness/faults/fault_text.h"
 #include "harness/fixtures/canonical_hash.h"
 #include "harness/judge/metric.h"
 
@@ -128,6 +129,9 @@ Experiment read_script(TableReader& reader) {
   }
   std::stable_sort(experiment.events.begin(), experiment.events.end(),
                    [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; });
+  for (auto& fault : reader.tables("fault")) {
+    experiment.faults.push_back(read_fault(fault));
+  }
   experiment.windows.emplace_back();
   for (auto& window : reader.tables("window")) {
     experiment.windows.push_back(read_window(window));

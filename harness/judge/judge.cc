@@ -73,10 +73,13 @@ Judgement judge(const std::filesystem::path& folder, const ExperimentFixture& fi
     const auto expected = expected_of(fixture, outcome);
     judgement.windows = resolve_windows(fixture.experiment.windows, data);
     judgement.measurements = measure(data, judgement.windows);
-    for (const auto& budget : fixture.experiment.budgets) {
-      checks.push_back(judge_budget(budget, judgement.measurements));
+    if (fixture.experiment.budgets_apply) {
+      for (const auto& budget : fixture.experiment.budgets) {
+        checks.push_back(judge_budget(budget, judgement.measurements));
+      }
     }
-    if (fixture.experiment.budgets.empty()) {
+    // Faults bring their own requirements.
+    if (fixture.experiment.budgets.empty() && fixture.experiment.faults.empty()) {
       checks.push_back(no_budget());
     }
     checks.push_back(script_check(outcome));

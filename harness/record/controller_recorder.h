@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "bbmc/host/controller_node.h"
+#include "harness/bench/bench_recorder.h"
 #include "harness/record/csv_writer.h"
 #include "harness/record/line_writer.h"
 #include "harness/record/log_columns.h"
@@ -12,25 +13,20 @@
 
 namespace towbench::harness {
 
-class ControllerRecorder {
+class ControllerRecorder final : public BenchRecorder {
  public:
   explicit ControllerRecorder(const std::filesystem::path& folder);
-  ControllerRecorder(const ControllerRecorder&) = delete;
-  ControllerRecorder& operator=(const ControllerRecorder&) = delete;
-  ~ControllerRecorder();
+  ~ControllerRecorder() override;
 
-  // Takes every row and event that waits in the controller.
-  void drain(bbmc::ControllerNode& controller) noexcept;
-  void console(std::string_view text) noexcept { console_.write(text); }
-  void wire_event(core::Nanoseconds time_ns, std::string_view kind) noexcept;
-  // `host_ns` since the start of the run.
+  void drain(bbmc::ControllerNode& controller) noexcept override;
+  void console(std::string_view text) noexcept override { console_.write(text); }
+  void wire_event(core::Nanoseconds time_ns, std::string_view kind) noexcept override;
   void timing(core::Nanoseconds time_ns, core::Nanoseconds host_ns,
-              core::Nanoseconds exchange_ns) noexcept;
+              core::Nanoseconds exchange_ns) noexcept override;
 
-  void flush() noexcept;
-  // Both as of the last flush().
-  [[nodiscard]] std::uint64_t rows() const noexcept { return log_.rows(); }
-  [[nodiscard]] bool good() const noexcept;
+  void flush() noexcept override;
+  [[nodiscard]] std::uint64_t rows() const noexcept override { return log_.rows(); }
+  [[nodiscard]] bool good() const noexcept override;
 
  private:
   struct WriteLog {

@@ -1,0 +1,78 @@
+#include "emulator/faults/axis_faults.h"
+
+#include <algorithm>
+
+namespace towbench::emulator {
+namespace {
+
+// Assumed: what takes hold of a carriage is as stiff as a hard end (plant.md), and damps it well.
+constexpr double kGrip_N_per_m = 5e5;
+constexpr double kGrip_N_s_per_m = 3e3;
+// Dry friction is full above this speed and proportional below, so that it holds without chatter.
+constexpr double kDragSpeed_m_per_s = 2e-3;
+
+}  // namespace
+
+void AxisFaults::set(ScheduledEventKind kind, double value, const AxisState& state,
+                     double command_V) noexcept {
+  broken_ = true;
+  switch (kind) {
+    case ScheduledEventKind::kAmplifierOff:
+      amplifier_off_ = value != 0.0;
+      break;
+    case ScheduledEventKind::kShortBridge:
+      shorted_ = value != 0.0;
+      break;
+    case ScheduledEventKind::kHoldCommand:
+      command_held_ = value != 0.0;
+      held_V_ = command_V;
+      break;
+    case ScheduledEventKind::kScaleCommand:
+      command_gain_ = value;
+      break;
+    case ScheduledEventKind::kLimitCommand:
+      command_limit_V_ = value;
+      break;
+    case ScheduledEventKind::kJamCarriage:
+      jammed_ = value != 0.0;
+      jammed_at_m_ = state.carriage_m;
+      break;
+    case ScheduledEventKind::kDragCarriage:
+      drag_N_ = value;
+      break;
+    case ScheduledEventKind::kObstacle:
+      obstacle_side_ = value == 0.0 ? 0.0 : (value > 0.0 ? 1.0 : -1.0);
+      obstacle_at_m_ = state.carriage_m + value;
+      break;
+    case ScheduledEventKind::kDropLoad:
+      lost_mass_kg_ = value;
+      break;
+    default:
+      break;  // of another part of the machine
+  }
+}
+
+void AxisFaults::apply_command(AxisInput& input) const noexcept {
+  const double wanted_V = command_held_ ? held_V_ : command_gain_ * input.command_V;
+  input.command_V = shorted_ ? 0.0 : std::clamp(wanted_V, -command_limit_V_, command_limit_V_);
+  input.amplifier_enabled = input.amplifier_enabled && !amplifier_off_;
+}
+
+double AxisFaults::carriage_force_N(const AxisState& state,
+                                    double acceleration_m_per_s2) const noexcept {
+  const double speed = state.carriage_speed_m_per_s;
+  double force_N = -drag_N_ * std::clamp(speed / kDragSpeed_m_per_s, -1.0, 1.0);
+  if (jammed_) {
+    force_N -= kGrip_N_per_m * (state.carriage_m - jammed_at_m_) + kGrip_N_s_per_m * speed;
+  }
+  const double depth_m = obstacle_side_ * (state.carriage_m - obstacle_at_m_);
+  if (obstacle_side_ != 0.0 && depth_m > 0.0) {
+    // It pushes, never pulls.
+    const double push_N = kGrip_N_per_m * depth_m + kGrip_N_s_per_m * obstacle_side_ * speed;
+    force_N -= obstacle_side_ * std::max(0.0, push_N);
+  }
+  // m' a = F is m a = F + (m - m') a.
+  return force_N + lost_mass_kg_ * acceleration_m_per_s2;
+}
+
+}  // namespace towbench::emulator

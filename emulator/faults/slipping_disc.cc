@@ -1,0 +1,93 @@
+#include "emulator/faults/slipping_disc.h"
+
+#include <algorithm>
+
+namespace towbench::emulator {
+namespace {
+
+using protocol::EncoderLine;
+
+// Edges of a jump inside one step: together about what a disc flung by its own coupling makes.
+constexpr std::int64_t kMostTurnedPerStep = 400;
+
+[[nodiscard]] std::int64_t modulo(std::int64_t value, std::int64_t divisor) noexcept {
+  const std::int64_t rest = value % divisor;
+  return rest < 0 ? rest + divisor : rest;
+}
+
+// Levels of A and B at a count (quadrature_encoder.h): A is high at 1 and 2 mod 4, B at 2 and 3.
+[[nodiscard]] unsigned channels_at(std::int64_t count) noexcept {
+  const std::int64_t phase = modulo(count, 4);
+  return (phase == 1 || phase == 2 ? 1U : 0U) | (phase >= 2 ? 2U : 0U);
+}
+
+}  // namespace
+
+void SlippingDisc::come_loose(std::int64_t shaft_count) noexcept {
+  if (!loose_) {
+    loose_ = true;
+    shaft_ = shaft_count;
+    disc_ = shaft_count;
+  }
+}
+
+void SlippingDisc::slip(std::int64_t counts, std::int64_t shaft_count) noexcept {
+  come_loose(shaft_count);
+  to_slip_ = counts;
+}
+
+void SlippingDisc::turn(std::int64_t counts, std::int64_t shaft_count) noexcept {
+  come_loose(shaft_count);
+  to_turn_ = counts;
+}
+
+bool SlippingDisc::at_index() const noexcept {
+  return modulo(disc_, counts_per_turn_) == modulo(index_count_, counts_per_turn_);
+}
+
+protocol::EncoderLevels SlippingDisc::levels() const noexcept {
+  return static_cast<protocol::EncoderLevels>(channels_at(disc_) | (at_index() ? 4U : 0U));
+}
+
+void SlippingDisc::count(std::int64_t change, std::uint32_t time_ns, StepEdges& edges) noexcept {
+  const protocol::EncoderLevels before = levels();
+  disc_ += change;
+  const unsigned changed = static_cast<unsigned>(before) ^ levels();
+  for (unsigned line = 0; line < 3; ++line) {
+    if (((changed >> line) & 1U) != 0 && edges.room() > 0) {
+      edges.push_back({time_ns, static_cast<EncoderLine>(line)});
+    }
+  }
+}
+
+protocol::EncoderLevels SlippingDisc::follow(StepEdges& edges) noexcept {
+  made_ = edges;
+  edges.clear();
+  // A jump comes first, its edges a whole number of nanoseconds apart at the start of the step.
+  const std::int64_t turned = std::clamp(to_turn_, -kMostTurnedPerStep, kMostTurnedPerStep);
+  const std::int64_t size = turned < 0 ? -turned : turned;
+  for (std::int64_t i = 0; i < size; ++i) {
+    count(turned < 0 ? -1 : 1, static_cast<std::uint32_t>(i), edges);
+  }
+  to_turn_ -= turned;
+  surplus_edges_ += size;
+  for (const TimedEdge edge : made_.view()) {
+    if (edge.line() == EncoderLine::kIndex) {
+      continue;  // the disc's own comes where the disc's count is
+    }
+    // Upwards A toggles on entering odd counts, downwards on leaving them.
+    const bool enters_odd = edge.line() == EncoderLine::kA;
+    const bool is_odd = (shaft_ & 1) != 0;
+    const std::int64_t change = enters_odd != is_odd ? 1 : -1;
+    shaft_ += change;
+    if (to_slip_ > 0) {
+      --to_slip_;
+      --surplus_edges_;
+      continue;
+    }
+    count(change, static_cast<std::uint32_t>(edge.time_ns()), edges);
+  }
+  return levels();
+}
+
+}  // namespace towbench::emulator

@@ -1,0 +1,63 @@
+// A campaign: faults x phases of motion x seeds on a set of motions, as its fixture says.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/experiment/experiment_fixture.h"
+#include "harness/faults/fault_case.h"
+#include "harness/faults/motion_phases.h"
+
+namespace towbench::harness {
+
+// One [[inject]] of the fixture: every kind at every place, at every moment named.
+struct CampaignEntry {
+  std::vector<std::string> parts;
+  std::vector<std::string> kinds;
+  std::vector<std::string> motions;  // names; empty: all
+  std::vector<std::string> phases;   // a random moment of each that the motion has
+  std::string event;                 // instead of phases
+  std::string words;                 // what is added: duration, parameters
+  std::uint64_t seeds = 0;           // 0: as the campaign
+};
+
+// A motion on which faults are tried: an experiment without its expectations, and its twin.
+struct CampaignMotion {
+  ExperimentFixture plain;
+  std::unique_ptr<CaseRecord> twin;
+};
+
+struct Campaign {
+  std::string name;
+  std::string title;
+  std::uint64_t seeds = 1;
+  std::vector<CampaignEntry> entries;
+  std::vector<CampaignMotion> motions;  // twins have been run
+  std::vector<std::string> incapable;   // "part kind: why", for each kind refused
+
+  [[nodiscard]] const CampaignMotion& motion(const std::string& name) const;
+};
+
+// One case, complete in words: `run MOTION --fault "WORDS"` repeats it.
+struct CampaignCase {
+  std::string id;  // motion/part.kind/moment/seed
+  std::string motion;
+  std::string part;
+  std::string kind;
+  std::string moment;  // phase or event; "built" for what is so from the start
+  std::string words;
+};
+
+// Throws FixtureError. `seeds` instead of the fixture's own when it is not 0.
+[[nodiscard]] Campaign load_campaign(const std::filesystem::path& path, std::uint64_t seeds);
+// The same list in the same order, on every machine.
+[[nodiscard]] std::vector<CampaignCase> cases_of(const Campaign& campaign);
+// One line of JSON without its end.
+[[nodiscard]] std::string run_campaign_case(const Campaign& campaign, const CampaignCase& one);
+// What stands for a case whose process died in it.
+[[nodiscard]] std::string crashed_case(const CampaignCase& one, const std::string& how);
+
+}  // namespace towbench::harness

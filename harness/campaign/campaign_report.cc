@@ -1,0 +1,210 @@
+#include "harness/campaign/campaign_report.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace towbench::harness {
+namespace {
+
+using nlohmann::json;
+using Results = std::vector<json>;
+
+void count(CampaignSummary& into, const json& line) {
+  ++into.cases;
+  into.fired += line.value("fired", false) ? 1U : 0U;
+  into.detected += line.value("detected", false) ? 1U : 0U;
+  into.handled += line.value("handled", false) ? 1U : 0U;
+  into.failed += line.value("verdict", "") == "FAIL" ? 1U : 0U;
+  into.invalid += line.value("verdict", "") == "INVALID" ? 1U : 0U;
+}
+
+std::string row_of(const std::string& name, const CampaignSummary& sum) {
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", name, sum.cases, sum.fired,
+                     sum.detected, sum.handled, sum.failed, sum.invalid);
+}
+
+std::string matrix(const Results& results, const char* first, const char* second) {
+  std::map<std::string, CampaignSummary> rows;
+  for (const auto& line : results) {
+    auto name = line.value(first, "");
+    name += second == nullptr ? "" : ' ' + line.value(second, "");
+    count(rows[name], line);
+  }
+  std::string text =
+      "| | injected | fired | detected | handled | failed | invalid |\n"
+      "| --- | ---: | ---: | ---: | ---: | ---: | ---: |\n";
+  for (const auto& [name, sum] : rows) {
+    text += row_of(name, sum);
+  }
+  return text + row_of("**all**", summary_of(results));
+}
+
+struct Figure {
+  const char* key;
+  const char* meaning;
+  const char* unit;
+  double scale;
+};
+constexpr std::array<Figure, 8> kFigures{{
+    {"kill_to_zero_duty_s", "kill switch's edge to zero duty", "ms", 1e3},
+    {"end_stop_to_reaction_s", "end-stop's edge to the reaction", "ms", 1e3},
+    {"to_fault_s", "cause to latched fault", "ms", 1e3},
+    {"to_zero_drive_s", "cause to zero drive", "ms", 1e3},
+    {"to_zero_drive_m", "cause to zero drive", "mm", 1e3},
+    {"to_standstill_s", "cause to standstill", "ms", 1e3},
+    {"to_standstill_m", "cause to standstill", "mm", 1e3},
+    {"contact_speed_m_per_s", "speed at a hard end", "mm/s", 1e3},
+}};
+
+std::string figures(const Results& results) {
+  std::string text =
+      "| figure | cases | median | 90 % | 99 % | worst | case |\n"
+      "| --- | ---: | ---: | ---: | ---: | ---: | --- |\n";
+  for (const auto& figure : kFigures) {
+    std::vector<std::pair<double, std::string>> values;
+    for (const auto& line : results) {
+      if (line.contains(figure.key)) {
+        values.emplace_back(figure.scale * line.at(figure.key).get<double>(),
+                            line.value("case", ""));
+      }
+    }
+    if (values.empty()) {
+      continue;
+    }
+    std::sort(values.begin(), values.end());
+    const auto quantile = [&](double share) {
+      const auto last = static_cast<double>(values.size() - 1);
+      return values[static_cast<std::size_t>(share * last + 0.5)].first;
+    };
+    text += fmt::format("| {} | {} | {:.3g} {} | {:.3g} | {:.3g} | {:.4g} | `{}` |\n",
+                        figure.meaning, values.size(), quantile(0.5), figure.unit, quantile(0.9),
+                        quantile(0.99), values.back().first, values.back().second);
+  }
+  return text;
+}
+
+std::string rules(const Results& results) {
+  std::map<std::string, std::pair<std::size_t, std::size_t>> judged;  // applied, broken
+  for (const auto& line : results) {
+    for (const auto& rule : line.value("rules", json::array())) {
+      ++judged[rule.get<std::string>()].first;
+    }
+    for (const auto& broken : line.value("broken", json::array())) {
+      ++judged[broken.value("rule", "")].second;
+    }
+  }
+  std::string text = "| requirement | judged in | broken in |\n| --- | ---: | ---: |\n";
+  for (const auto& [name, counts] : judged) {
+    text += fmt::format("| {} | {} | {} |\n", name, counts.first, counts.second);
+  }
+  return text;
+}
+
+std::string complaints(const Results& results, const std::string& verdict) {
+  constexpr std::size_t kMost = 40;
+  std::string text;
+  std::size_t told = 0;
+  for (const auto& line : results) {
+    if (line.value("verdict", "") != verdict || ++told > kMost) {
+      continue;
+    }
+    text += fmt::format("- `{}`: ", line.value("case", ""));
+    for (const auto& broken : line.value("broken", json::array())) {
+      text += fmt::format("{}: {}; ", broken.value("rule", ""), broken.value("reason", ""));
+    }
+    text += fmt::format("again: `./towbench run fixtures/motions/{}.toml --fault \"{}\"`\n",
+                        line.value("motion", ""), line.value("fault", ""));
+  }
+  return told > kMost ? text + fmt::format("- and {} more\n", told - kMost) : text;
+}
+
+std::string remarks(const Results& results) {
+  std::map<std::string, std::size_t> counted;
+  for (const auto& line : results) {
+    for (const auto& remark : line.value("remarks", json::array())) {
+      ++counted[remark.get<std::string>()];
+    }
+  }
+  std::string text;
+  for (const auto& [remark, times] : counted) {
+    text += fmt::format("- {} x {}\n", times, remark);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<json> load_results(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  if (std::filesystem::is_directory(folder)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      const auto name = entry.path().filename().string();
+      if (name.starts_with("results") && name.ends_with(".jsonl")) {
+        files.push_back(entry.path());
+      }
+    }
+  }
+  std::sort(files.begin(), files.end());
+  std::map<std::string, json> by_case;
+  for (const auto& file : files) {
+    std::ifstream stream(file);
+    std::string text;
+    while (std::getline(stream, text)) {
+      auto line = json::parse(text, nullptr, false);
+      if (line.is_object() && line.contains("case")) {
+        by_case.try_emplace(line.at("case").get<std::string>(), std::move(line));
+      }
+    }
+  }
+  std::vector<json> results;
+  for (auto& [id, line] : by_case) {
+    results.push_back(std::move(line));
+  }
+  return results;
+}
+
+CampaignSummary summary_of(const Results& results) {
+  CampaignSummary sum;
+  for (const auto& line : results) {
+    count(sum, line);
+  }
+  return sum;
+}
+
+std::string campaign_report(const std::string& title, const Results& results,
+                            const std::vector<std::string>& incapable, std::size_t missing) {
+  const auto sum = summary_of(results);
+  auto text = fmt::format(
+      "# {}\n\n{}: {} cases, {} fired, {} detected, {} handled, {} failed, {} "
+      "invalid; {} not run yet\n\n",
+      title, name_of(sum.verdict()), sum.cases, sum.fired, sum.detected, sum.handled, sum.failed,
+      sum.invalid, missing);
+  text +=
+      "Injected: made to happen. Fired: a plant or sensor signal differs from the fault-free twin. "
+      "Detected: the controller latched a fault. Handled: every requirement that applies held; a "
+      "fault that nobody can see is handled when nothing worse follows.\n\n";
+  text += "## Faults\n\n" + matrix(results, "part", "kind");
+  text += "\n## Phases\n\n" + matrix(results, "moment", nullptr);
+  text += "\n## Motions\n\n" + matrix(results, "motion", nullptr);
+  text += "\n## Requirements\n\n" + rules(results);
+  text += "\n## Figures, and the case behind the worst\n\n" + figures(results);
+  const auto section = [&](const char* head, const std::string& body) {
+    text += body.empty() ? "" : fmt::format("\n## {}\n\n{}", head, body);
+  };
+  section("Failed", complaints(results, "FAIL"));
+  section("Took no effect", complaints(results, "INVALID"));
+  section("Passed with a remark", remarks(results));
+  std::string refused;
+  for (const auto& kind : incapable) {
+    refused += "- " + kind + "\n";
+  }
+  section("Not covered: kinds that the bench refuses", refused);
+  return text;
+}
+
+}  // namespace towbench::harness

@@ -1,0 +1,124 @@
+#include "harness/faults/case_link.h"
+
+#include <algorithm>
+
+namespace towbench::harness {
+namespace {
+
+[[nodiscard]] std::uint16_t enable_mask(core::Axis axis) noexcept {
+  return protocol::mask_of(axis == core::Axis::kY ? protocol::OutputLine::kAmplifierEnableY
+                                                  : protocol::OutputLine::kAmplifierEnableX);
+}
+
+}  // namespace
+
+CaseLink::CaseLink(PlantEnd& plant, const std::vector<LinkFault>& faults, CaseRecord& record)
+    : plant_(plant), record_(record), to_plant_(*this, faults), to_controller_(*this, faults) {
+  to_plant_.disturber.connect(plant.sink());
+  std::copy_if(faults.begin(), faults.end(), std::back_inserter(killers_),
+               [](const LinkFault& fault) { return fault.kind == FaultKind::kPeerKilled; });
+}
+
+void CaseLink::connect(protocol::MessageSink& controller) noexcept {
+  witnessed_.emplace(witness_, controller);
+  to_controller_.disturber.connect(*witnessed_);
+  plant_.connect(to_controller_);
+}
+
+bool CaseLink::plant_is_dead(core::Nanoseconds time_ns) const noexcept {
+  return std::any_of(killers_.begin(), killers_.end(),
+                     [&](const LinkFault& fault) { return time_ns >= fault.from_ns; });
+}
+
+core::Status CaseLink::wait_for(protocol::Turn expected) noexcept {
+  if (plant_is_dead(until_ns_)) {
+    return core::failure(core::ErrorCode::kPeerClosed);
+  }
+  return plant_.wait_for(expected);
+}
+
+// ---- controller to plant ----
+
+void CaseLink::ToPlant::handle(const protocol::PwmDuty& duty) noexcept {
+  const double net = static_cast<double>(duty.channel_a_ticks) - duty.channel_b_ticks;
+  link.record_.duties.push_back({.time_ns = link.now_ns_,
+                                 .axis = duty.axis,
+                                 .duty = duty.period_ticks == 0 ? 0.0 : net / duty.period_ticks,
+                                 .enable = duty.enable});
+  if (reverse && duty.axis == reverse->axis) {
+    if (taken_over()) {
+      return;
+    }
+    duty_sequence = duty.sequence;
+    period_ticks = duty.period_ticks;
+  }
+  if (!link.plant_is_dead(link.now_ns_)) {
+    disturber.pass(duty, link.now_ns_);
+  }
+}
+
+void CaseLink::ToPlant::handle(const protocol::DigitalOutputs& outputs) noexcept {
+  if (taken_over()) {
+    return;
+  }
+  outputs_sequence = outputs.sequence;
+  disturber.pass(outputs, link.now_ns_);
+}
+
+void CaseLink::ToPlant::drive_in_reverse() noexcept {
+  link.plant_.sink().on(protocol::DigitalOutputs{.lines = enable_mask(reverse->axis),
+                                                 .change_ns = link.now_ns_,
+                                                 .sequence = ++outputs_sequence});
+  link.plant_.sink().on(
+      protocol::PwmDuty{.axis = reverse->axis,
+                        .enable = true,
+                        .channel_a_ticks = reverse->direction > 0 ? period_ticks : std::uint16_t{0},
+                        .channel_b_ticks = reverse->direction > 0 ? std::uint16_t{0} : period_ticks,
+                        .period_ticks = period_ticks,
+                        .sequence = ++duty_sequence});
+}
+
+void CaseLink::ToPlant::handle(const protocol::Advance& advance) noexcept {
+  if (taken_over()) {
+    drive_in_reverse();
+  }
+  disturber.end_turn(link.now_ns_);
+  link.until_ns_ = advance.until_ns;
+  if (!link.plant_is_dead(advance.until_ns)) {
+    link.plant_.sink().on(advance);
+  }
+  link.now_ns_ = advance.until_ns;
+}
+
+// ---- plant to controller ----
+
+void CaseLink::ToController::handle(const protocol::Advanced& advanced) noexcept {
+  disturber.end_turn(link.until_ns_);
+  link.record_.arrivals.push_back({link.until_ns_, link.witness_.digest});
+  disturber.pass(advanced, link.until_ns_);
+}
+
+void CaseLink::Witness::mix(std::uint64_t word) noexcept {
+  digest = (digest ^ word) * 0x9e3779b97f4a7c15U;
+  digest ^= digest >> 29U;
+}
+
+void CaseLink::Witness::on(const protocol::EncoderEdges& edges) noexcept {
+  mix(static_cast<std::uint64_t>(edges.start_ns));
+  mix(edges.start_levels | (static_cast<std::uint64_t>(edges.axis) << 8U));
+  for (const protocol::EncoderEdge edge : edges.edges.view()) {
+    mix(edge.packed());
+  }
+}
+
+void CaseLink::Witness::on(const protocol::DigitalInputs& inputs) noexcept {
+  mix(static_cast<std::uint64_t>(inputs.change_ns));
+  mix(inputs.lines);
+  link.record_.lines.push_back({link.until_ns_, inputs.change_ns, inputs.lines});
+}
+
+void CaseLink::Witness::on(const protocol::CurrentSample& sample) noexcept {
+  mix(static_cast<std::uint64_t>(sample.time_ns));
+}
+
+}  // namespace towbench::harness

@@ -1,0 +1,96 @@
+// Stands between controller and plant in a run that is judged for faults: notes what crosses, lets
+// the link fail, and can take the wheel to find out what braking could have done at best.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "harness/bench/plant_end.h"
+#include "harness/faults/case_record.h"
+#include "harness/faults/link_faults.h"
+#include "protocol/each_message.h"
+#include "protocol/tee_sink.h"
+
+namespace towbench::harness {
+
+// From `from_ns` on the axis is driven with full duty in `direction`, whatever the controller says.
+struct FullReverse {
+  core::Axis axis = core::Axis::kY;
+  core::Nanoseconds from_ns = 0;
+  int direction = -1;
+};
+
+class CaseLink final : public PlantEnd {
+ public:
+  // All outlive this.
+  CaseLink(PlantEnd& plant, const std::vector<LinkFault>& faults, CaseRecord& record);
+
+  void take_over(const FullReverse& reverse) noexcept { to_plant_.reverse = reverse; }
+
+  [[nodiscard]] protocol::MessageSink& sink() noexcept override { return to_plant_; }
+  void connect(protocol::MessageSink& controller) noexcept override;
+  [[nodiscard]] core::Status wait_for(protocol::Turn expected) noexcept override;
+
+ private:
+  struct ToPlant final : protocol::EachMessage<ToPlant> {
+    ToPlant(CaseLink& owner, const std::vector<LinkFault>& faults)
+        : link(owner), disturber(faults, true) {}
+    template <typename Message>
+    void handle(const Message& message) noexcept {
+      disturber.pass(message, link.now_ns_);
+    }
+    void handle(const protocol::PwmDuty& duty) noexcept;
+    void handle(const protocol::DigitalOutputs& outputs) noexcept;
+    void handle(const protocol::Advance& advance) noexcept;
+    void drive_in_reverse() noexcept;
+    [[nodiscard]] bool taken_over() const noexcept {
+      return reverse && link.now_ns_ >= reverse->from_ns;
+    }
+
+    CaseLink& link;
+    LinkDisturber disturber;
+    std::optional<FullReverse> reverse{};
+    std::uint32_t duty_sequence = 0;  // of the axis that may be taken over
+    std::uint32_t outputs_sequence = 0;
+    std::uint16_t period_ticks = 1000;
+  };
+  struct ToController final : protocol::EachMessage<ToController> {
+    ToController(CaseLink& owner, const std::vector<LinkFault>& faults)
+        : link(owner), disturber(faults, false) {}
+    template <typename Message>
+    void handle(const Message& message) noexcept {
+      disturber.pass(message, link.until_ns_);
+    }
+    void handle(const protocol::Advanced& advanced) noexcept;
+
+    CaseLink& link;
+    LinkDisturber disturber;
+  };
+  // Behind the faults: what really arrives.
+  struct Witness final : protocol::MessageSink {
+    explicit Witness(CaseLink& owner) : link(owner) {}
+    using MessageSink::on;
+    void on(const protocol::EncoderEdges& edges) noexcept override;
+    void on(const protocol::DigitalInputs& inputs) noexcept override;
+    void on(const protocol::CurrentSample& sample) noexcept override;
+    void mix(std::uint64_t word) noexcept;
+
+    CaseLink& link;
+    std::uint64_t digest = 0;
+  };
+
+  [[nodiscard]] bool plant_is_dead(core::Nanoseconds time_ns) const noexcept;
+
+  PlantEnd& plant_;
+  CaseRecord& record_;
+  std::vector<LinkFault> killers_;
+  ToPlant to_plant_;
+  ToController to_controller_;
+  Witness witness_{*this};
+  std::optional<protocol::TeeSink> witnessed_;
+  core::Nanoseconds now_ns_ = 0;    // what the controller acts at
+  core::Nanoseconds until_ns_ = 0;  // what the plant runs to
+};
+
+}  // namespace towbench::harness

@@ -1,0 +1,116 @@
+#include "harness/faults/case_record.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace towbench::harness {
+namespace {
+
+using emulator::AxisTruth;
+using emulator::TruthRow;
+
+// Bit for bit; padding does not count.
+bool same(const AxisTruth& a, const AxisTruth& b) noexcept {
+  const auto equal = [](double x, double y) { return std::memcmp(&x, &y, sizeof x) == 0; };
+  return equal(a.motor_angle_rad, b.motor_angle_rad) &&
+         equal(a.motor_speed_rad_per_s, b.motor_speed_rad_per_s) &&
+         equal(a.carriage_m, b.carriage_m) &&
+         equal(a.carriage_speed_m_per_s, b.carriage_speed_m_per_s) &&
+         equal(a.current_A, b.current_A) && equal(a.command_V, b.command_V) &&
+         a.edges_total == b.edges_total;
+}
+
+bool same(const TruthRow& a, const TruthRow& b) noexcept {
+  return a.time_ns == b.time_ns && a.input_lines == b.input_lines &&
+         same(a.axes[core::Axis::kY], b.axes[core::Axis::kY]) &&
+         same(a.axes[core::Axis::kX], b.axes[core::Axis::kX]);
+}
+
+bool same(const Arrivals& a, const Arrivals& b) noexcept {
+  return a.time_ns == b.time_ns && a.digest == b.digest;
+}
+
+template <typename Row>
+core::Nanoseconds first_difference(const std::vector<Row>& a, const std::vector<Row>& b) noexcept {
+  const std::size_t common = std::min(a.size(), b.size());
+  for (std::size_t i = 0; i < common; ++i) {
+    if (!same(a[i], b[i])) {
+      return std::min(a[i].time_ns, b[i].time_ns);
+    }
+  }
+  if (a.size() == b.size()) {
+    return -1;
+  }
+  // One run ended earlier.
+  return common == 0 ? 0 : a[common - 1].time_ns;
+}
+
+}  // namespace
+
+void CaseRecord::drain(bbmc::ControllerNode& controller) noexcept {
+  bbmc::TelemetryRow row;
+  while (controller.next_row(row)) {
+    log.push_back(row);
+  }
+  bbmc::ControllerEvent event;
+  while (controller.next_event(event)) {
+    controller_events.push_back(event);
+  }
+}
+
+void CaseRecord::console(std::string_view text) noexcept {
+  if (!text.empty()) {
+    printed.push_back({now_ns_, std::string(text)});
+  }
+}
+
+void CaseRecord::on_event(const emulator::PlantEvent& event) noexcept {
+  if (event.kind != emulator::PlantEventKind::kScheduledEventFired &&
+      event.kind != emulator::PlantEventKind::kIndexPulse) {
+    plant_events.push_back(event);
+  }
+}
+
+const bbmc::ControllerEvent* CaseRecord::first_fault() const noexcept {
+  const auto found = std::find_if(
+      controller_events.begin(), controller_events.end(),
+      [](const auto& event) { return event.kind == bbmc::ControllerEvent::Kind::kFaultLatched; });
+  return found == controller_events.end() ? nullptr : &*found;
+}
+
+const TruthRow& CaseRecord::truth_at(core::Nanoseconds time_ns) const noexcept {
+  const auto after = std::upper_bound(
+      truth.begin(), truth.end(), time_ns,
+      [](core::Nanoseconds time, const TruthRow& row) { return time < row.time_ns; });
+  return after == truth.begin() ? truth.front() : *(after - 1);
+}
+
+bool CaseRecord::driven_at(core::Nanoseconds time_ns) const noexcept {
+  core::PerAxis<bool> driven{};
+  for (const auto& duty : duties) {
+    if (duty.time_ns > time_ns) {
+      break;
+    }
+    driven[duty.axis] = duty.drives();
+  }
+  return driven[core::Axis::kY] || driven[core::Axis::kX];
+}
+
+std::string CaseRecord::all_printed() const {
+  std::string text;
+  for (const auto& part : printed) {
+    text += part.text;
+  }
+  return text;
+}
+
+core::Nanoseconds first_difference_ns(const CaseRecord& a, const CaseRecord& b) {
+  const auto plant_ns = first_difference(a.truth, b.truth);
+  const auto sensor_ns = first_difference(a.arrivals, b.arrivals);
+  if (plant_ns < 0 || sensor_ns < 0) {
+    return std::max(plant_ns, sensor_ns);
+  }
+  return std::min(plant_ns, sensor_ns);
+}
+
+}  // namespace towbench::harness

@@ -1,0 +1,40 @@
+#include "harness/faults/case_run.h"
+
+#include <algorithm>
+
+#include "harness/bench/in_process_plant.h"
+#include "harness/bench/script_loop.h"
+
+namespace towbench::harness {
+
+ExperimentFixture without_expectations(const ExperimentFixture& fixture) {
+  ExperimentFixture plain = fixture;
+  for (auto& step : plain.experiment.console) {
+    step.expect.clear();
+  }
+  return plain;
+}
+
+std::unique_ptr<CaseRecord> run_case(const ExperimentFixture& fixture,
+                                     const emulator::RigParameters& built,
+                                     const Injection& injection, const CaseOptions& options) {
+  auto record = std::make_unique<CaseRecord>();
+  Experiment experiment = fixture.experiment;
+  experiment.duration_limit_s = options.until_s.value_or(experiment.duration_limit_s);
+  auto events = experiment.events;
+  events.insert(events.end(), injection.events.begin(), injection.events.end());
+  std::stable_sort(events.begin(), events.end(),
+                   [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; });
+  InProcessPlant plant(built, options.seed, events, *record);
+  CaseLink link(plant, injection.link, *record);
+  if (options.reverse) {
+    link.take_over(*options.reverse);
+  }
+  LockstepBench bench(fixture.controller.configuration, fixture.rig.hash, link, record.get());
+  bench.run_on(injection.host);
+  record->outcome = play(experiment, bench, *record, {});
+  record->outcome.control_period_ns = fixture.controller.configuration.control_period_ns();
+  return record;
+}
+
+}  // namespace towbench::harness

@@ -1,0 +1,139 @@
+// No contact with a hard end that a physically possible reaction could have prevented.
+//
+// The bound is found by doing it: the same case, fault and all, on the same elastic axis, but from
+// the moment at which the controller could have reacted the drive is turned to full reverse until
+// the carriage stands. For two bodies on a spring and damper the carriage answers an impulse on the
+// motor with a displacement that is never negative, (t - sin(w t)/w) / m without damping, so that
+// no other sequence of torques stops the carriage shorter. If it touches even so, nobody could have
+// prevented it.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "harness/faults/case_run.h"
+#include "harness/faults/requirements.h"
+
+namespace towbench::harness {
+namespace {
+
+using core::Axis;
+using core::Nanoseconds;
+
+constexpr Nanoseconds kReaction_ns = 2 * core::kNanosecondsPerMillisecond;
+constexpr Nanoseconds kDetection_ns = 50 * core::kNanosecondsPerMillisecond;
+constexpr Nanoseconds kNever = std::numeric_limits<Nanoseconds>::max();
+
+struct Contact {
+  Axis axis = Axis::kY;
+  Nanoseconds time_ns = 0;
+  double speed_m_per_s = 0;
+  int side = 1;  // +1: max end
+};
+
+const Contact* first_contact(const CaseEvidence& evidence, Contact& contact) {
+  for (const auto& event : evidence.run.plant_events) {
+    if (event.kind != emulator::PlantEventKind::kHardEndContact) {
+      continue;
+    }
+    const auto& ends = evidence.prepared.built.axes[event.axis].plant.hard_ends;
+    const double carriage_m = evidence.run.truth_at(event.time_ns).axes[event.axis].carriage_m;
+    contact = {.axis = event.axis,
+               .time_ns = event.time_ns,
+               .speed_m_per_s = std::fabs(event.value),
+               .side = carriage_m > 0.5 * (ends.min_m + ends.max_m) ? 1 : -1};
+    return &contact;
+  }
+  return nullptr;
+}
+
+// When the controller was in a position to know that the axis had to stop: a switch of that axis
+// told it, it latched a fault itself, a lying encoder had to be found, or its own (true) position
+// said so. Never: nothing could have told.
+Nanoseconds could_know_ns(const CaseEvidence& evidence, const Contact& contact) {
+  const auto& run = evidence.run;
+  Nanoseconds known_ns = kNever;
+  const unsigned halls = contact.axis == Axis::kY ? 0x3U : 0xCU;
+  for (const auto& arrival : run.lines) {
+    if ((arrival.lines & halls) != 0) {
+      known_ns = std::min(known_ns, served_ns(evidence, arrival.served_ns));
+      break;
+    }
+  }
+  if (const auto* fault = run.first_fault()) {
+    known_ns = std::min(known_ns, fault->time_ns);
+  }
+  const auto& plan = evidence.prepared.plan;
+  const bool encoder_lies = std::any_of(plan.begin(), plan.end(), [](const Fault& fault) {
+    return fault.place.part == FaultPart::kEncoder && fault.row().duty == FaultDuty::kStop;
+  });
+  return encoder_lies ? std::min(known_ns, evidence.cause_ns + kDetection_ns) : known_ns;
+}
+
+// A kill takes braking away with everything else, whatever else is latched.
+bool killed_before(const CaseEvidence& evidence, const Contact& contact) {
+  constexpr auto kKill = protocol::mask_of(protocol::InputLine::kKillSwitch);
+  const auto& lines = evidence.run.lines;
+  return std::any_of(lines.begin(), lines.end(), [&](const LineArrival& arrival) {
+    return (arrival.lines & kKill) != 0 && arrival.served_ns < contact.time_ns;
+  });
+}
+
+bool touches_even_so(const CaseEvidence& evidence, const Contact& contact, Nanoseconds reverse_ns) {
+  constexpr double kLongEnough_s = 0.5;
+  const auto best = run_case(evidence.fixture, evidence.prepared.built, evidence.prepared.injection,
+                             {.seed = evidence.seed,
+                              .reverse = FullReverse{contact.axis, reverse_ns, -contact.side},
+                              .until_s = core::seconds(reverse_ns) + kLongEnough_s});
+  Nanoseconds turned_ns = kNever;
+  for (const auto& row : best->truth) {
+    if (row.time_ns > reverse_ns &&
+        contact.side * row.axes[contact.axis].carriage_speed_m_per_s <= 0) {
+      turned_ns = row.time_ns;
+      break;
+    }
+  }
+  return std::any_of(best->plant_events.begin(), best->plant_events.end(), [&](const auto& event) {
+    return event.kind == emulator::PlantEventKind::kHardEndContact && event.axis == contact.axis &&
+           event.time_ns <= turned_ns;
+  });
+}
+
+}  // namespace
+
+Check no_preventable_contact(const CaseEvidence& evidence) {
+  constexpr auto kName = "no_preventable_contact";
+  constexpr auto kMeaning =
+      "no contact with a hard end that a physically possible reaction could have prevented";
+  Contact contact;
+  if (first_contact(evidence, contact) == nullptr) {
+    return passed(kName, kMeaning);
+  }
+  auto unavoidable = passed(kName, kMeaning);
+  unavoidable.value = contact.speed_m_per_s;
+  unavoidable.unit = "m/s";
+  if (killed_before(evidence, contact)) {
+    unavoidable.reason = "unavoidable: a kill takes the drive away, braking included";
+    return unavoidable;
+  }
+  const auto known_ns = could_know_ns(evidence, contact);
+  if (known_ns == kNever || known_ns + kReaction_ns >= contact.time_ns) {
+    unavoidable.reason = "unavoidable: nothing told the controller in time";
+    return unavoidable;
+  }
+  if (touches_even_so(evidence, contact, known_ns + kReaction_ns)) {
+    unavoidable.reason = "unavoidable: full reverse from the first evidence on touches too";
+    return unavoidable;
+  }
+  auto check = failed(kName, kMeaning,
+                      fmt::format("{} touched at {:.4f} s with {:.3f} m/s; full reverse from "
+                                  "{:.4f} s on would have prevented it",
+                                  core::name_of(contact.axis), core::seconds(contact.time_ns),
+                                  contact.speed_m_per_s, core::seconds(known_ns + kReaction_ns)));
+  check.value = contact.speed_m_per_s;
+  check.unit = "m/s";
+  return check;
+}
+
+}  // namespace towbench::harness

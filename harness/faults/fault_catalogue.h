@@ -1,0 +1,129 @@
+// Every kind of fault there is, as one table: where it may sit, what it means, its parameters, and
+// whether this bench can make it happen. What it cannot do is in the table too, with the reason.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace towbench::harness {
+
+enum class FaultPart : std::uint8_t {
+  kEndStop,
+  kKillSwitch,
+  kEncoder,
+  kAmplifier,
+  kSupply,
+  kDriveTrain,
+  kLink,
+  kHost,
+};
+
+enum class FaultKind : std::uint8_t {
+  // end-stop
+  kStuckOpen,
+  kStuckClosed,
+  kBounce,
+  kLate,
+  kMissing,
+  kSwappedEnds,
+  kSwappedAxes,
+  kDisplaced,
+  kLatching,
+  kBrokenWire,
+  // kill switch (bounce and broken wire as above)
+  kPressed,
+  kWelded,
+  kReleased,
+  // encoder
+  kDeadA,
+  kDeadB,
+  kIndexMissing,
+  kExtraEdges,
+  kMissingEdges,
+  kIllegalTransitions,
+  kSwappedChannels,
+  kInverted,
+  kFrozen,
+  kJump,
+  kSlip,
+  kNoiseBurst,
+  kPhase,
+  // amplifier (inverted as above)
+  kDisabled,
+  kStuckDuty,
+  kSaturatedEarly,
+  kGainDrop,
+  kOverTemperature,
+  kBothChannels,
+  // supply
+  kOverCurrent,
+  kSag,
+  // drive train
+  kChainSkip,
+  kBacklash,
+  kJam,
+  kDroppedLoad,
+  kBrakeDrag,
+  kObstacle,
+  // link
+  kLoss,
+  kDelay,
+  kJitter,
+  kDuplicate,
+  kReorder,
+  kCorruptByte,
+  kBaudMismatch,
+  kBusOff,
+  kPeerRestart,
+  kPeerKilled,
+  kFlood,
+  // host
+  kLateTick,
+  kMissedTicks,
+  kClockStep,
+  kStoppedProcess,
+  kFullDisk,
+  kKilledWhileLogging,
+};
+
+struct FaultParameter {
+  std::string_view key;  // with its unit, as in a fixture; empty: there is none
+  double standard = 0;
+  double min = 0;
+  double max = 0;
+};
+
+// When a fault may begin.
+enum class FaultStart : std::uint8_t {
+  kAnyTime,
+  kWholeRun,  // as built: no trigger, no duration
+};
+
+// What a controller can be asked to do about it. The judge's rules are in requirements.h.
+enum class FaultDuty : std::uint8_t {
+  kStop,     // must latch a fault once the fault has shown where the controller can see it
+  kNoTrip,   // must go on
+  kNothing,  // may do either; the rules for every run hold
+};
+
+struct FaultRow {
+  FaultPart part = FaultPart::kHost;
+  FaultKind kind = FaultKind::kLateTick;
+  std::string_view name;
+  std::string_view meaning;
+  FaultStart start = FaultStart::kAnyTime;
+  FaultDuty duty = FaultDuty::kNothing;
+  std::string_view refused;  // why this bench cannot do it; empty: it can
+  std::array<FaultParameter, 3> parameters{};
+};
+
+[[nodiscard]] std::span<const FaultRow> fault_catalogue() noexcept;
+// Null when the part has no kind of that name.
+[[nodiscard]] const FaultRow* find_fault(FaultPart part, std::string_view kind) noexcept;
+// The row must exist.
+[[nodiscard]] const FaultRow& row_of(FaultPart part, FaultKind kind) noexcept;
+[[nodiscard]] std::string_view name_of(FaultPart part) noexcept;
+
+}  // namespace towbench::harness

@@ -1,0 +1,44 @@
+// An experiment with faults on its way to a run folder: what they become is added to its events and
+// its machine, and the requirements are judged beside its budgets.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/experiment/experiment_fixture.h"
+#include "harness/faults/fault_case.h"
+#include "harness/judge/judge.h"
+
+namespace towbench::harness {
+
+// Adds faults that the experiment's file does not hold, and notes them in its text as [[fault]]
+// tables, so that the run folder's copy holds them. Its budgets, which speak of the sound machine,
+// do not apply any more.
+void add_faults(ExperimentFixture& fixture, const FaultPlan& plan);
+
+class FaultedExperiment {
+ public:
+  // Runs the twin and finds when everything begins. Throws FixtureError.
+  FaultedExperiment(const ExperimentFixture& fixture, std::uint64_t seed);
+
+  // What is to be run: without expectations, with the faults' events, on the machine as built.
+  [[nodiscard]] const ExperimentFixture& fixture() const noexcept { return faulted_; }
+  [[nodiscard]] const Injection& injection() const noexcept { return prepared_.injection; }
+  // A plant that is killed ends the run as it should.
+  [[nodiscard]] bool kills_plant() const noexcept;
+
+  // Judges the same run in memory, and that the folder holds that run.
+  void judge_into(const std::filesystem::path& folder, Judgement& judgement) const;
+
+ private:
+  ExperimentFixture plain_;
+  ExperimentFixture faulted_;
+  std::uint64_t seed_;
+  std::unique_ptr<CaseRecord> twin_;
+  PreparedPlan prepared_;
+};
+
+}  // namespace towbench::harness

@@ -1,0 +1,120 @@
+#include "harness/faults/link_faults.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "protocol/frame.h"
+
+namespace towbench::harness {
+
+LinkDisturber::LinkDisturber(const std::vector<LinkFault>& faults, bool to_plant) {
+  for (const auto& fault : faults) {
+    if (fault.to_plant == to_plant) {
+      faults_.push_back({.fault = fault, .random = core::Random(fault.seed)});
+    }
+  }
+}
+
+void LinkDisturber::arrive(const LinkMessage& message) {
+  std::visit([&](const auto& each) { to_->on(each); }, message);
+}
+
+void LinkDisturber::carry(const LinkMessage& message, core::Nanoseconds now_ns) {
+  carry_from(0, message, now_ns);
+}
+
+void LinkDisturber::carry_from(std::size_t index, const LinkMessage& message,
+                               core::Nanoseconds now_ns) {
+  for (; index < faults_.size(); ++index) {
+    Acting& acting = faults_[index];
+    const LinkFault& fault = acting.fault;
+    const bool held_back = fault.kind == FaultKind::kReorder && acting.held.has_value();
+    if (!fault.acts_at(now_ns) && !held_back) {
+      continue;
+    }
+    switch (fault.kind) {
+      case FaultKind::kLoss:
+        if (acting.random.uniform() < fault.amount) {
+          return;
+        }
+        break;
+      case FaultKind::kDuplicate:
+        if (acting.random.uniform() < fault.amount) {
+          carry_from(index + 1, message, now_ns);
+        }
+        break;
+      case FaultKind::kCorruptByte:
+        if (acting.random.uniform() < fault.amount) {
+          corrupt(acting, message);
+          return;
+        }
+        break;
+      case FaultKind::kReorder:
+        reorder(index, message, now_ns);
+        return;
+      case FaultKind::kDelay:
+      case FaultKind::kJitter: {
+        const double share = fault.kind == FaultKind::kJitter ? acting.random.uniform() : 1.0;
+        acting.last_due_ns =
+            std::max(acting.last_due_ns, now_ns + core::nanoseconds(share * fault.amount));
+        waiting_.push_back({acting.last_due_ns, message});
+        return;
+      }
+      default:
+        break;
+    }
+  }
+  // Behind what still waits: a link that only delays keeps the order.
+  if (waiting_.empty()) {
+    arrive(message);
+  } else {
+    waiting_.push_back({now_ns, message});
+  }
+}
+
+void LinkDisturber::reorder(std::size_t index, const LinkMessage& message,
+                            core::Nanoseconds now_ns) {
+  Acting& acting = faults_[index];
+  if (acting.held && acting.held->index() == message.index()) {
+    const LinkMessage late = *acting.held;
+    acting.held.reset();
+    carry_from(index + 1, message, now_ns);
+    carry_from(index + 1, late, now_ns);
+    return;
+  }
+  if (!acting.held && acting.random.uniform() < acting.fault.amount) {
+    acting.held = message;
+    return;
+  }
+  carry_from(index + 1, message, now_ns);
+}
+
+void LinkDisturber::corrupt(Acting& acting, const LinkMessage& message) {
+  std::array<std::byte, protocol::LengthFraming::kMaxFrameSize> frame{};
+  const std::size_t size = std::visit(
+      [&](const auto& each) { return protocol::LengthFraming::append(each, frame); }, message);
+  const auto bit =
+      static_cast<std::size_t>(acting.random.bits() % (8 * std::max<std::size_t>(size, 1)));
+  frame[bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
+  // On the heap: a reader holds two frames.
+  const auto reader = std::make_unique<protocol::FrameReader>();
+  reader->feed(std::span(frame).first(size), *to_);
+  reader->finish(*to_);
+}
+
+void LinkDisturber::end_turn(core::Nanoseconds now_ns) {
+  while (!waiting_.empty() && waiting_.front().due_ns <= now_ns) {
+    arrive(waiting_.front().message);
+    waiting_.pop_front();
+  }
+  for (const auto& acting : faults_) {
+    if (acting.fault.kind == FaultKind::kFlood && acting.fault.acts_at(now_ns)) {
+      for (double sent = 0; sent < acting.fault.amount; ++sent) {
+        to_->on(protocol::CurrentSample{.time_ns = now_ns});
+      }
+    }
+  }
+}
+
+}  // namespace towbench::harness
