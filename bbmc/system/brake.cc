@@ -11,6 +11,12 @@ namespace {
 // The chain can throw the light motor faster than the carriage ever was, but not twice as fast.
 constexpr double kRunawayRatio = 2.0;
 constexpr double kRunawaySlack_count_per_s = 40'000;
+// A brake that works has halved the speed in three times the time that a rigid axis takes to stand,
+// and a swing of the chain.
+constexpr double kSlowingRatio = 3.0;
+constexpr double kSwing_s = 0.15;
+constexpr double kSlowedRatio = 0.5;
+constexpr double kSlowedSlack_count_per_s = 10'000;
 
 }  // namespace
 
@@ -24,6 +30,9 @@ void Brake::begin(core::Nanoseconds now_ns, double speed_count_per_s, bool coast
   begun_ns_ = now_ns;
   moved_ns_ = now_ns;
   start_speed_count_per_s_ = std::fabs(speed_count_per_s);
+  const double stands_s =
+      start_speed_count_per_s_ * rad_per_count_ * settings_.inertia_kg_m2 / limit_Nm_;
+  must_have_slowed_ns_ = now_ns + core::nanoseconds(kSlowingRatio * stands_s + kSwing_s);
   torque_Nm_ = 0;
   coasting_ = coasting;
 }
@@ -39,6 +48,9 @@ BrakeState Brake::update(core::Nanoseconds now_ns, double speed_count_per_s) noe
   } else if (now_ns - begun_ns_ >= core::nanoseconds(settings_.timeout_s)) {
     state = BrakeState::kTimedOut;
   } else if (speed > kRunawayRatio * start_speed_count_per_s_ + kRunawaySlack_count_per_s) {
+    state = BrakeState::kRanAway;
+  } else if (!coasting_ && now_ns > must_have_slowed_ns_ &&
+             speed > kSlowedRatio * start_speed_count_per_s_ + kSlowedSlack_count_per_s) {
     state = BrakeState::kRanAway;
   }
   const double wanted = -settings_.speed_gain_Nm_s_per_rad * speed_count_per_s * rad_per_count_;

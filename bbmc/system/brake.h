@@ -7,7 +7,8 @@
 // takes the carriage's swing out instead of letting it run on. Standstill counts only when it
 // lasts, because the motor passes through zero while the carriage still swings.
 //
-// An encoder that lies makes this law push: when the speed grows well beyond what it was, the drive
+// An encoder that lies, or an amplifier that inverts or does not follow, makes this law push: when
+// the speed grows well beyond what it was, or has not fallen long after it should have, the drive
 // is given up.
 #pragma once
 
@@ -40,6 +41,7 @@ class Brake {
   core::Nanoseconds begun_ns_ = 0;
   core::Nanoseconds moved_ns_ = 0;  // last time above standstill
   double start_speed_count_per_s_ = 0;
+  core::Nanoseconds must_have_slowed_ns_ = 0;
   double torque_Nm_ = 0;
   bool coasting_ = false;
 };

@@ -2,6 +2,7 @@
 //
 //   kill switch, link lost            no power, both axes, at once
 //   encoder, amplifier of one axis    no power there (nothing to brake with), the other brakes
+//   index of an encoder lost          both axes brake: the speed can still be believed
 //   end-stop, limit, tracking         both axes brake
 #include <cmath>
 
@@ -80,7 +81,9 @@ void MotionControl::watch_axis(Axis which, const ControlSample& sample) noexcept
     cut_all(ErrorCode::kFaultLinkLost, which);
     return;
   }
-  if (encoder != ErrorCode::kNone) {
+  if (encoder == ErrorCode::kFaultEncoderIndex) {
+    brake_all(encoder, which);  // the place is in doubt, the speed is not
+  } else if (encoder != ErrorCode::kNone) {
     cut_one(encoder, which);
     return;
   }

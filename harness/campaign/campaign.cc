@@ -98,10 +98,15 @@ class CaseList {
     Fault fault;
     fault.place = place;
     const auto spans = phases_of(*motion.twin, trigger_axis(fault, *motion.twin));
+    // The motion itself; what is tried afterwards belongs to the script.
+    const auto end_ns = onset_of({.kind = FaultTrigger::Kind::kEvent, .name = "motion_end"},
+                                 fault.place.axis, *motion.twin);
     for (const auto& phase : entry.phases) {
       std::vector<PhaseSpan> fitting;
       std::copy_if(spans.begin(), spans.end(), std::back_inserter(fitting),
-                   [&](const PhaseSpan& span) { return span.phase == phase; });
+                   [&](const PhaseSpan& span) {
+                     return span.phase == phase && (!end_ns || span.from_ns < *end_ns);
+                   });
       if (fitting.empty()) {
         continue;  // this motion has no such phase
       }

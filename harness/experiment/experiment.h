@@ -52,7 +52,7 @@ struct Experiment {
   std::vector<ConsoleStep> console;
   std::vector<emulator::ScheduledEvent> events;  // sorted by time
   FaultPlan faults;
-  std::vector<EvaluationWindow> windows;         // the first is "whole"
+  std::vector<EvaluationWindow> windows;  // the first is "whole"
   std::vector<Budget> budgets;
   bool budgets_apply = true;  // not to a machine that was broken on the command line
 };

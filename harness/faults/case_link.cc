@@ -66,16 +66,18 @@ void CaseLink::ToPlant::handle(const protocol::DigitalOutputs& outputs) noexcept
 }
 
 void CaseLink::ToPlant::drive_in_reverse() noexcept {
-  link.plant_.sink().on(protocol::DigitalOutputs{.lines = enable_mask(reverse->axis),
-                                                 .change_ns = link.now_ns_,
-                                                 .sequence = ++outputs_sequence});
-  link.plant_.sink().on(
-      protocol::PwmDuty{.axis = reverse->axis,
-                        .enable = true,
-                        .channel_a_ticks = reverse->direction > 0 ? period_ticks : std::uint16_t{0},
-                        .channel_b_ticks = reverse->direction > 0 ? std::uint16_t{0} : period_ticks,
-                        .period_ticks = period_ticks,
-                        .sequence = ++duty_sequence});
+  const auto ticks = static_cast<std::uint16_t>(reverse->duty * period_ticks);
+  const bool to_max = reverse->direction > 0;
+  auto& plant = link.plant_.sink();
+  plant.on(protocol::DigitalOutputs{.lines = enable_mask(reverse->axis),
+                                    .change_ns = link.now_ns_,
+                                    .sequence = ++outputs_sequence});
+  plant.on(protocol::PwmDuty{.axis = reverse->axis,
+                             .enable = true,
+                             .channel_a_ticks = to_max ? ticks : std::uint16_t{0},
+                             .channel_b_ticks = to_max ? std::uint16_t{0} : ticks,
+                             .period_ticks = period_ticks,
+                             .sequence = ++duty_sequence});
 }
 
 void CaseLink::ToPlant::handle(const protocol::Advance& advance) noexcept {

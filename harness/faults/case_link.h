@@ -14,11 +14,12 @@
 
 namespace towbench::harness {
 
-// From `from_ns` on the axis is driven with full duty in `direction`, whatever the controller says.
+// From `from_ns` on the axis is driven with `duty` in `direction`, whatever the controller says.
 struct FullReverse {
   core::Axis axis = core::Axis::kY;
   core::Nanoseconds from_ns = 0;
   int direction = -1;
+  double duty = 1;  // 0 .. 1
 };
 
 class CaseLink final : public PlantEnd {

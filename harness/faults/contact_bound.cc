@@ -1,17 +1,18 @@
 // No contact with a hard end that a physically possible reaction could have prevented.
 //
 // The bound is found by doing it: the same case, fault and all, on the same elastic axis, but from
-// the moment at which the controller could have reacted the drive is turned to full reverse until
-// the carriage stands. For two bodies on a spring and damper the carriage answers an impulse on the
-// motor with a displacement that is never negative, (t - sin(w t)/w) / m without damping, so that
-// no other sequence of torques stops the carriage shorter. If it touches even so, nobody could have
-// prevented it.
+// the moment at which the controller could have reacted the drive is turned to full reverse, as far
+// as the gear may take it, until the carriage stands. For two bodies on a spring and damper the
+// carriage answers an impulse on the motor with a displacement that is never negative, (t - sin(w
+// t)/w) / m without damping, so that no other sequence of torques stops the carriage shorter. If it
+// touches even so, nobody could have prevented it.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
+#include "bbmc/system/stopping_distance.h"
 #include "harness/faults/case_run.h"
 #include "harness/faults/requirements.h"
 
@@ -80,11 +81,42 @@ bool killed_before(const CaseEvidence& evidence, const Contact& contact) {
   });
 }
 
+// As much as gear and chain may take (App. A, 3.2 N m at the gear's output): a stop that breaks the
+// machine is no reaction.
+double reverse_duty(const CaseEvidence& evidence, const Contact& contact) {
+  const auto& axis = evidence.fixture.controller.configuration.axes[contact.axis];
+  return std::min(1.0, bbmc::braking_torque_Nm(axis) / axis.drive.full_duty_torque_Nm());
+}
+
+// A host that does not run cannot react, and a drive without a believable encoder can only be cut:
+// nothing tells how long to brake.
+const char* why_nobody_could(const CaseEvidence& evidence, const Contact& contact,
+                             Nanoseconds known_ns) {
+  const auto& stalls = evidence.prepared.injection.host.stalls;
+  if (std::any_of(stalls.begin(), stalls.end(), [&](const HostStall& stall) {
+        return stall.from_ns < contact.time_ns && stall.until_ns > known_ns;
+      })) {
+    return "unavoidable: the host did not run";
+  }
+  if (has(evidence, FaultPart::kLink)) {
+    return "unavoidable: a broken link takes the drive away, braking included";
+  }
+  const auto& plan = evidence.prepared.plan;
+  const bool blind = std::any_of(plan.begin(), plan.end(), [&](const Fault& fault) {
+    return fault.place.part == FaultPart::kEncoder && fault.place.axis == contact.axis &&
+           fault.kind != FaultKind::kIndexMissing;
+  });
+  const bool cut = !is_driven_mode(mode_at(evidence.run, contact.axis, contact.time_ns)) &&
+                   !evidence.run.driven_at(contact.time_ns - 1);
+  return blind && cut ? "unavoidable: without an encoder the axis can only coast" : nullptr;
+}
+
 bool touches_even_so(const CaseEvidence& evidence, const Contact& contact, Nanoseconds reverse_ns) {
   constexpr double kLongEnough_s = 0.5;
   const auto best = run_case(evidence.fixture, evidence.prepared.built, evidence.prepared.injection,
                              {.seed = evidence.seed,
-                              .reverse = FullReverse{contact.axis, reverse_ns, -contact.side},
+                              .reverse = FullReverse{contact.axis, reverse_ns, -contact.side,
+                                                     reverse_duty(evidence, contact)},
                               .until_s = core::seconds(reverse_ns) + kLongEnough_s});
   Nanoseconds turned_ns = kNever;
   for (const auto& row : best->truth) {
@@ -117,9 +149,14 @@ Check no_preventable_contact(const CaseEvidence& evidence) {
     unavoidable.reason = "unavoidable: a kill takes the drive away, braking included";
     return unavoidable;
   }
-  const auto known_ns = could_know_ns(evidence, contact);
+  // What the controller did before the fault began did no harm: the twin touches nothing.
+  const auto known_ns = std::max(could_know_ns(evidence, contact), evidence.cause_ns);
   if (known_ns == kNever || known_ns + kReaction_ns >= contact.time_ns) {
     unavoidable.reason = "unavoidable: nothing told the controller in time";
+    return unavoidable;
+  }
+  if (const char* why = why_nobody_could(evidence, contact, known_ns)) {
+    unavoidable.reason = why;
     return unavoidable;
   }
   if (touches_even_so(evidence, contact, known_ns + kReaction_ns)) {

@@ -42,6 +42,19 @@ struct Push {
   Nanoseconds to_ns = 0;
 };
 
+// A motor that stands and holds its carriage, which swings on the chain, does not push: the chain's
+// true pull explains the drive.
+bool holds_swing(const CaseEvidence& evidence, Axis axis, Nanoseconds time_ns, double duty,
+                 double threshold) {
+  constexpr double kStands_rad_per_s = 5.0;
+  const auto& settings = evidence.fixture.controller.configuration.axes[axis];
+  const auto& truth = evidence.run.truth_at(time_ns).axes[axis];
+  const double chain =
+      truth.chain_force_N * settings.m_per_rad() / settings.drive.full_duty_torque_Nm();
+  return std::fabs(truth.motor_speed_rad_per_s) < kStands_rad_per_s && chain * duty > 0 &&
+         std::fabs(duty - chain) < threshold;
+}
+
 std::vector<Push> pushes(const CaseEvidence& evidence, Axis axis) {
   constexpr double kAboveBreakaway = 1.5;  // controller.md 5: "exceeds ... by half"
   const auto& run = evidence.run;
@@ -53,7 +66,8 @@ std::vector<Push> pushes(const CaseEvidence& evidence, Axis axis) {
   for (const auto& row : run.log) {
     const auto& state = row.axes[axis];
     const double duty = state.duty_pct / 100.0;
-    const bool pushes = is_driven_mode(state.mode) && std::fabs(duty) > threshold;
+    const bool pushes = is_driven_mode(state.mode) && std::fabs(duty) > threshold &&
+                        !holds_swing(evidence, axis, row.time_ns, duty, threshold);
     const double now = pushes ? (duty > 0 ? 1.0 : -1.0) : 0.0;
     if (now != 0 && now != sign) {
       found.push_back({row.time_ns, row.time_ns});
@@ -114,8 +128,8 @@ MaybeCheck lost_index_is_found(const CaseEvidence& evidence) {
   constexpr auto kMeaning =
       "encoder: a lost index is a fault within 1.1 motor turns of driven motion";
   constexpr double kLongest_rad = 1.1 * 2.0 * std::numbers::pi;
-  // Edge inside an exchange, and the controller hears of it one exchange later.
-  constexpr double kSlack_rad = 0.05 * 2.0 * std::numbers::pi;
+  // The last pulse may have come just before, and the controller hears of motion one exchange late.
+  constexpr double kSlack_rad = 0.1 * 2.0 * std::numbers::pi;
   const Fault* fault = fault_of(evidence, FaultPart::kEncoder);
   if (fault == nullptr || fault->kind != kIndexMissing) {
     return std::nullopt;
@@ -127,6 +141,7 @@ MaybeCheck lost_index_is_found(const CaseEvidence& evidence) {
       fault->duration_s ? evidence.cause_ns + core::nanoseconds(*fault->duration_s) : kNever;
   double lowest = std::numeric_limits<double>::max();
   double highest = -lowest;
+  double direction = 0;
   for (const auto& row : run.truth) {
     if (row.time_ns < evidence.cause_ns || row.time_ns > std::min(found_ns, gone_ns)) {
       continue;
@@ -136,6 +151,12 @@ MaybeCheck lost_index_is_found(const CaseEvidence& evidence) {
       highest = -lowest;
       continue;
     }
+    // One way: who turns back has not yet passed where the pulse should be.
+    const double speed = row.axes[axis].motor_speed_rad_per_s;
+    if (speed * direction < 0) {
+      lowest = highest = row.axes[axis].motor_angle_rad;
+    }
+    direction = speed;
     lowest = std::min(lowest, row.axes[axis].motor_angle_rad);
     highest = std::max(highest, row.axes[axis].motor_angle_rad);
     if (highest - lowest > kLongest_rad + kSlack_rad) {
@@ -267,7 +288,9 @@ MaybeCheck fault_number_fits(const CaseEvidence& evidence) {
         fits = fits || number == 300;
         break;
       case FaultPart::kEndStop:
-        fits = fits || between(301, 303);
+        // A switch that says nothing lets the carriage run on until something else is found.
+        fits = fits || between(301, 303) ||
+               (fault.row().duty == FaultDuty::kNothing && (between(303, 315) || number == 350));
         break;
       case FaultPart::kEncoder:
         fits = fits || between(303, 315) || number == 350;

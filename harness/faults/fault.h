@@ -37,7 +37,7 @@ struct FaultTrigger {
   enum class Kind : std::uint8_t { kTime, kPosition, kSpeed, kPhase, kEvent };
   Kind kind = Kind::kTime;
   double value = 0;    // s; carriage position in m; carriage speed in m/s (magnitude)
-  std::string name;    // of phase or event (motion_phases.h)
+  std::string name{};  // of phase or event (motion_phases.h)
   double after_s = 0;  // later by so much
 };
 

@@ -131,7 +131,9 @@ CaseVerdict judge_case(const ExperimentFixture& plain, const PreparedPlan& prepa
                            twin_fault->time_ns != fault->time_ns);
   verdict.figures = figures_of(*run, cause_ns);
   const CaseEvidence evidence{plain, prepared, twin, *run, cause_ns, seed};
-  judge_requirements(evidence, verdict);
+  if (verdict.fired) {  // what did not happen says nothing about the controller
+    judge_requirements(evidence, verdict);
+  }
   verdict.handled = std::all_of(verdict.checks.begin(), verdict.checks.end(),
                                 [](const auto& check) { return check.verdict == Verdict::kPass; });
   if (run_out != nullptr) {

@@ -77,7 +77,7 @@ constexpr FaultRow kRows[] = {
     {kDriveTrain, kChainSkip, "chain_skip", "the chain jumps a tooth", kAnyTime, kNothing,
      "the emulated chain has no teeth yet", {{{"by_m", 8e-3, 1e-3, 0.05}}}},
     {kDriveTrain, kBacklash, "growing_backlash", "play in the gear", kAnyTime, kNothing,
-     "the emulated gear has no play yet", {{{"by_m", 1e-3, 1e-5, 0.02}}}},
+     "the emulated play is one for the whole run; it cannot grow yet", {{{"by_m", 1e-3, 1e-5, 0.02}}}},
     {kDriveTrain, kJam, "jam", "the carriage is held where it is", kAnyTime, kNothing, {}, {}},
     {kDriveTrain, kDroppedLoad, "dropped_load", "the carriage is lighter by a load that fell", kAnyTime, kNoTrip, {},
      {{{"mass_kg", 0.4, 0.01, 2}}}},

@@ -7,6 +7,24 @@
 #include "protocol/frame.h"
 
 namespace towbench::harness {
+namespace {
+
+// Messages of one kind and, where they have one, of one axis: those that are numbered together.
+bool same_stream(const LinkMessage& a, const LinkMessage& b) {
+  const auto axis_of = [](const LinkMessage& message) {
+    return std::visit(
+        [](const auto& each) -> int {
+          if constexpr (requires { each.axis; }) {
+            return static_cast<int>(each.axis);
+          }
+          return -1;
+        },
+        message);
+  };
+  return a.index() == b.index() && axis_of(a) == axis_of(b);
+}
+
+}  // namespace
 
 LinkDisturber::LinkDisturber(const std::vector<LinkFault>& faults, bool to_plant) {
   for (const auto& fault : faults) {
@@ -76,7 +94,7 @@ void LinkDisturber::carry_from(std::size_t index, const LinkMessage& message,
 void LinkDisturber::reorder(std::size_t index, const LinkMessage& message,
                             core::Nanoseconds now_ns) {
   Acting& acting = faults_[index];
-  if (acting.held && acting.held->index() == message.index()) {
+  if (acting.held && same_stream(*acting.held, message)) {
     const LinkMessage late = *acting.held;
     acting.held.reset();
     carry_from(index + 1, message, now_ns);

@@ -25,7 +25,7 @@ std::string_view phase_at(const CaseRecord& run, core::Axis axis, std::size_t i)
     case AxisMode::kFaulted:
       return "rest";
     case AxisMode::kOpenLoop:
-      return "open_loop";
+      return now.duty_pct != 0.0 ? "open_loop" : "rest";
     case AxisMode::kBraking:
       return "brake";
     default:

@@ -150,7 +150,17 @@ MaybeCheck end_stop_reacts(const CaseEvidence& evidence, CaseFigures& figures) {
     }
     auto check = passed(kName, kMeaning);
     const auto* fault = run.first_fault();
-    if (fault != nullptr && fault->time_ns >= edge.seen_ns - run.outcome.exchange_ns) {
+    const auto code =
+        outward > 0 ? core::ErrorCode::kFaultEndStopMax : core::ErrorCode::kFaultEndStopMin;
+    const bool is_end_stop = fault->code == core::ErrorCode::kFaultEndStopMin ||
+                             fault->code == core::ErrorCode::kFaultEndStopMax;
+    if (is_end_stop && (fault->code != code || fault->axis != axis)) {
+      return failed(kName, kMeaning,
+                    fmt::format("latched as fault {} of {}, the switch was that of {} {}",
+                                core::number_of(fault->code), core::name_of(fault->axis),
+                                core::name_of(axis), outward > 0 ? "max" : "min"));
+    }
+    if (fault->time_ns >= edge.seen_ns - run.outcome.exchange_ns) {
       check.value = core::seconds(std::max<Nanoseconds>(0, fault->time_ns - edge.change_ns));
       check.unit = "s";
       check.max = core::seconds(kReaction_ns);

@@ -6,7 +6,7 @@
 
 all_stages=(lint tests tidy sanitize_address sanitize_thread fuzz fresh_start)
 quick_stages=(lint tests)
-on_request_stages=(tidy_everything)
+on_request_stages=(tidy_everything campaign mutants)
 
 test_usage() {
   cat <<'TEXT'
@@ -27,6 +27,8 @@ stages: lint              format, shellcheck, include rules
 
 on request only (--only):
         tidy_everything   clang-tidy of the harness and carriers too; about half an hour
+        campaign          the standard fault campaign, some 2,000 cases, from scratch
+        mutants           controllers with one reaction removed: the campaign must catch each
 
 exit code: 0 all passed; 1 something failed; 2 bad arguments; 99 nothing failed but all was skipped
 TEXT
@@ -139,6 +141,16 @@ stage_fuzz() {
     failed=$((failed + 1))
     return 1
   fi
+}
+
+stage_campaign() {
+  build_preset release release towbench-bench
+  count "$root/build/release/harness/towbench-bench" campaign standard --fresh --out "$root/build/campaign"
+}
+
+stage_mutants() {
+  build_preset release release mutants
+  count "$root/tests/mutants/score.sh" "$root/build/release" "$root"
 }
 
 stage_fresh_start() {
