@@ -45,7 +45,7 @@ mutant(no_kinematic_check system/encoder_plausibility.cc
 mutant(no_stuck_check system/encoder_plausibility.cc
   "  if (push_.direction != direction) {" "  if (true) {")
 mutant(no_index_check system/encoder_plausibility.cc
-  "settings_.index_fitted && !index_good ?" "false ?")
+  "settings_.index_fitted && !index_good ?" "settings_.index_fitted && !index_good && false ?")
 mutant(no_illegal_transition_check system/encoder_plausibility.cc
   "if (illegal_.sum() >" "if (false && illegal_.sum() >")
 mutant(amplifier_ready_ignored system/axis_control.cc
