@@ -96,14 +96,14 @@ void AxisPlant::take(const AxisInput& input) noexcept {
   const CableParameters& cable = axis.disturbances.cable;
   held.carriage_force_N = input.carriage_force_N + model_->mechanics.tilt_force_N +
                           cable.stiffness_N_per_m * cable.reference_m;
-  const bool only_the_command = input.supply_V == input_.supply_V &&
-                                input.carriage_force_N == input_.carriage_force_N &&
-                                input.amplifier_enabled == input_.amplifier_enabled;
   input_ = input;
-  if (cruise_.possible && only_the_command) {
+  // Both bodies slide clear of the ends: of all that holds them, only the drive answers to an input.
+  if (cruise_.possible) {
     settle_drive(*model_, situation_, z_);
     if (situation_.regime.drive == Drive::kRegulated) {
       cruise_.set_point_A = held.set_point_A;
+      cruise_.limit_V = held.limit_V;
+      cruise_.force_N = held.carriage_force_N;
       return;
     }
   }
