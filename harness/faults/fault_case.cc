@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/faults/built_in_fault.h"
 #include "harness/faults/case_run.h"
 #include "harness/faults/motion_phases.h"
 #include "harness/faults/requirements.h"

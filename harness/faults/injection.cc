@@ -325,30 +325,6 @@ void inject(const Fault& fault, core::Nanoseconds at_ns, const CaseRecord& twin,
   Injector(fault, at_ns, twin, end_ns, injection).run();
 }
 
-void build_in(const Fault& fault, emulator::RigParameters& rig) {
-  auto& axis = rig.axes[fault.place.axis];
-  auto& hall = fault.place.at_max ? axis.hall_max : axis.hall_min;
-  switch (fault.kind) {
-    case kLate:
-      hall.delay_s = fault.parameters[0];
-      break;
-    case kMissing:
-      hall.fitted = false;
-      break;
-    case kDisplaced:
-      hall.position_m += fault.parameters[0];
-      break;
-    case kLatching:
-      hall.latching = true;
-      break;
-    case kPhase:
-      axis.encoder.phase_deg = fault.parameters[0];
-      break;
-    default:
-      break;
-  }
-}
-
 void finish(Injection& injection) {
   std::stable_sort(injection.events.begin(), injection.events.end(),
                    [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; });

@@ -1,10 +1,10 @@
-// A plan of faults as what makes them happen: events in the machine, a machine built differently, a
-// link that fails, a host that stalls. The controller's code is never touched.
+// A plan of faults as what makes them happen: events in the machine, a link that fails, a host that
+// stalls; what is built differently from the start is in built_in_fault.h. The controller's code is
+// never touched.
 #pragma once
 
 #include <vector>
 
-#include "emulator/rig_parameters.h"
 #include "emulator/scheduled_event.h"
 #include "harness/bench/host_schedule.h"
 #include "harness/faults/case_record.h"
@@ -23,8 +23,6 @@ struct Injection {
 // at its next edge, the twin knows when that is. `end_ns` is where the run ends at the latest.
 void inject(const Fault& fault, core::Nanoseconds at_ns, const CaseRecord& twin,
             core::Nanoseconds end_ns, Injection& injection);
-// What is built differently from the start.
-void build_in(const Fault& fault, emulator::RigParameters& rig);
 // Puts events in order; after the last inject().
 void finish(Injection& injection);
 
