@@ -97,7 +97,8 @@ void AxisPlant::take(const AxisInput& input) noexcept {
   held.carriage_force_N = input.carriage_force_N + model_->mechanics.tilt_force_N +
                           cable.stiffness_N_per_m * cable.reference_m;
   input_ = input;
-  // Both bodies slide clear of the ends: of all that holds them, only the drive answers to an input.
+  // Both bodies slide clear of the ends: of all that holds them, only the drive answers to an
+  // input.
   if (cruise_.possible) {
     settle_drive(*model_, situation_, z_);
     if (situation_.regime.drive == Drive::kRegulated) {
