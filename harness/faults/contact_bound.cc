@@ -88,18 +88,18 @@ double reverse_duty(const CaseEvidence& evidence, const Contact& contact) {
   return std::min(1.0, bbmc::braking_torque_Nm(axis) / axis.drive.full_duty_torque_Nm());
 }
 
-// A host that does not run cannot react, and a drive without a believable encoder can only be cut:
-// nothing tells how long to brake.
-const char* why_nobody_could(const CaseEvidence& evidence, const Contact& contact,
-                             Nanoseconds known_ns) {
+// Accepted, not proven unavoidable (docs/safety.md): a host that does not run cannot react, and a
+// drive without a believable encoder can only be cut: nothing tells how long to brake.
+const char* why_accepted(const CaseEvidence& evidence, const Contact& contact,
+                         Nanoseconds known_ns) {
   const auto& stalls = evidence.prepared.injection.host.stalls;
   if (std::any_of(stalls.begin(), stalls.end(), [&](const HostStall& stall) {
         return stall.from_ns < contact.time_ns && stall.until_ns > known_ns;
       })) {
-    return "unavoidable: the host did not run";
+    return "accepted: the host did not run";
   }
   if (has(evidence, FaultPart::kLink)) {
-    return "unavoidable: a broken link takes the drive away, braking included";
+    return "accepted: a broken link takes the drive away, braking included";
   }
   const auto& plan = evidence.prepared.plan;
   const bool blind = std::any_of(plan.begin(), plan.end(), [&](const Fault& fault) {
@@ -108,7 +108,7 @@ const char* why_nobody_could(const CaseEvidence& evidence, const Contact& contac
   });
   const bool cut = !is_driven_mode(mode_at(evidence.run, contact.axis, contact.time_ns)) &&
                    !evidence.run.driven_at(contact.time_ns - 1);
-  return blind && cut ? "unavoidable: without an encoder the axis can only coast" : nullptr;
+  return blind && cut ? "accepted: without an encoder the axis can only coast" : nullptr;
 }
 
 bool touches_even_so(const CaseEvidence& evidence, const Contact& contact, Nanoseconds reverse_ns) {
@@ -146,7 +146,7 @@ Check no_preventable_contact(const CaseEvidence& evidence) {
   unavoidable.value = contact.speed_m_per_s;
   unavoidable.unit = "m/s";
   if (killed_before(evidence, contact)) {
-    unavoidable.reason = "unavoidable: a kill takes the drive away, braking included";
+    unavoidable.reason = "accepted: a kill takes the drive away, braking included";
     return unavoidable;
   }
   // What the controller did before the fault began did no harm: the twin touches nothing.
@@ -155,7 +155,7 @@ Check no_preventable_contact(const CaseEvidence& evidence) {
     unavoidable.reason = "unavoidable: nothing told the controller in time";
     return unavoidable;
   }
-  if (const char* why = why_nobody_could(evidence, contact, known_ns)) {
+  if (const char* why = why_accepted(evidence, contact, known_ns)) {
     unavoidable.reason = why;
     return unavoidable;
   }
