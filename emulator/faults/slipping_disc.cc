@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/time.h"
+
 namespace towbench::emulator {
 namespace {
 
@@ -9,6 +11,11 @@ using protocol::EncoderLine;
 
 // Edges of a jump inside one step: together about what a disc flung by its own coupling makes.
 constexpr std::int64_t kMostTurnedPerStep = 400;
+
+// Part of the step over which they come, and how far apart from the shaft's: several periods of a
+// counter's clock.
+constexpr core::Nanoseconds kTurning_ns = core::kPlantTick_ns * 9 / 10;
+constexpr core::Nanoseconds kApart_ns = 50;
 
 [[nodiscard]] std::int64_t modulo(std::int64_t value, std::int64_t divisor) noexcept {
   const std::int64_t rest = value % divisor;
@@ -63,15 +70,27 @@ void SlippingDisc::count(std::int64_t change, std::uint32_t time_ns, StepEdges& 
 protocol::EncoderLevels SlippingDisc::follow(StepEdges& edges) noexcept {
   made_ = edges;
   edges.clear();
-  // A jump comes first, its edges a whole number of nanoseconds apart at the start of the step.
+  // A jump's edges come evenly over the step, clear of those of the shaft: a disc that turns
+  // steadily never makes two at once.
   const std::int64_t turned = std::clamp(to_turn_, -kMostTurnedPerStep, kMostTurnedPerStep);
   const std::int64_t size = turned < 0 ? -turned : turned;
-  for (std::int64_t i = 0; i < size; ++i) {
-    count(turned < 0 ? -1 : 1, static_cast<std::uint32_t>(i), edges);
-  }
+  std::int64_t made = 0;
+  core::Nanoseconds last_ns = -kApart_ns;
+  const auto turn_until = [&](core::Nanoseconds end_ns) {
+    for (; made < size; ++made) {
+      const auto due_ns = std::max(made * kTurning_ns / size, last_ns + kApart_ns);
+      if (due_ns > end_ns - kApart_ns) {
+        return;
+      }
+      count(turned < 0 ? -1 : 1, static_cast<std::uint32_t>(due_ns), edges);
+      last_ns = due_ns;
+    }
+  };
   to_turn_ -= turned;
   surplus_edges_ += size;
   for (const TimedEdge edge : made_.view()) {
+    turn_until(edge.time_ns());
+    last_ns = edge.time_ns();
     if (edge.line() == EncoderLine::kIndex) {
       continue;  // the disc's own comes where the disc's count is
     }
@@ -87,6 +106,7 @@ protocol::EncoderLevels SlippingDisc::follow(StepEdges& edges) noexcept {
     }
     count(change, static_cast<std::uint32_t>(edge.time_ns()), edges);
   }
+  turn_until(core::kPlantTick_ns);
   return levels();
 }
 

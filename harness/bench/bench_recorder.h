@@ -20,6 +20,8 @@ class BenchRecorder {
   // Takes every row and event that waits in the controller.
   virtual void drain(bbmc::ControllerNode& controller) noexcept = 0;
   virtual void console(std::string_view text) noexcept = 0;
+  // What the operator sent, as the controller took it; before what it prints in answer.
+  virtual void typed(core::Nanoseconds /*time_ns*/, std::string_view /*text*/) noexcept {}
   virtual void wire_event(core::Nanoseconds time_ns, std::string_view kind) noexcept = 0;
   // `host_ns` since the start of the run.
   virtual void timing(core::Nanoseconds time_ns, core::Nanoseconds host_ns,

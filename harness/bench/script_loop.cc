@@ -62,7 +62,10 @@ class Loop {
   // Serves the controller once; true when the run is over with that.
   bool turn_is_last() {
     const auto now_ns = bench_.now_ns();
-    script_.typed(bench_.controller().type(script_.pending(now_ns)));
+    const auto pending = script_.pending(now_ns);
+    const auto taken = bench_.controller().type(pending);
+    recorder_.typed(now_ns, pending.substr(0, taken));
+    script_.typed(taken);
     script_.hear(bench_.serve());
     const auto progress = script_.update(now_ns, bench_.controller().idle());
     if (watchers_.stop != nullptr && watchers_.stop->load(std::memory_order_relaxed)) {

@@ -30,11 +30,15 @@ bool stands(const emulator::TruthRow& row) {
 
 }  // namespace
 
-std::optional<core::Nanoseconds> drive_ends_ns(const CaseRecord& run, core::Nanoseconds from_ns) {
+std::optional<core::Nanoseconds> drive_ends_ns(const CaseRecord& run, core::Nanoseconds from_ns,
+                                               core::Nanoseconds until_ns) {
   core::PerAxis<bool> driven{};
   std::optional<core::Nanoseconds> ended;
   bool any = false;
   for (const auto& duty : run.duties) {
+    if (duty.time_ns >= until_ns) {
+      break;
+    }
     const bool before = driven[core::Axis::kY] || driven[core::Axis::kX];
     driven[duty.axis] = duty.drives();
     const bool after = driven[core::Axis::kY] || driven[core::Axis::kX];
@@ -66,7 +70,7 @@ CaseFigures figures_of(const CaseRecord& run, core::Nanoseconds cause_ns) {
   if (figures.fault == core::ErrorCode::kNone || run.truth.empty()) {
     return figures;
   }
-  if (const auto zero_ns = drive_ends_ns(run, cause_ns); zero_ns) {
+  if (const auto zero_ns = drive_ends_ns(run, cause_ns, run.next_reset_ns(cause_ns)); zero_ns) {
     figures.to_zero_drive_s = core::seconds(*zero_ns - cause_ns);
     figures.to_zero_drive_m = way_between(run, cause_ns, *zero_ns);
   }

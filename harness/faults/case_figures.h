@@ -27,9 +27,10 @@ struct CaseFigures {
 
 [[nodiscard]] CaseFigures figures_of(const CaseRecord& run, core::Nanoseconds cause_ns);
 
-// When the drive went for good: the message with which nothing is driven any more. None when
-// something is driven to the end, or nothing was after `from_ns`.
+// When the drive went for good, as far as `until_ns`: the message with which nothing is driven any
+// more. None when something is driven to the end, or nothing was after `from_ns`.
 [[nodiscard]] std::optional<core::Nanoseconds> drive_ends_ns(const CaseRecord& run,
-                                                             core::Nanoseconds from_ns);
+                                                             core::Nanoseconds from_ns,
+                                                             core::Nanoseconds until_ns);
 
 }  // namespace towbench::harness

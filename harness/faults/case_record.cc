@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace towbench::harness {
 namespace {
@@ -24,6 +25,17 @@ bool same(const TruthRow& a, const TruthRow& b) noexcept {
   return a.time_ns == b.time_ns && a.input_lines == b.input_lines &&
          same(a.axes[core::Axis::kY], b.axes[core::Axis::kY]) &&
          same(a.axes[core::Axis::kX], b.axes[core::Axis::kX]);
+}
+
+// "reset" and "reset systate"; "reset poscalib" clears no fault.
+bool resets(std::string_view line) noexcept {
+  constexpr std::string_view kReset = "reset";
+  if (!line.starts_with(kReset)) {
+    return false;
+  }
+  line.remove_prefix(kReset.size());
+  const auto word = line.find_first_not_of(' ');
+  return word == std::string_view::npos || line.substr(word).starts_with("systate");
 }
 
 bool same(const Arrivals& a, const Arrivals& b) noexcept {
@@ -62,6 +74,36 @@ void CaseRecord::console(std::string_view text) noexcept {
   if (!text.empty()) {
     printed.push_back({now_ns_, std::string(text)});
   }
+}
+
+void CaseRecord::typed(core::Nanoseconds time_ns, std::string_view text) noexcept {
+  for (const char letter : text) {
+    if (letter != '\n' && letter != '\r') {
+      typing_ += letter;
+    } else if (!typing_.empty()) {
+      typed_lines.push_back({time_ns, std::move(typing_)});
+      typing_.clear();
+    }
+  }
+}
+
+core::Nanoseconds CaseRecord::next_reset_ns(core::Nanoseconds from_ns) const noexcept {
+  // The console answers within a few exchanges.
+  constexpr core::Nanoseconds kAnswer_ns = 20 * core::kNanosecondsPerMillisecond;
+  for (const auto& event : controller_events) {
+    if (event.kind != bbmc::ControllerEvent::Kind::kReset || event.time_ns < from_ns) {
+      continue;
+    }
+    const bool asked =
+        std::any_of(typed_lines.begin(), typed_lines.end(), [&](const ConsoleText& line) {
+          return resets(line.text) && line.time_ns <= event.time_ns &&
+                 event.time_ns - line.time_ns <= kAnswer_ns;
+        });
+    if (asked) {
+      return event.time_ns;
+    }
+  }
+  return std::numeric_limits<core::Nanoseconds>::max();
 }
 
 void CaseRecord::on_event(const emulator::PlantEvent& event) noexcept {

@@ -55,10 +55,12 @@ class CaseRecord final : public BenchRecorder, public emulator::PlantObserver {
   std::vector<DutyMessage> duties;
   std::vector<Arrivals> arrivals;
   std::vector<ConsoleText> printed;
+  std::vector<ConsoleText> typed_lines;  // by the operator, each with the time of its end
   RunOutcome outcome;
 
   void drain(bbmc::ControllerNode& controller) noexcept override;
   void console(std::string_view text) noexcept override;
+  void typed(core::Nanoseconds time_ns, std::string_view text) noexcept override;
   void wire_event(core::Nanoseconds /*time_ns*/, std::string_view /*kind*/) noexcept override {}
   void timing(core::Nanoseconds time_ns, core::Nanoseconds /*host_ns*/,
               core::Nanoseconds /*exchange_ns*/) noexcept override {
@@ -78,8 +80,12 @@ class CaseRecord final : public BenchRecorder, public emulator::PlantObserver {
   // Command of an axis as sent, at a time.
   [[nodiscard]] bool driven_at(core::Nanoseconds time_ns) const noexcept;
   [[nodiscard]] std::string all_printed() const;
+  // When the controller carried out a reset that the operator had asked for, at or after a time;
+  // the end of time when it never did. A reset that nobody asked for is none.
+  [[nodiscard]] core::Nanoseconds next_reset_ns(core::Nanoseconds from_ns) const noexcept;
 
  private:
+  std::string typing_;
   core::Nanoseconds now_ns_ = 0;
 };
 

@@ -8,7 +8,6 @@
 // touches even so, nobody could have prevented it.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -24,7 +23,6 @@ using core::Nanoseconds;
 
 constexpr Nanoseconds kReaction_ns = 2 * core::kNanosecondsPerMillisecond;
 constexpr Nanoseconds kDetection_ns = 50 * core::kNanosecondsPerMillisecond;
-constexpr Nanoseconds kNever = std::numeric_limits<Nanoseconds>::max();
 
 struct Contact {
   Axis axis = Axis::kY;

@@ -1,9 +1,7 @@
-// What the controller must find out by itself, and what it must not mistake for a fault.
+// What the controller must find out by itself about amplifiers, link and host, and what it must not
+// mistake for a fault.
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -17,69 +15,6 @@ using core::ErrorCode;
 using core::Nanoseconds;
 using enum FaultKind;
 
-constexpr Nanoseconds kNever = std::numeric_limits<Nanoseconds>::max();
-
-Nanoseconds latched_ns(const CaseRecord& run) {
-  const auto* fault = run.first_fault();
-  return fault == nullptr ? kNever : fault->time_ns;
-}
-
-// The only fault of the plan of that part, with when it begins; null when there is none.
-const Fault* fault_of(const CaseEvidence& evidence, FaultPart part) {
-  const auto& plan = evidence.prepared.plan;
-  const auto found = std::find_if(plan.begin(), plan.end(),
-                                  [&](const Fault& fault) { return fault.place.part == part; });
-  return found == plan.end() ? nullptr : &*found;
-}
-
-bool must_be_found(const Fault& fault) {
-  return fault.row().duty == FaultDuty::kStop;
-}
-
-// A stretch in which an axis is asked for more than 1.5 times its worst break-away, one way.
-struct Push {
-  Nanoseconds from_ns = 0;
-  Nanoseconds to_ns = 0;
-};
-
-// A motor that stands and holds its carriage, which swings on the chain, does not push: the chain's
-// true pull explains the drive.
-bool holds_swing(const CaseEvidence& evidence, Axis axis, Nanoseconds time_ns, double duty,
-                 double threshold) {
-  constexpr double kStands_rad_per_s = 5.0;
-  const auto& settings = evidence.fixture.controller.configuration.axes[axis];
-  const auto& truth = evidence.run.truth_at(time_ns).axes[axis];
-  const double chain =
-      truth.chain_force_N * settings.m_per_rad() / settings.drive.full_duty_torque_Nm();
-  return std::fabs(truth.motor_speed_rad_per_s) < kStands_rad_per_s && chain * duty > 0 &&
-         std::fabs(duty - chain) < threshold;
-}
-
-std::vector<Push> pushes(const CaseEvidence& evidence, Axis axis) {
-  constexpr double kAboveBreakaway = 1.5;  // controller.md 5: "exceeds ... by half"
-  const auto& run = evidence.run;
-  const auto& settings = evidence.fixture.controller.configuration.axes[axis];
-  const double threshold = kAboveBreakaway * settings.plausibility.worst_breakaway_Nm /
-                           settings.drive.full_duty_torque_Nm();
-  std::vector<Push> found;
-  double sign = 0;
-  for (const auto& row : run.log) {
-    const auto& state = row.axes[axis];
-    const double duty = state.duty_pct / 100.0;
-    const bool pushes = is_driven_mode(state.mode) && std::fabs(duty) > threshold &&
-                        !holds_swing(evidence, axis, row.time_ns, duty, threshold);
-    const double now = pushes ? (duty > 0 ? 1.0 : -1.0) : 0.0;
-    if (now != 0 && now != sign) {
-      found.push_back({row.time_ns, row.time_ns});
-    }
-    if (now != 0) {
-      found.back().to_ns = row.time_ns;
-    }
-    sign = now;
-  }
-  return found;
-}
-
 bool hall_reached(const CaseRecord& run, Nanoseconds until_ns) {
   return std::any_of(run.lines.begin(), run.lines.end(), [&](const LineArrival& arrival) {
     return arrival.served_ns <= until_ns && (arrival.lines & 0xFU) != 0;
@@ -87,87 +22,6 @@ bool hall_reached(const CaseRecord& run, Nanoseconds until_ns) {
 }
 
 }  // namespace
-
-MaybeCheck encoder_fault_is_found(const CaseEvidence& evidence) {
-  constexpr auto kName = "encoder_fault_found";
-  constexpr auto kMeaning =
-      "encoder: a fault within 50 ms and 5 mm after the drive exceeds break-away by half";
-  constexpr double kLongest_s = 0.050;
-  constexpr double kFarthest_m = 5e-3;
-  const Fault* fault = fault_of(evidence, FaultPart::kEncoder);
-  if (fault == nullptr || !must_be_found(*fault) || fault->kind == kIndexMissing) {
-    return std::nullopt;
-  }
-  const auto& run = evidence.run;
-  const auto axis = fault->place.axis;
-  const auto found_ns = latched_ns(run);
-  const auto gone_ns =
-      fault->duration_s ? evidence.cause_ns + core::nanoseconds(*fault->duration_s) : kNever;
-  const auto exchange_ns = run.outcome.exchange_ns;
-  for (const Push& push : pushes(evidence, axis)) {
-    const auto from_ns = std::max(push.from_ns, evidence.cause_ns);
-    const auto to_ns = std::min({push.to_ns, found_ns, gone_ns});
-    if (to_ns <= from_ns) {
-      continue;
-    }
-    const double time_s = core::seconds(to_ns - from_ns - exchange_ns);
-    const double way_m = std::fabs(run.truth_at(to_ns - exchange_ns).axes[axis].carriage_m -
-                                   run.truth_at(from_ns).axes[axis].carriage_m);
-    if (time_s > kLongest_s || way_m > kFarthest_m) {
-      return failed(kName, kMeaning,
-                    fmt::format("driven above that from {:.4f} s for {:.0f} ms and {:.1f} mm{}",
-                                core::seconds(from_ns), 1e3 * time_s, 1e3 * way_m,
-                                found_ns == kNever ? ", never found" : ""));
-    }
-  }
-  return passed(kName, kMeaning);
-}
-
-MaybeCheck lost_index_is_found(const CaseEvidence& evidence) {
-  constexpr auto kName = "lost_index_found";
-  constexpr auto kMeaning =
-      "encoder: a lost index is a fault within 1.1 motor turns of driven motion";
-  constexpr double kLongest_rad = 1.1 * 2.0 * std::numbers::pi;
-  // The last pulse may have come just before, and the controller hears of motion one exchange late.
-  constexpr double kSlack_rad = 0.1 * 2.0 * std::numbers::pi;
-  const Fault* fault = fault_of(evidence, FaultPart::kEncoder);
-  if (fault == nullptr || fault->kind != kIndexMissing) {
-    return std::nullopt;
-  }
-  const auto& run = evidence.run;
-  const auto axis = fault->place.axis;
-  const auto found_ns = latched_ns(run);
-  const auto gone_ns =
-      fault->duration_s ? evidence.cause_ns + core::nanoseconds(*fault->duration_s) : kNever;
-  double lowest = std::numeric_limits<double>::max();
-  double highest = -lowest;
-  double direction = 0;
-  for (const auto& row : run.truth) {
-    if (row.time_ns < evidence.cause_ns || row.time_ns > std::min(found_ns, gone_ns)) {
-      continue;
-    }
-    if (!is_driven_mode(mode_at(run, axis, row.time_ns))) {
-      lowest = std::numeric_limits<double>::max();
-      highest = -lowest;
-      continue;
-    }
-    // One way: who turns back has not yet passed where the pulse should be.
-    const double speed = row.axes[axis].motor_speed_rad_per_s;
-    if (speed * direction < 0) {
-      lowest = highest = row.axes[axis].motor_angle_rad;
-    }
-    direction = speed;
-    lowest = std::min(lowest, row.axes[axis].motor_angle_rad);
-    highest = std::max(highest, row.axes[axis].motor_angle_rad);
-    if (highest - lowest > kLongest_rad + kSlack_rad) {
-      return failed(
-          kName, kMeaning,
-          fmt::format("{:.2f} turns by {:.4f} s", (highest - lowest) / (2.0 * std::numbers::pi),
-                      core::seconds(row.time_ns)));
-    }
-  }
-  return passed(kName, kMeaning);
-}
 
 MaybeCheck amplifier_fault_is_found(const CaseEvidence& evidence) {
   constexpr auto kName = "amplifier_fault_found";
@@ -293,7 +147,8 @@ MaybeCheck fault_number_fits(const CaseEvidence& evidence) {
                (fault.row().duty == FaultDuty::kNothing && (between(303, 315) || number == 350));
         break;
       case FaultPart::kEncoder:
-        fits = fits || between(303, 315) || number == 350;
+        // A lying encoder may put the axis anywhere; that it lies must still be told.
+        fits = fits || between(must_be_found(fault) ? 310 : 303, 315) || number == 350;
         break;
       case FaultPart::kAmplifier:
       case FaultPart::kSupply:
@@ -301,6 +156,9 @@ MaybeCheck fault_number_fits(const CaseEvidence& evidence) {
         fits = fits || between(303, 315) || number == 330 || number == 350;
         break;
       case FaultPart::kLink:
+        // What a link loses or damages is the link's fault, however it looks further on.
+        fits = fits || (must_be_found(fault) ? between(320, 321) : between(303, 350));
+        break;
       case FaultPart::kHost:
         fits = fits || between(303, 350);
         break;

@@ -50,7 +50,7 @@ bool any_driven_mode(const CaseRecord& run, Nanoseconds time_ns) {
          is_driven_mode(mode_at(run, Axis::kX, time_ns));
 }
 
-// Whether a fault is latched at a time: since then no reset.
+// Whether a fault is latched at a time: since then no reset, asked for or not.
 bool latched_by(const CaseRecord& run, Nanoseconds time_ns) {
   bool latched = false;
   for (const auto& event : run.controller_events) {
@@ -64,7 +64,7 @@ bool latched_by(const CaseRecord& run, Nanoseconds time_ns) {
 
 // First driving message after `from_ns` and before a reset; -1 when there is none.
 Nanoseconds drive_after(const CaseRecord& run, Nanoseconds from_ns) {
-  const auto reset_ns = next_reset_ns(run, from_ns);
+  const auto reset_ns = run.next_reset_ns(from_ns);
   for (const auto& duty : run.duties) {
     if (duty.time_ns > from_ns && duty.time_ns < reset_ns && duty.drives()) {
       return duty.time_ns;
@@ -95,7 +95,7 @@ MaybeCheck kill_removes_drive(const CaseEvidence& evidence, CaseFigures& figures
           fmt::format("pressed at {:.6f} s, driven at {:.6f} s", core::seconds(edge.change_ns),
                       core::seconds(later_ns >= 0 ? later_ns : deadline_ns)));
     }
-    const auto end_ns = drive_ends_ns(run, edge.change_ns);
+    const auto end_ns = drive_ends_ns(run, edge.change_ns, run.next_reset_ns(deadline_ns));
     auto check = passed(kName, kMeaning);
     check.unit = "s";
     check.max = core::seconds(kReaction_ns);
@@ -179,7 +179,7 @@ MaybeCheck no_drive_while_latched(const CaseEvidence& evidence) {
   if (fault == nullptr) {
     return std::nullopt;
   }
-  const auto reset_ns = next_reset_ns(run, fault->time_ns);
+  const auto reset_ns = run.next_reset_ns(fault->time_ns);
   bool at_rest = false;
   for (const auto& row : run.log) {
     if (row.time_ns <= fault->time_ns || row.time_ns >= reset_ns) {

@@ -1,13 +1,18 @@
 #include "harness/faults/requirements.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace towbench::harness {
 
 void judge_requirements(const CaseEvidence& evidence, CaseVerdict& verdict) {
   const auto add = [&](MaybeCheck check) {
     if (check) {
+      // A figure beyond its own limit is no pass, whatever the rule concluded.
+      if (check->verdict == Verdict::kPass && check->value && check->max &&
+          !(*check->value <= *check->max)) {
+        check->verdict = Verdict::kFail;
+        check->reason = "beyond its limit";
+      }
       verdict.checks.push_back(std::move(*check));
     }
   };
@@ -18,6 +23,7 @@ void judge_requirements(const CaseEvidence& evidence, CaseVerdict& verdict) {
   add(stop_ends_in_time(evidence));
   add(operator_is_told(evidence));
   add(encoder_fault_is_found(evidence));
+  add(encoder_jump_is_found(evidence));
   add(lost_index_is_found(evidence));
   add(amplifier_fault_is_found(evidence));
   add(link_or_host_fault_is_found(evidence));
@@ -43,13 +49,16 @@ Check failed(const char* name, const char* meaning, std::string reason) {
   return check;
 }
 
-core::Nanoseconds next_reset_ns(const CaseRecord& run, core::Nanoseconds from_ns) {
-  for (const auto& event : run.controller_events) {
-    if (event.kind == bbmc::ControllerEvent::Kind::kReset && event.time_ns >= from_ns) {
-      return event.time_ns;
-    }
-  }
-  return std::numeric_limits<core::Nanoseconds>::max();
+core::Nanoseconds latched_ns(const CaseRecord& run) {
+  const auto* fault = run.first_fault();
+  return fault == nullptr ? kNever : fault->time_ns;
+}
+
+const Fault* fault_of(const CaseEvidence& evidence, FaultPart part) {
+  const auto& plan = evidence.prepared.plan;
+  const auto found = std::find_if(plan.begin(), plan.end(),
+                                  [&](const Fault& fault) { return fault.place.part == part; });
+  return found == plan.end() ? nullptr : &*found;
 }
 
 core::Nanoseconds served_ns(const CaseEvidence& evidence, core::Nanoseconds time_ns) {

@@ -1,6 +1,8 @@
 // What the controller must do whatever fails: one rule, one check (docs/safety.md has the reasons).
 #pragma once
 
+#include <limits>
+
 #include "harness/faults/fault_case.h"
 
 namespace towbench::harness {
@@ -18,9 +20,11 @@ using MaybeCheck = std::optional<Check>;
 [[nodiscard]] MaybeCheck no_drive_while_latched(const CaseEvidence& evidence);
 [[nodiscard]] MaybeCheck stop_ends_in_time(const CaseEvidence& evidence);
 [[nodiscard]] MaybeCheck operator_is_told(const CaseEvidence& evidence);
-// detection_rules.cc
+// encoder_rules.cc
 [[nodiscard]] MaybeCheck encoder_fault_is_found(const CaseEvidence& evidence);
+[[nodiscard]] MaybeCheck encoder_jump_is_found(const CaseEvidence& evidence);
 [[nodiscard]] MaybeCheck lost_index_is_found(const CaseEvidence& evidence);
+// detection_rules.cc
 [[nodiscard]] MaybeCheck amplifier_fault_is_found(const CaseEvidence& evidence);
 [[nodiscard]] MaybeCheck link_or_host_fault_is_found(const CaseEvidence& evidence);
 [[nodiscard]] MaybeCheck tracking_is_guarded(const CaseEvidence& evidence);
@@ -33,10 +37,16 @@ using MaybeCheck = std::optional<Check>;
 [[nodiscard]] Check no_preventable_contact(const CaseEvidence& evidence);
 
 // ---- for the rules ----
+inline constexpr core::Nanoseconds kNever = std::numeric_limits<core::Nanoseconds>::max();
+// When the first fault was latched, or never.
+[[nodiscard]] core::Nanoseconds latched_ns(const CaseRecord& run);
+// The only fault of the plan of that part; null when there is none.
+[[nodiscard]] const Fault* fault_of(const CaseEvidence& evidence, FaultPart part);
+[[nodiscard]] inline bool must_be_found(const Fault& fault) {
+  return fault.row().duty == FaultDuty::kStop;
+}
 [[nodiscard]] Check passed(const char* name, const char* meaning);
 [[nodiscard]] Check failed(const char* name, const char* meaning, std::string reason);
-// Controller's reset after a time, or the end of time.
-[[nodiscard]] core::Nanoseconds next_reset_ns(const CaseRecord& run, core::Nanoseconds from_ns);
 // When the host serves what has arrived at `time_ns`.
 [[nodiscard]] core::Nanoseconds served_ns(const CaseEvidence& evidence, core::Nanoseconds time_ns);
 // Mode of an axis in the last log row at or before a time.
