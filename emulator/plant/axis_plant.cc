@@ -81,7 +81,7 @@ AxisPlant::AxisPlant(const AxisParameters& parameters, double carriage_m, double
 void AxisPlant::enter_mode() noexcept {
   mode_index_ = mode_of(situation_.regime).index();
   mode_ = &model_->ticks[mode_index_];
-  cruise_ = prepare_cruise(*model_, situation_);
+  plain_ = prepare_plain_tick(*model_, situation_);
 }
 
 void AxisPlant::take(const AxisInput& input) noexcept {
@@ -97,14 +97,15 @@ void AxisPlant::take(const AxisInput& input) noexcept {
   held.carriage_force_N = input.carriage_force_N + model_->mechanics.tilt_force_N +
                           cable.stiffness_N_per_m * cable.reference_m;
   input_ = input;
-  // Both bodies slide clear of the ends: of all that holds them, only the drive answers to an
-  // input.
-  if (cruise_.possible) {
+  // Clear of the ends and without optional terms only the drive answers to an input, and a body
+  // that stands to an outside force.
+  if (plain_.possible) {
+    const Drive drive = situation_.regime.drive;
+    const double sign = situation_.regime.drive_sign;
     settle_drive(*model_, situation_, z_);
-    if (situation_.regime.drive == Drive::kRegulated) {
-      cruise_.set_point_A = held.set_point_A;
-      cruise_.limit_V = held.limit_V;
-      cruise_.force_N = held.carriage_force_N;
+    const bool same_limit = drive != Drive::kLimited || situation_.regime.drive_sign == sign;
+    if (situation_.regime.drive == drive && same_limit &&
+        renew_plain_tick(*model_, situation_, z_, plain_)) {
       return;
     }
   }
@@ -119,8 +120,8 @@ void AxisPlant::step(const AxisInput& input, MotionSegments& segments) noexcept 
     take(input);
   }
   StateVector next;
-  if (cruise_.possible &&
-      cruise(*model_, cruise_, situation_.position_interval, half_change_, z_, next)) {
+  if (plain_.possible &&
+      step_plainly(*model_, plain_, situation_.position_interval, half_change_, z_, next)) {
     append(segments, 0.0, model_->tick_s, z_, next);
     z_ = next;
     return;

@@ -18,9 +18,9 @@
 #include "core/time.h"
 #include "emulator/plant/axis_forces.h"
 #include "emulator/plant/axis_parameters.h"
-#include "emulator/plant/cruise.h"
 #include "emulator/plant/event_search.h"
 #include "emulator/plant/held_terms.h"
+#include "emulator/plant/plain_tick.h"
 #include "emulator/plant/taylor_flow.h"
 
 namespace towbench::emulator {
@@ -103,7 +103,7 @@ class AxisPlant {
   Situation situation_;
   std::size_t mode_index_ = 0;  // of situation_.regime
   const DiscreteMode* mode_ = nullptr;
-  Cruise cruise_;
+  PlainTick plain_;
   HalfChange half_change_;
   double warmth_ = 0;  // 1: fully warm (warming.h)
   AxisInput input_;    // of the step before
