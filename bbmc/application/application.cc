@@ -223,8 +223,25 @@ void Application::report() noexcept {
   }
 }
 
+void Application::write_debug() noexcept {
+  const SystemStatus& status = system_.status();
+  for (const core::Axis axis : core::kAxes) {
+    const AxisStatus& state = status.axes[axis];
+    outbox_.text("debug ").text(core::name_of(axis)).text(": reference ");
+    outbox_.fixed(state.reference_m, 7).text("m, position ").fixed(state.position_m, 7);
+    outbox_.text("m, integral ").fixed(1e3 * state.integral_Nm, 4).text("mNm, disturbance ");
+    outbox_.fixed(1e3 * state.disturbance_Nm, 4).text("mNm").end_line();
+  }
+  outbox_.text("debug: ticks ").integer(static_cast<std::int64_t>(status.control_ticks));
+  outbox_.text(", late ").integer(static_cast<std::int64_t>(status.late_ticks));
+  outbox_.text(", rows lost ").integer(static_cast<std::int64_t>(system_.rows_lost())).end_line();
+}
+
 void Application::end_motion() noexcept {
   const SystemStatus& status = system_.status();
+  if (settings_.debug) {
+    write_debug();
+  }
   // A fault before the motion could begin leaves no motion to have ended.
   const bool ended = status.motions_ended != motions_before_;
   const ErrorCode result = ended ? status.last_motion_result : status.fault;

@@ -75,6 +75,7 @@ class Application {
   void ask() noexcept;
   void report() noexcept;
   void end_motion() noexcept;
+  void write_debug() noexcept;
   void finish(core::ErrorCode code, std::string_view why) noexcept;
 
   SystemManager& system_;

@@ -55,6 +55,89 @@ struct FeedForward {
   }
 };
 
+// Friction along the reference, with its rise towards standstill (3.25). When it is on, it takes
+// the place of the feed-forward's B and C.
+struct FrictionCompensation {
+  bool enabled = false;
+  double breakaway_Nm = 3.7e-3;                     // S, (7.2)
+  double coulomb_friction_Nm = 2.26e-3;             // C, Table 7.4
+  double viscous_friction_Nm_s_per_rad = 1.106e-5;  // B, Table 7.4
+  double stribeck_speed_rad_per_s = 6.0;            // assumed
+  double smoothing_rad_per_s = 0.3;  // half of it at this speed: no step where the speed is 0
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("enabled", enabled, core::any_finite(), "whether the law adds the friction's torque");
+    v.value("breakaway_Nm", breakaway_Nm, core::at_least(0.0), "S, just above standstill");
+    v.value("coulomb_friction_Nm", coulomb_friction_Nm, core::at_least(0.0), "C, at speed");
+    v.value("viscous_friction_Nm_s_per_rad", viscous_friction_Nm_s_per_rad, core::at_least(0.0),
+            "B");
+    v.value("stribeck_speed_rad_per_s", stribeck_speed_rad_per_s, core::above(0.0),
+            "speed over which S falls to C");
+    v.value("smoothing_rad_per_s", smoothing_rad_per_s, core::above(0.0),
+            "reference speed at which half of the dry friction is given");
+  }
+};
+
+// What the model leaves over, estimated from torque and speed, and taken off (thesis 9.3.1).
+struct DisturbanceObserverSettings {
+  bool enabled = false;
+  double bandwidth_rad_per_s = 30.0;  // below the chain's mode
+  double inertia_kg_m2 = 1.714e-5;    // J, Table 7.4
+  double limit_Nm = 8e-3;             // twice (7.2)
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("enabled", enabled, core::any_finite(), "whether the law takes off what it estimates");
+    v.value("bandwidth_rad_per_s", bandwidth_rad_per_s, core::between(0.1, 1e3), "of the estimate");
+    v.value("inertia_kg_m2", inertia_kg_m2, core::above(0.0), "J of its model");
+    v.value("limit_Nm", limit_Nm, core::above(0.0), "largest torque it adds");
+  }
+};
+
+// Moves the motor's reference by the stretch of the chain, so that the carriage and not the motor
+// is where it should be: for references whose acceleration does not jump.
+struct ChainFeedForward {
+  bool enabled = false;
+  double carriage_friction_Nm = 1.47e-3;  // 0.65 C, share *assumed*
+  double smoothing_rad_per_s = 3.0;       // half of the friction's stretch at this speed
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("enabled", enabled, core::any_finite(),
+            "whether the reference leads by the chain's stretch");
+    v.value("carriage_friction_Nm", carriage_friction_Nm, core::at_least(0.0),
+            "the carriage's share of the friction, at the motor");
+    v.value("smoothing_rad_per_s", smoothing_rad_per_s, core::above(0.0),
+            "reference speed at which half of the friction's stretch is given");
+  }
+};
+
+// Position calibration against the hall switches (homing.h).
+struct HomingConfiguration {
+  double seek_speed_ratio = 0.6;
+  double approach_speed_m_per_s = 1e-3;
+  double acceleration_m_per_s2 = 2.0;
+  double back_off_m = 3e-3;
+  double longest_release_m = 0.06;
+  double carriage_friction_Nm = 2.4e-3;  // 0.65 x (7.2), share *assumed*
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("seek_speed_ratio", seek_speed_ratio, core::between(0.01, 0.8),
+            "speed of the search over what the nearer end can stop");
+    v.value("approach_speed_m_per_s", approach_speed_m_per_s, core::between(1e-5, 0.05),
+            "speed of the approach that counts");
+    v.value("acceleration_m_per_s2", acceleration_m_per_s2, core::between(0.01, 10.0),
+            "of starts and stops");
+    v.value("back_off_m", back_off_m, core::between(1e-4, 0.1), "way beyond the switch's release");
+    v.value("longest_release_m", longest_release_m, core::between(1e-3, 0.5),
+            "a switch that has not released after this way back is stuck");
+    v.value("carriage_friction_Nm", carriage_friction_Nm, core::at_least(0.0),
+            "what stretches the chain at the approach speed, at the motor");
+  }
+};
+
 struct VelocityEstimation {
   VelocityMethod method = VelocityMethod::kHybrid;
   double capture_clock_Hz = 1.5625e6;  // 100 MHz / 64, the firmware's eQEP capture unit
@@ -194,11 +277,15 @@ struct AxisConfiguration {
   double speed_limit_m_per_s = 0.570;          // top speed at the voltage limit
   PidGains gains;
   FeedForward feed_forward;
+  FrictionCompensation friction;
+  DisturbanceObserverSettings disturbance_observer;
+  ChainFeedForward chain;
   VelocityEstimation velocity;
   DriveConfiguration drive;
   EndsConfiguration ends;
   BrakingConfiguration braking;
   PlausibilityConfiguration plausibility;
+  HomingConfiguration homing;
 
   template <typename Visitor>
   void visit(Visitor& v) {
@@ -210,11 +297,15 @@ struct AxisConfiguration {
     v.value("speed_limit_m_per_s", speed_limit_m_per_s, core::above(0.0), "refused above");
     v.group("gains", gains, "PID law");
     v.group("feed_forward", feed_forward, "model torque added to the law");
+    v.group("friction", friction, "friction compensation added to the law");
+    v.group("disturbance_observer", disturbance_observer, "what the model leaves over");
+    v.group("chain", chain, "stretch of the chain added to the reference");
     v.group("velocity", velocity, "velocity estimation");
     v.group("drive", drive, "from torque to PWM");
     v.group("ends", ends, "believed positions of the ends");
     v.group("braking", braking, "safety stop");
     v.group("plausibility", plausibility, "when the encoder is not believed");
+    v.group("homing", homing, "position calibration against the hall switches");
   }
 
   [[nodiscard]] double rad_per_count() const noexcept {  // (3.43)

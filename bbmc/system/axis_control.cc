@@ -10,21 +10,25 @@ AxisControl::AxisControl(const AxisConfiguration& axis, const SafetyConfiguratio
     : settings_(axis),
       safety_(safety),
       m_per_count_(axis.m_per_count()),
-      rad_per_m_(1.0 / axis.m_per_rad()),
-      ticks_per_Nm_(static_cast<double>(axis.drive.pwm_period_ticks) /
-                    axis.drive.full_duty_torque_Nm()),
-      torque_limit_Nm_(axis.drive.torque_limit_Nm()),
-      // Rounded down: a limit is a limit.
-      tick_limit_(std::min(static_cast<std::int32_t>(axis.drive.pwm_period_ticks),
-                           static_cast<std::int32_t>(torque_limit_Nm_ * ticks_per_Nm_ + 1e-6))),
       standstill_count_per_s_(axis.braking.standstill_m_per_s * axis.counts_per_m()),
       observer_(axis, exchange_rate_Hz),
       velocity_(axis.velocity, control_rate_Hz),
-      pid_(axis.gains),
+      law_(axis),
       brake_(axis),
       end_stops_(axis),
       plausibility_(axis),
-      speed_limits_(axis, safety.latency_s) {}
+      speed_limits_(axis, safety.latency_s) {
+  set_drive(axis.drive);
+}
+
+void AxisControl::set_drive(const DriveConfiguration& drive) noexcept {
+  settings_.drive = drive;
+  ticks_per_Nm_ = static_cast<double>(drive.pwm_period_ticks) / drive.full_duty_torque_Nm();
+  torque_limit_Nm_ = drive.torque_limit_Nm();
+  // Rounded down: a limit is a limit.
+  tick_limit_ = std::min(static_cast<std::int32_t>(drive.pwm_period_ticks),
+                         static_cast<std::int32_t>(torque_limit_Nm_ * ticks_per_Nm_ + 1e-6));
+}
 
 core::ErrorCode AxisControl::judge_encoder() noexcept {
   // What the drive was told until now is what has moved the axis since the exchange before.
@@ -67,17 +71,18 @@ void AxisControl::estimate_velocity() noexcept {
   velocity_.update(observer_.reading(), observer_.raw_count());
 }
 
-void AxisControl::follow(const Reference& reference, AxisMode mode, double step_s) noexcept {
+void AxisControl::follow(const Reference& reference, AxisMode mode, double step_s,
+                         double across_path_m) noexcept {
   mode_ = mode;
   reference_ = reference;
-  const double speed_rad_per_s = reference.velocity_m_per_s * rad_per_m_;
-  const double torque_Nm = pid_.update(
-      {.error_rad = (reference.position_m - position_m()) * rad_per_m_,
-       .speed_error_rad_per_s = (reference.velocity_m_per_s - velocity_m_per_s()) * rad_per_m_,
-       .feed_forward_Nm = feed_forward_torque_Nm(settings_.feed_forward, speed_rad_per_s,
-                                                 reference.acceleration_m_per_s2 * rad_per_m_),
-       .limit_Nm = torque_limit_Nm_,
-       .step_s = step_s});
+  const double torque_Nm =
+      law_.torque_Nm({.reference = reference,
+                      .position_m = position_m(),
+                      .velocity_m_per_s = velocity_m_per_s(),
+                      .across_path_m = across_path_m,
+                      .applied_Nm = static_cast<double>(ticks_) / ticks_per_Nm_,
+                      .limit_Nm = torque_limit_Nm_,
+                      .step_s = step_s});
   set_ticks(torque_Nm * ticks_per_Nm_);
 }
 
@@ -86,13 +91,18 @@ void AxisControl::drive_duty(double duty_pct) noexcept {
   set_ticks(duty_pct / 100.0 * static_cast<double>(settings_.drive.pwm_period_ticks));
 }
 
+void AxisControl::drive_torque(double torque_Nm) noexcept {
+  reference_ = {.position_m = position_m()};
+  set_ticks(torque_Nm * ticks_per_Nm_);
+}
+
 void AxisControl::begin(AxisMode mode, core::Nanoseconds now_ns) noexcept {
   mode_ = mode;
   enabled_ = true;
   enabled_ns_ = now_ns;
   start_count_ = observer_.count();
   reference_ = {.position_m = position_m()};
-  pid_.reset();
+  law_.reset();
   end_stops_.arm(observer_.raw_count());
 }
 
@@ -124,6 +134,8 @@ std::uint32_t AxisControl::take_edges() noexcept {
 }
 
 void AxisControl::declare_position(std::int64_t count) noexcept {
+  // The local state is relative to a place, whatever that place is called.
+  start_count_ += count - observer_.count();
   observer_.declare(count);
   calibrated_ = true;
 }

@@ -7,10 +7,10 @@
 #include "bbmc/system/axis_observer.h"
 #include "bbmc/system/brake.h"
 #include "bbmc/system/configuration.h"
+#include "bbmc/system/control_law.h"
 #include "bbmc/system/control_sample.h"
 #include "bbmc/system/encoder_plausibility.h"
 #include "bbmc/system/end_stop_guard.h"
-#include "bbmc/system/pid.h"
 #include "bbmc/system/stopping_distance.h"
 #include "bbmc/system/telemetry_row.h"
 #include "bbmc/system/trajectory/reference.h"
@@ -44,8 +44,12 @@ class AxisControl {
 
   // ---- once a control tick ----
   TOWBENCH_REALTIME void estimate_velocity() noexcept;
-  TOWBENCH_REALTIME void follow(const Reference& reference, AxisMode mode, double step_s) noexcept;
+  // `across_path_m`: this axis's part of the error across a 2-D path, times its gain ratio.
+  TOWBENCH_REALTIME void follow(const Reference& reference, AxisMode mode, double step_s,
+                                double across_path_m = 0) noexcept;
   TOWBENCH_REALTIME void drive_duty(double duty_pct) noexcept;
+  // Motor torque, within the axis's limit.
+  TOWBENCH_REALTIME void drive_torque(double torque_Nm) noexcept;
 
   // ---- changes of mode ----
   void begin(AxisMode mode, core::Nanoseconds now_ns) noexcept;
@@ -69,6 +73,12 @@ class AxisControl {
   [[nodiscard]] double velocity_count_per_s() const noexcept { return velocity_.counts_per_s(); }
   [[nodiscard]] const Reference& reference() const noexcept { return reference_; }
   [[nodiscard]] double duty_pct() const noexcept;
+  // Estimated by the law, if it does; + pushes towards max.
+  [[nodiscard]] double disturbance_Nm() const noexcept { return law_.disturbance_Nm(); }
+  [[nodiscard]] double integral_Nm() const noexcept { return law_.integral_Nm(); }
+  [[nodiscard]] double motor_rad() const noexcept {
+    return (static_cast<double>(observer_.count()) + 0.5) * settings_.rad_per_count();
+  }
   [[nodiscard]] AxisDrive drive() const noexcept { return {ticks_, enabled_}; }
   [[nodiscard]] bool calibrated() const noexcept { return calibrated_; }
   [[nodiscard]] std::int64_t start_count() const noexcept { return start_count_; }
@@ -78,8 +88,10 @@ class AxisControl {
   // ---- settings that change while the controller runs ----
   void declare_position(std::int64_t count) noexcept;
   void forget_calibration() noexcept { calibrated_ = false; }
-  void set_gains(const PidGains& gains) noexcept { pid_.set_gains(gains); }
-  void set_feed_forward(const FeedForward& model) noexcept { settings_.feed_forward = model; }
+  void set_gains(const PidGains& gains) noexcept { law_.set_gains(gains); }
+  // Ticks of a PWM period and largest duty; with no power.
+  void set_drive(const DriveConfiguration& drive) noexcept;
+  void set_law(const AxisConfiguration& axis) noexcept { law_.set_additions(axis); }
   void set_velocity_estimation(const VelocityEstimation& velocity, double control_rate_Hz) noexcept;
 
  private:
@@ -88,14 +100,13 @@ class AxisControl {
   AxisConfiguration settings_;
   SafetyConfiguration safety_;
   double m_per_count_;
-  double rad_per_m_;
-  double ticks_per_Nm_;
-  double torque_limit_Nm_;
-  std::int32_t tick_limit_;
+  double ticks_per_Nm_ = 0;
+  double torque_limit_Nm_ = 0;
+  std::int32_t tick_limit_ = 0;
   double standstill_count_per_s_;
   AxisObserver observer_;
   VelocityEstimator velocity_;
-  Pid pid_;
+  ControlLaw law_;
   Brake brake_;
   EndStopGuard end_stops_;
   EncoderPlausibility plausibility_;

@@ -76,12 +76,27 @@ struct GotoConfiguration {
   }
 };
 
+// Of the 2-D path (thesis 9.3.2): the error across the path pulls both axes back, on top of what
+// each axis's own law does (cross_coupling.h).
+struct CrossCouplingConfiguration {
+  bool enabled = false;
+  double ratio = 1.0;
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("enabled", enabled, core::any_finite(), "whether the axes share the path's error");
+    v.value("ratio", ratio, core::between(0.0, 10.0),
+            "gain on the error across the path, over each axis's K_P");
+  }
+};
+
 struct Configuration {
   double control_rate_Hz = 1000.0;  // OR-BBMC-3b: 1 .. 5000
   double hold_time_s = 0.2;         // position held after a reference has ended, before power off
   AxesConfiguration axes;
   SafetyConfiguration safety;
   GotoConfiguration go_to;
+  CrossCouplingConfiguration cross_coupling;
 
   Configuration() noexcept { axes[core::Axis::kX] = x_axis_defaults(); }
 
@@ -94,6 +109,7 @@ struct Configuration {
     v.group("axis", axes, "the two axes");
     v.group("safety", safety, "when and how motion is stopped");
     v.group("goto", go_to, "pick-and-place motion");
+    v.group("cross_coupling", cross_coupling, "of the two axes along a path");
   }
 
   [[nodiscard]] core::Nanoseconds control_period_ns() const noexcept {

@@ -73,6 +73,10 @@ core::Status DeviceIo::set_period(core::Nanoseconds period_ns) noexcept {
   return status;
 }
 
+core::Status DeviceIo::set_pwm_period(Axis which, std::int64_t ticks) noexcept {
+  return devices_->pwm(which).config({.period_ticks = static_cast<std::uint16_t>(ticks)});
+}
+
 bool DeviceIo::next_interrupt(Aintc::Reading& edge) noexcept {
   return devices_->interrupts().read(edge).has_value();
 }

@@ -19,6 +19,7 @@ class DeviceIo {
   // Opens and initialises what the system layer uses, the console's UART included.
   [[nodiscard]] core::Status start(const Configuration& configuration) noexcept;
   [[nodiscard]] core::Status set_period(core::Nanoseconds period_ns) noexcept;
+  [[nodiscard]] core::Status set_pwm_period(core::Axis which, std::int64_t ticks) noexcept;
 
   // The pending line edge to serve next; false when there is none.
   TOWBENCH_REALTIME [[nodiscard]] bool next_interrupt(Aintc::Reading& edge) noexcept;

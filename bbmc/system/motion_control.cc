@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bbmc/system/cross_coupling.h"
+
 namespace towbench::bbmc {
 
 using core::Axis;
@@ -71,6 +73,7 @@ void MotionControl::tick(const ControlSample& sample) noexcept {
     end_motion(result);
     return;
   }
+  find_error_across_path(time_s);
   for (Axis which : core::kAxes) {
     if (is_driven(axes_[which].mode())) {
       drive_axis(which, time_s, step_s);
@@ -103,8 +106,8 @@ void MotionControl::begin_waiting_order(core::Nanoseconds now_ns) noexcept {
       continue;
     }
     AxisControl& axis = axes_[which];
-    axis.begin(order.kind == MotionKind::kOpenLoop ? AxisMode::kOpenLoop : AxisMode::kPosition,
-               now_ns);
+    const bool open_loop = order.kind == MotionKind::kOpenLoop || order.kind == MotionKind::kTuning;
+    axis.begin(open_loop ? AxisMode::kOpenLoop : AxisMode::kPosition, now_ns);
     const double duration_s =
         order.kind == MotionKind::kReference  ? order.trajectory[which].duration_s()
         : order.kind == MotionKind::kOpenLoop ? order.program[which].duration_s()
@@ -117,6 +120,12 @@ void MotionControl::begin_waiting_order(core::Nanoseconds now_ns) noexcept {
         std::min(speed_count_per_s * configuration_.axes[which].m_per_count(),
                  configuration_.axes[which].speed_limit_m_per_s),
         go_to.acceleration_m_per_s2);
+    if (order.kind == MotionKind::kHoming) {
+      begin_homing(which);
+    }
+    if (order.kind == MotionKind::kTuning) {
+      motion_.tuner[which] = RelayTuner(order.relay, axis.motor_rad());
+    }
     post(Kind::kMotionStarted, which, ErrorCode::kNone);
     set_mode_event(which);
   }
@@ -126,7 +135,8 @@ void MotionControl::drive_axis(Axis which, double time_s, double step_s) noexcep
   AxisControl& axis = axes_[which];
   switch (motion_.order.kind) {
     case MotionKind::kReference:
-      axis.follow(motion_.order.trajectory[which].at(time_s), AxisMode::kPosition, step_s);
+      axis.follow(motion_.order.trajectory[which].at(time_s), AxisMode::kPosition, step_s,
+                  motion_.across_path_m[which]);
       break;
     case MotionKind::kOpenLoop:
       axis.drive_duty(motion_.order.program[which].duty_pct(time_s));
@@ -134,8 +144,34 @@ void MotionControl::drive_axis(Axis which, double time_s, double step_s) noexcep
     case MotionKind::kGoto:
       drive_approach(which, step_s);
       break;
+    case MotionKind::kHoming:
+      drive_homing(which, step_s);
+      break;
+    case MotionKind::kTuning:
+      axis.drive_torque(motion_.tuner[which].step(axis.motor_rad(), step_s));
+      break;
     case MotionKind::kNone:
       break;
+  }
+}
+
+void MotionControl::find_error_across_path(double time_s) noexcept {
+  motion_.across_path_m = {};
+  const MotionOrder& order = motion_.order;
+  const CrossCouplingConfiguration& coupling = configuration_.cross_coupling;
+  if (!coupling.enabled || order.kind != MotionKind::kReference || !order.driven[Axis::kY] ||
+      !order.driven[Axis::kX]) {
+    return;
+  }
+  core::PerAxis<Reference> reference;
+  core::PerAxis<double> error_m;
+  for (Axis which : core::kAxes) {
+    reference[which] = order.trajectory[which].at(time_s);
+    error_m[which] = reference[which].position_m - axes_[which].position_m();
+  }
+  const core::PerAxis<double> across_m = error_across_path_m(reference, error_m);
+  for (Axis which : core::kAxes) {
+    motion_.across_path_m[which] = coupling.ratio * across_m[which];
   }
 }
 
@@ -161,6 +197,9 @@ bool MotionControl::motion_is_over(double time_s, ErrorCode& result) noexcept {
   if (motion_.order.kind == MotionKind::kOpenLoop) {
     return time_s >= motion_.duration_s || broke_away();
   }
+  if (motion_.order.kind == MotionKind::kTuning) {
+    return tuning_is_over(result);
+  }
   const bool must_settle = motion_.order.kind == MotionKind::kGoto || motion_.order.until_settled;
   if (!must_settle) {
     return time_s >= motion_.duration_s + configuration_.hold_time_s;
@@ -176,6 +215,18 @@ bool MotionControl::motion_is_over(double time_s, ErrorCode& result) noexcept {
     return true;
   }
   return false;
+}
+
+bool MotionControl::tuning_is_over(ErrorCode& result) noexcept {
+  bool over = true;
+  for (Axis which : core::kAxes) {
+    if (motion_.order.driven[which]) {
+      over = over && motion_.tuner[which].over();
+      status_.axes[which].tuning = motion_.tuner[which].result();
+      result = status_.axes[which].tuning.found() ? result : ErrorCode::kMotionNotSettled;
+    }
+  }
+  return over;
 }
 
 bool MotionControl::settled_long_enough() noexcept {

@@ -10,6 +10,7 @@
 #include "bbmc/system/axis_control.h"
 #include "bbmc/system/control_sample.h"
 #include "bbmc/system/data_log.h"
+#include "bbmc/system/homing.h"
 #include "bbmc/system/motion_request.h"
 #include "bbmc/system/system_event.h"
 #include "bbmc/system/system_status.h"
@@ -25,6 +26,9 @@ struct MotionOrder {
   core::PerAxis<Trajectory> trajectory{};  // kReference
   core::PerAxis<DutyProgram> program{};    // kOpenLoop
   core::PerAxis<double> target_m{};        // kGoto
+  core::PerAxis<bool> homes{};             // kHoming: driven, but not homing, is held
+  core::PerAxis<End> home_end{};           // kHoming
+  RelayParameters relay{};                 // kTuning
   bool until_settled = false;
   bool fast = false;
   double stop_speed_count_per_s = 0;
@@ -57,12 +61,18 @@ class MotionControl {
   [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
 
   void set_control_period(core::Nanoseconds period_ns) noexcept { period_ns_ = period_ns; }
+  void set_cross_coupling(const CrossCouplingConfiguration& wanted) noexcept {
+    configuration_.cross_coupling = wanted;
+  }
   void publish() noexcept;
 
  private:
   struct Motion {
     MotionOrder order;
     core::PerAxis<ApproachProfile> approach;
+    core::PerAxis<HomingSequence> homing;
+    core::PerAxis<RelayTuner> tuner;
+    core::PerAxis<double> across_path_m;  // of this tick, times the gain ratio
     core::Nanoseconds start_ns = 0;
     core::Nanoseconds settled_since_ns = 0;
     double duration_s = 0;
@@ -86,6 +96,14 @@ class MotionControl {
   void begin_waiting_order(core::Nanoseconds now_ns) noexcept;
   void drive_axis(core::Axis which, double time_s, double step_s) noexcept;
   void drive_approach(core::Axis which, double step_s) noexcept;
+  [[nodiscard]] bool tuning_is_over(core::ErrorCode& result) noexcept;
+  void find_error_across_path(double time_s) noexcept;
+
+  // motion_homing.cc: finds out where it is.
+  void begin_homing(core::Axis which) noexcept;
+  void drive_homing(core::Axis which, double step_s) noexcept;
+  void declare_at_switch(core::Axis which) noexcept;
+
   [[nodiscard]] bool motion_is_over(double time_s, core::ErrorCode& result) noexcept;
   [[nodiscard]] bool settled_long_enough() noexcept;
   [[nodiscard]] bool broke_away() noexcept;

@@ -21,6 +21,9 @@ void MotionControl::publish() noexcept {
     status.hall_max_active = axis.end_stops().active(End::kMax);
     status.amplifier_ready = (lines_ & mask_of(amplifier_ready_of(which))) != 0;
     status.amplifier_enabled = axis.drive().enable;
+    status.reference_m = axis.reference().position_m;
+    status.integral_Nm = axis.integral_Nm();
+    status.disturbance_Nm = axis.disturbance_Nm();
     status.local_count = axis.observer().count() - axis.start_count();
   }
 }

@@ -1,6 +1,8 @@
 // What the application layer may ask the system manager to do with the machine.
 #pragma once
 
+#include "bbmc/system/end_stop_guard.h"
+#include "bbmc/system/relay_tuner.h"
 #include "bbmc/system/trajectory/duty_program.h"
 #include "bbmc/system/trajectory/trajectory.h"
 #include "core/axis.h"
@@ -29,6 +31,19 @@ struct OpenLoopRequest {
 struct GotoRequest {
   core::PerAxis<double> target_m;
   bool fast = false;
+};
+
+// Position calibration against a hall switch of each axis asked for, both at once if both; an axis
+// that is not asked for is held.
+struct HomingRequest {
+  core::PerAxis<bool> wanted;
+  core::PerAxis<End> end{{End::kMin, End::kMin}};
+};
+
+// Ziegler-Nichols: lets one axis oscillate around where it stands. The other has no power.
+struct TuningRequest {
+  core::Axis axis = core::Axis::kY;
+  double amplitude_m = 1e-3;  // > 0, at most 20 mm
 };
 
 }  // namespace towbench::bbmc

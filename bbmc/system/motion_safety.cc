@@ -48,7 +48,8 @@ void MotionControl::serve_line(const Aintc::Reading& edge) noexcept {
   const HallLine hall = hall_of(edge.line);
   AxisControl& axis = axes_[hall.axis];
   const bool stops = axis.end_stops().edge(hall.end, edge.active, axis.observer().raw_count(),
-                                           axis.observer().speed_count_per_s());
+                                           axis.observer().speed_count_per_s(),
+                                           core::seconds(now_ns_ - edge.time_ns));
   if (stops && any_powered()) {
     brake_all(end_stop_fault(hall.end), hall.axis);
   }
@@ -93,7 +94,8 @@ void MotionControl::watch_axis(Axis which, const ControlSample& sample) noexcept
     return;
   }
   End end = End::kMin;
-  if (axis.end_stops().moves_into(axis.observer().speed_count_per_s(), end)) {
+  if (axis.end_stops().moves_into(axis.observer().raw_count(), axis.observer().speed_count_per_s(),
+                                  end)) {
     brake_all(end_stop_fault(end), which);
   } else if (is_driven(axis.mode()) && axis.breaks_limits()) {
     brake_all(ErrorCode::kFaultSoftLimit, which);

@@ -22,11 +22,12 @@ StoppingDistance::StoppingDistance(const AxisConfiguration& axis, double latency
       deceleration_m_per_s2_(braking_torque_Nm(axis) / axis.braking.inertia_kg_m2 *
                              axis.m_per_rad()) {}
 
-double StoppingDistance::speed_m_per_s(double distance_m) const noexcept {
+double StoppingDistance::speed_m_per_s(double distance_m,
+                                       double deceleration_m_per_s2) const noexcept {
   if (!(distance_m > 0)) {
     return 0.0;
   }
-  const double a = deceleration_m_per_s2_;
+  const double a = deceleration_m_per_s2;
   return a * (std::sqrt(lag_s_ * lag_s_ + 2.0 * distance_m / a) - lag_s_);
 }
 
@@ -41,8 +42,12 @@ SpeedLimits::SpeedLimits(const AxisConfiguration& axis, double latency_s) noexce
       limit_m_per_s_(axis.speed_limit_m_per_s) {
   const double beyond_min_m = hall_min_m_ - axis.position_m(axis.ends.hard_min_count);
   const double beyond_max_m = axis.position_m(axis.ends.hard_max_count) - hall_max_m_;
-  uncalibrated_m_per_s_ =
-      std::min(limit_m_per_s_, stopping_.speed_m_per_s(std::min(beyond_min_m, beyond_max_m)));
+  nearer_end_m_ = std::min(beyond_min_m, beyond_max_m);
+  uncalibrated_m_per_s_ = uncalibrated_m_per_s(stopping_.deceleration_m_per_s2());
+}
+
+double SpeedLimits::uncalibrated_m_per_s(double deceleration_m_per_s2) const noexcept {
+  return std::min(limit_m_per_s_, stopping_.speed_m_per_s(nearer_end_m_, deceleration_m_per_s2));
 }
 
 double SpeedLimits::calibrated_m_per_s(double position_m, int direction) const noexcept {

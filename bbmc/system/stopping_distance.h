@@ -29,7 +29,11 @@ class StoppingDistance {
     return speed_m_per_s * lag_s_ + speed_m_per_s * speed_m_per_s / (2.0 * deceleration_m_per_s2_);
   }
   // The inverse; 0 for a distance <= 0.
-  [[nodiscard]] double speed_m_per_s(double distance_m) const noexcept;
+  [[nodiscard]] double speed_m_per_s(double distance_m) const noexcept {
+    return speed_m_per_s(distance_m, deceleration_m_per_s2_);
+  }
+  [[nodiscard]] double speed_m_per_s(double distance_m,
+                                     double deceleration_m_per_s2) const noexcept;
 
   [[nodiscard]] double deceleration_m_per_s2() const noexcept { return deceleration_m_per_s2_; }
 
@@ -45,6 +49,8 @@ class SpeedLimits {
 
   // Before calibration: what can be stopped between hall and hard end, at the nearer of the two.
   [[nodiscard]] double uncalibrated_m_per_s() const noexcept { return uncalibrated_m_per_s_; }
+  // The same for a stop with less than full braking, from the switch on.
+  [[nodiscard]] double uncalibrated_m_per_s(double deceleration_m_per_s2) const noexcept;
   // Towards max (direction > 0) or min from a calibrated place: what can be stopped before the
   // hall, and never above the axis's own limit. 0 beyond the hall.
   [[nodiscard]] double calibrated_m_per_s(double position_m, int direction) const noexcept;
@@ -65,7 +71,8 @@ class SpeedLimits {
   double guard_min_m_;
   double guard_max_m_;
   double limit_m_per_s_;
-  double uncalibrated_m_per_s_;
+  double nearer_end_m_ = 0;
+  double uncalibrated_m_per_s_ = 0;
 };
 
 }  // namespace towbench::bbmc

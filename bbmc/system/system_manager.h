@@ -57,6 +57,12 @@ class SystemManager {
   // Also refused before position calibration.
   [[nodiscard]] core::Status request_goto(const GotoRequest& request) noexcept;
 
+  // Both switches of an axis active at once is refused too: there is no way off.
+  [[nodiscard]] core::Status request_homing(const HomingRequest& request) noexcept;
+
+  // kRequestOutOfRange for an amplitude that is none, or an axis that is not there.
+  [[nodiscard]] core::Status request_tuning(const TuningRequest& request) noexcept;
+
   // Brakes to standstill, then idle; latches nothing. kRequestWrongState when nothing moves.
   [[nodiscard]] core::Status stop() noexcept;
 
@@ -72,8 +78,14 @@ class SystemManager {
   // From the next control tick on, also in motion: the change is bumpless. Gains are finite, >= 0.
   [[nodiscard]] core::Status set_gains(core::Axis axis, const PidGains& gains) noexcept;
   // Only with no motion.
-  [[nodiscard]] core::Status set_feed_forward(core::Axis axis, const FeedForward& model) noexcept;
+  // What is added to the PID (control_law.h), as `parts` has it; the rest of `parts` is not looked
+  // at.
+  [[nodiscard]] core::Status set_law(core::Axis axis, const AxisConfiguration& parts) noexcept;
+  [[nodiscard]] core::Status set_cross_coupling(const CrossCouplingConfiguration& wanted) noexcept;
   [[nodiscard]] core::Status set_velocity_method(core::Axis axis, VelocityMethod method) noexcept;
+  // Ticks of a PWM period (10 .. 65535) and largest duty (1 .. 100 %); only with no motion.
+  [[nodiscard]] core::Status set_drive(core::Axis axis, std::int64_t pwm_period_ticks,
+                                       double duty_limit_pct) noexcept;
   // Also refused: a period that is no multiple of the exchange, gains unstable at that rate.
   [[nodiscard]] core::Status set_control_rate(double rate_Hz) noexcept;
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "bbmc/system/relay_tuner.h"
 #include "bbmc/system/telemetry_row.h"
 #include "core/axis.h"
 #include "core/error.h"
@@ -13,7 +14,14 @@
 
 namespace towbench::bbmc {
 
-enum class MotionKind : std::uint8_t { kNone = 0, kReference = 1, kOpenLoop = 2, kGoto = 3 };
+enum class MotionKind : std::uint8_t {
+  kNone = 0,
+  kReference = 1,
+  kOpenLoop = 2,
+  kGoto = 3,
+  kHoming = 4,
+  kTuning = 5,
+};
 
 struct AxisStatus {
   AxisMode mode = AxisMode::kIdle;
@@ -31,6 +39,13 @@ struct AxisStatus {
   // At the end of the last open-loop motion that stop_speed ended: where, and with which duty.
   std::int64_t break_away_count = 0;
   double break_away_duty_pct = 0;
+  // By the last homing: how far the frame of positions moved, in counts.
+  std::int64_t homing_shift_counts = 0;
+  RelayResult tuning;  // of the last tuning that ran to its end
+  // What the law does, for whoever debugs it.
+  double reference_m = 0;
+  double integral_Nm = 0;
+  double disturbance_Nm = 0;
 };
 
 struct SystemStatus {

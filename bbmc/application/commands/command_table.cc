@@ -5,7 +5,7 @@
 namespace towbench::bbmc {
 namespace {
 
-constexpr std::size_t kMaxCommands = 40;
+constexpr std::size_t kMaxCommands = 48;
 
 struct Table {
   std::array<CommandSpec, kMaxCommands> commands;
@@ -32,6 +32,7 @@ Table make_table() noexcept {
   table.add(path_commands());
   table.add(goto_command());
   table.add(goto_home_command());
+  table.add(poscalib_command());
   table.add(rmpi_commands());
   table.add(status_command());
   table.add(data_log_commands());
@@ -39,6 +40,7 @@ Table make_table() noexcept {
   table.add(reset_commands());
   table.add(config_commands());
   table.add(test_commands());
+  table.add(debug_commands());
   table.add(help_command());
   table.add(quit_command());
   return table;

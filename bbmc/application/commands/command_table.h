@@ -18,6 +18,7 @@ namespace towbench::bbmc {
 [[nodiscard]] std::span<const CommandSpec> path_commands() noexcept;  // run -path as well
 [[nodiscard]] const CommandSpec& goto_command() noexcept;
 [[nodiscard]] const CommandSpec& goto_home_command() noexcept;
+[[nodiscard]] const CommandSpec& poscalib_command() noexcept;
 [[nodiscard]] std::span<const CommandSpec> rmpi_commands() noexcept;
 [[nodiscard]] const CommandSpec& status_command() noexcept;
 [[nodiscard]] std::span<const CommandSpec> data_log_commands() noexcept;
@@ -25,6 +26,7 @@ namespace towbench::bbmc {
 [[nodiscard]] std::span<const CommandSpec> reset_commands() noexcept;
 [[nodiscard]] std::span<const CommandSpec> config_commands() noexcept;
 [[nodiscard]] std::span<const CommandSpec> test_commands() noexcept;
+[[nodiscard]] std::span<const CommandSpec> debug_commands() noexcept;
 [[nodiscard]] const CommandSpec& help_command() noexcept;
 [[nodiscard]] const CommandSpec& quit_command() noexcept;
 

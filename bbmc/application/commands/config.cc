@@ -44,29 +44,70 @@ ErrorCode set(CommandContext& context, const Arguments& arguments) {
 
 namespace law {
 
-enum Option : std::size_t { kDof, kFeedForward, kOptionCount };
+enum Option : std::size_t {
+  kDof,
+  kFeedForward,
+  kFriction,
+  kObserver,
+  kChain,
+  kCrossCoupling,
+  kOptionCount,
+};
+
+constexpr OptionSpec addition(std::string_view name, std::string_view meaning) noexcept {
+  return {.name = name,
+          .kind = OptionKind::kChoice,
+          .presence = Presence::kOptional,
+          .choices = kOnOff,
+          .meaning = meaning};
+}
 constexpr std::array<OptionSpec, kOptionCount> kOptions{{
     kDofRequired,
-    {.name = "--feed-forward",
-     .kind = OptionKind::kChoice,
-     .presence = Presence::kOptional,
-     .choices = kOnOff,
-     .meaning = "torque of the identified model added to the PID law"},
+    addition("--feed-forward", "torque of the identified model added to the PID law"),
+    addition("--friction", "friction of the reference's speed, instead of the model's"),
+    addition("--observer", "disturbance observer: takes off what the model leaves over"),
+    addition("--chain", "reference leads by the chain's stretch; for smooth profiles"),
+    addition("--cross-coupling", "of both axes: the error across a path pulls both back"),
 }};
+
+void switch_if_given(const Arguments& arguments, Option option, bool& part) noexcept {
+  part = arguments.given(option) ? arguments.choice(option) == 0 : part;
+}
+
+void show(TextWriter& out, std::string_view name, bool on) noexcept {
+  out.text(", ").text(name).text(on ? " on" : " off");
+}
 
 ErrorCode set(CommandContext& context, const Arguments& arguments) {
   const core::Axis axis = arguments.axis(kDof);
-  const auto& configuration = context.system.configuration().axes[axis];
-  if (arguments.given(kFeedForward)) {
-    FeedForward model = configuration.feed_forward;
-    model.enabled = arguments.choice(kFeedForward) == 0;
-    const core::Status status = context.system.set_feed_forward(axis, model);
-    if (!status) {
+  const Configuration& configuration = context.system.configuration();
+  AxisConfiguration parts = configuration.axes[axis];
+  switch_if_given(arguments, kFeedForward, parts.feed_forward.enabled);
+  switch_if_given(arguments, kFriction, parts.friction.enabled);
+  switch_if_given(arguments, kObserver, parts.disturbance_observer.enabled);
+  switch_if_given(arguments, kChain, parts.chain.enabled);
+  CrossCouplingConfiguration coupling = configuration.cross_coupling;
+  switch_if_given(arguments, kCrossCoupling, coupling.enabled);
+  bool changes = false;
+  for (std::size_t option = kFeedForward; option < kOptionCount; ++option) {
+    changes = changes || arguments.given(option);
+  }
+  if (changes) {
+    if (const core::Status status = context.system.set_law(axis, parts); !status) {
+      return explained(context, status.error());
+    }
+    if (const core::Status status = context.system.set_cross_coupling(coupling); !status) {
       return explained(context, status.error());
     }
   }
-  context.out.text(core::name_of(axis)).text(": PID, feed-forward ");
-  context.out.text(configuration.feed_forward.enabled ? "on" : "off").end_line();
+  TextWriter& out = context.out;
+  out.text(core::name_of(axis)).text(": PID");
+  show(out, "feed-forward", parts.feed_forward.enabled);
+  show(out, "friction", parts.friction.enabled);
+  show(out, "observer", parts.disturbance_observer.enabled);
+  show(out, "chain", parts.chain.enabled);
+  show(out, "cross-coupling", coupling.enabled);
+  out.end_line();
   return ErrorCode::kNone;
 }
 
@@ -102,6 +143,54 @@ ErrorCode set(CommandContext& context, const Arguments& arguments) {
 }
 
 }  // namespace qei
+
+namespace pwm {
+
+enum Option : std::size_t { kDof, kPeriod, kLimit, kOptionCount };
+constexpr std::array<OptionSpec, kOptionCount> kOptions{{
+    kDofRequired,
+    {.name = "--period",
+     .kind = OptionKind::kWhole,
+     .presence = Presence::kOptional,
+     .range = core::between(10, 65535),
+     .meaning = "ticks of a PWM period; one tick is the step of the duty"},
+    {.name = "--limit",
+     .presence = Presence::kOptional,
+     .dimension = Dimension::kDuty,
+     .bare_unit = "%",
+     .range = core::between(1, 100),
+     .meaning = "largest duty written"},
+}};
+
+ErrorCode set(CommandContext& context, const Arguments& arguments) {
+  const core::Axis axis = arguments.axis(kDof);
+  const DriveConfiguration& now = context.system.configuration().axes[axis].drive;
+  if (arguments.given(kPeriod) || arguments.given(kLimit)) {
+    const std::int64_t period = arguments.given(kPeriod)
+                                    ? static_cast<std::int64_t>(arguments.number(kPeriod))
+                                    : now.pwm_period_ticks;
+    const double limit = arguments.given(kLimit) ? arguments.number(kLimit) : now.duty_limit_pct;
+    const core::Status status = context.system.set_drive(axis, period, limit);
+    if (!status) {
+      return explained(context, status.error());
+    }
+  }
+  context.out.text(core::name_of(axis)).text(": period ").integer(now.pwm_period_ticks);
+  context.out.text(" ticks, duty at most ").compact(now.duty_limit_pct, 3).text("%, torque ");
+  context.out.fixed(1e3 * now.torque_limit_Nm(), 2).text("mNm").end_line();
+  return ErrorCode::kNone;
+}
+
+}  // namespace pwm
+
+namespace everything {
+
+ErrorCode show(CommandContext& context, const Arguments& /*arguments*/) {
+  context.report.start(ConfigReport());
+  return ErrorCode::kNone;
+}
+
+}  // namespace everything
 
 namespace timers {
 
@@ -149,7 +238,7 @@ ErrorCode set(CommandContext& context, const Arguments& arguments) {
 }  // namespace
 
 std::span<const CommandSpec> config_commands() noexcept {
-  static constexpr std::array<CommandSpec, 5> kCommands{{
+  static constexpr std::array<CommandSpec, 7> kCommands{{
       {.word = "config",
        .sub = "gains",
        .options = gains::kOptions,
@@ -166,6 +255,11 @@ std::span<const CommandSpec> config_commands() noexcept {
        .handler = qei::set,
        .meaning = "shows and sets the encoder's evaluation"},
       {.word = "config",
+       .sub = "pwm",
+       .options = pwm::kOptions,
+       .handler = pwm::set,
+       .meaning = "shows and sets the PWM's period and largest duty"},
+      {.word = "config",
        .sub = "timers",
        .options = timers::kOptions,
        .handler = timers::set,
@@ -175,6 +269,10 @@ std::span<const CommandSpec> config_commands() noexcept {
        .options = console::kOptions,
        .handler = console::set,
        .meaning = "sets the echo"},
+      {.word = "config",
+       .sub = "show",
+       .handler = everything::show,
+       .meaning = "lists everything that is set, with its key"},
   }};
   return kCommands;
 }

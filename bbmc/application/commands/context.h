@@ -20,6 +20,7 @@ using WayPoints = core::BoundedVector<core::PerAxis<double>, kMaxWayPoints>;
 struct ConsoleSettings {
   bool echo = true;
   bool quit = false;
+  bool debug = false;    // what the law did, after each motion
   WayPoints way_points;  // m
 };
 

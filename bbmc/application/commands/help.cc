@@ -14,7 +14,8 @@ constexpr std::array<OptionSpec, 1> kOptions{{
     {.name = "COMMAND",
      .kind = OptionKind::kChoice,
      .presence = Presence::kOptional,
-     .choices = "all|run|path|goto|rmpi|status|datalog|perf|reset|config|test|help|quit",
+     .choices =
+         "all|run|path|goto|poscalib|rmpi|status|datalog|perf|reset|config|test|debug|help|quit",
      .meaning = "shows options, units, ranges and defaults"},
 }};
 

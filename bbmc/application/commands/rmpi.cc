@@ -21,9 +21,9 @@ core::ErrorCode drive(CommandContext& context, core::Axis axis, const DutyProgra
 }
 
 std::span<const CommandSpec> rmpi_commands() noexcept {
-  static const std::array<CommandSpec, 5> kCommands{
-      rmpi_pulses_command(), rmpi_break_away_command(), rmpi_step_command(),
-      rmpi_double_step_command(), rmpi_sine_command()};
+  static const std::array<CommandSpec, 6> kCommands{
+      rmpi_pulses_command(),      rmpi_break_away_command(), rmpi_step_command(),
+      rmpi_double_step_command(), rmpi_sine_command(),       rmpi_pid_command()};
   return kCommands;
 }
 

@@ -54,5 +54,6 @@ inline constexpr OptionSpec kRestOption =
 [[nodiscard]] const CommandSpec& rmpi_step_command() noexcept;
 [[nodiscard]] const CommandSpec& rmpi_double_step_command() noexcept;
 [[nodiscard]] const CommandSpec& rmpi_sine_command() noexcept;
+[[nodiscard]] const CommandSpec& rmpi_pid_command() noexcept;
 
 }  // namespace towbench::bbmc

@@ -65,7 +65,8 @@ ErrorCode explained(CommandContext& context, ErrorCode code) noexcept {
       why.text(core::describe(status.fault)).text("; `reset` clears it");
       break;
     case ErrorCode::kRequestNotCalibrated:
-      why.text("`reset poscalib DOF POSITION` declares where an axis stands");
+      why.text(
+          "`poscalib` finds out where the axes stand, `reset poscalib DOF POSITION` declares it");
       break;
     case ErrorCode::kRequestSwitchPressed:
       why.text("the kill switch is pressed");

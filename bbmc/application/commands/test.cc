@@ -4,6 +4,7 @@
 #include "bbmc/application/commands/command_table.h"
 #include "bbmc/application/commands/shared_options.h"
 #include "bbmc/device/device_manager.h"
+#include "bbmc/system/system_manager.h"
 
 namespace towbench::bbmc {
 namespace {
@@ -45,6 +46,21 @@ ErrorCode test_qei(CommandContext& context, const Arguments& arguments) {
   return ErrorCode::kNone;
 }
 
+ErrorCode test_pwm(CommandContext& context, const Arguments& arguments) {
+  const core::Axis axis = arguments.axis(kDof);
+  Ehrpwm::Reading reading;
+  if (const core::Status read = context.devices.pwm(axis).read(reading); !read) {
+    context.why.text("ehrpwm ").text(core::name_of(axis));
+    return read.error();
+  }
+  TextWriter& out = context.out;
+  out.text("channel A ").integer(reading.channel_a_ticks).text(" ticks, B ");
+  out.integer(reading.channel_b_ticks).text(" of ");
+  out.integer(context.system.configuration().axes[axis].drive.pwm_period_ticks);
+  out.text(", output ").text(reading.enable ? "enabled" : "disabled").end_line();
+  return ErrorCode::kNone;
+}
+
 ErrorCode test_devices(CommandContext& context, const Arguments& /*arguments*/) {
   for (std::size_t i = 0; i < DeviceManager::kUnitCount; ++i) {
     const DeviceUnit unit = context.devices.unit(i);
@@ -57,13 +73,18 @@ ErrorCode test_devices(CommandContext& context, const Arguments& /*arguments*/) 
 }  // namespace
 
 std::span<const CommandSpec> test_commands() noexcept {
-  static constexpr std::array<CommandSpec, 3> kCommands{{
+  static constexpr std::array<CommandSpec, 4> kCommands{{
       {.word = "test", .sub = "gpio", .handler = test_gpio, .meaning = "level of every line"},
       {.word = "test",
        .sub = "qei",
        .options = kQeiOptions,
        .handler = test_qei,
        .meaning = "registers of an encoder's decoder"},
+      {.word = "test",
+       .sub = "pwm",
+       .options = kQeiOptions,
+       .handler = test_pwm,
+       .meaning = "what an axis's PWM puts out"},
       {.word = "test",
        .sub = "devices",
        .handler = test_devices,

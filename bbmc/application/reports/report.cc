@@ -12,6 +12,8 @@ bool Report::next(SystemManager& system, TextWriter& out) noexcept {
     more = data->next(system, out);
   } else if (auto* const perf = std::get_if<PerfLogReport>(&content_)) {
     more = perf->next(system, out);
+  } else if (auto* const config = std::get_if<ConfigReport>(&content_)) {
+    more = config->next(system, out);
   }
   if (!more) {
     stop();

@@ -65,6 +65,15 @@ class PerfLogReport {
   std::size_t part_ = 0;
 };
 
+// Every value of the configuration as it holds now, with its key of the controller file.
+class ConfigReport {
+ public:
+  [[nodiscard]] bool next(const SystemManager& system, TextWriter& out) noexcept;
+
+ private:
+  std::size_t value_ = 0;
+};
+
 class Report {
  public:
   template <typename T>
@@ -79,7 +88,8 @@ class Report {
   [[nodiscard]] bool next(SystemManager& system, TextWriter& out) noexcept;
 
  private:
-  std::variant<std::monostate, HelpReport, StatusReport, DataLogReport, PerfLogReport> content_;
+  std::variant<std::monostate, HelpReport, StatusReport, DataLogReport, PerfLogReport, ConfigReport>
+      content_;
 };
 
 }  // namespace towbench::bbmc

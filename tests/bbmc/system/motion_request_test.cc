@@ -111,7 +111,9 @@ TEST(Defect12RefusedArgument, ChangesNothing) {
   EXPECT_FALSE(system.set_control_rate(700));  // 1.43 ms is no multiple of the exchange
   EXPECT_EQ(system.configuration().control_rate_Hz, 1000.0);
 
-  EXPECT_FALSE(system.set_feed_forward(Axis::kY, {.inertia_kg_m2 = kNan}));
+  bbmc::AxisConfiguration parts = system.configuration().axes[Axis::kY];
+  parts.feed_forward.inertia_kg_m2 = kNan;
+  EXPECT_FALSE(system.set_law(Axis::kY, parts));
   EXPECT_FALSE(system.configuration().axes[Axis::kY].feed_forward.enabled);
 
   const auto count = machine.status(Axis::kY).count;

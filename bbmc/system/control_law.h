@@ -1,0 +1,73 @@
+// What one axis does about its reference: the PID law (4.12) and what may be added to it, each on
+// its own, chosen by configuration and while the controller runs.
+//
+//   tau = PID(q_c - n, q_c' - v)  +  J q'' + B q' + C sgn(q')          feed-forward, (3.33)
+//   forwards
+//                                 +  [C + (S - C)/(1 + (q'/w_s)^2)] s(q') + B q'    friction,
+//                                 (3.26)
+//                                 +  d                                 disturbance observer, 9.3.1
+//                                 +  r K_P e_n                         cross-coupling, 9.3.2
+//
+// q_c  the reference, or the reference plus the stretch of the chain (J_l q'' + C_l s(q')) / k
+// s    q' / (|q'| + w_0): the sign, without its step
+// d    L-filtered tau - tau_friction - J v': what the model leaves over, integrated as
+//      z' = L (tau - tau_friction - d), d = z - L J v, so that nothing is differentiated
+// e_n  the part of both axes' errors that is across the path
+//
+// When friction compensation is on, the feed-forward gives J q'' only.
+#pragma once
+
+#include "bbmc/system/axis_configuration.h"
+#include "bbmc/system/pid.h"
+#include "bbmc/system/trajectory/reference.h"
+#include "core/realtime.h"
+
+namespace towbench::bbmc {
+
+class ControlLaw {
+ public:
+  explicit ControlLaw(const AxisConfiguration& axis) noexcept;
+
+  struct Input {
+    Reference reference;
+    double position_m = 0;
+    double velocity_m_per_s = 0;
+    double across_path_m = 0;  // error across the path, this axis's part, times its gain ratio
+    double applied_Nm = 0;     // what the drive was told until now
+    double limit_Nm = 0;       // > 0
+    double step_s = 0;         // > 0
+  };
+  TOWBENCH_REALTIME [[nodiscard]] double torque_Nm(const Input& input) noexcept;
+
+  // For a new motion: nothing remembered.
+  void reset() noexcept;
+  void set_gains(const PidGains& gains) noexcept { pid_.set_gains(gains); }
+  // What is switched here starts from nothing: no part remembers what it did before.
+  void set_additions(const AxisConfiguration& axis) noexcept;
+  [[nodiscard]] double integral_Nm() const noexcept { return pid_.integral_Nm(); }
+  [[nodiscard]] double disturbance_Nm() const noexcept { return disturbance_Nm_; }
+
+ private:
+  [[nodiscard]] Reference with_stretch(const Reference& reference, double step_s) noexcept;
+  void observe(const Input& input, double speed_rad_per_s) noexcept;
+
+  FeedForward feed_forward_;
+  FrictionCompensation friction_;
+  DisturbanceObserverSettings observer_;
+  ChainFeedForward chain_;
+  double rad_per_m_;
+  double inverse_held_s2_ = 0;       // 1 / w_h^2
+  double friction_stretch_rad_ = 0;  // C_l / k
+  Pid pid_;
+  double observer_state_Nm_ = 0;
+  double disturbance_Nm_ = 0;
+  double friction_Nm_ = 0;
+  double last_acceleration_m_per_s2_ = 0;
+  bool observing_ = false;
+};
+
+// (3.26) along a reference, at the motor; 0 when it is off.
+TOWBENCH_REALTIME [[nodiscard]] double friction_torque_Nm(const FrictionCompensation& model,
+                                                          double speed_rad_per_s) noexcept;
+
+}  // namespace towbench::bbmc
