@@ -25,7 +25,9 @@ void check(int error, const char* what) {
   }
 }
 
+// `stream` < 0: the child inherits none.
 pid_t spawn(const std::filesystem::path& program, std::vector<std::string> arguments, int stream) {
+  arguments.insert(arguments.begin(), {program.string(), "emulate"});
   std::vector<char*> argv;
   argv.reserve(arguments.size() + 1);
   for (auto& argument : arguments) {
@@ -38,7 +40,9 @@ pid_t spawn(const std::filesystem::path& program, std::vector<std::string> argum
   check(posix_spawn_file_actions_init(&actions), "posix_spawn_file_actions_init");
   check(posix_spawnattr_init(&attributes), "posix_spawnattr_init");
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, stream, kStreamDescriptor);
+  if (stream >= 0) {
+    posix_spawn_file_actions_adddup2(&actions, stream, kStreamDescriptor);
+  }
   // A group of its own: Ctrl-C is for the parent, which then says Bye.
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   pid_t child = -1;
@@ -62,16 +66,27 @@ std::string sentence_about(int status) {
 
 }  // namespace
 
-EmulatorProcess::EmulatorProcess(const std::filesystem::path& program,
-                                 std::vector<std::string> arguments) {
+std::unique_ptr<EmulatorProcess> EmulatorProcess::with_socket(const std::filesystem::path& program,
+                                                              std::vector<std::string> arguments) {
   auto ends = protocol::LocalSocket::pair();
   if (!ends) {
     throw std::system_error(std::make_error_code(std::errc::io_error), ends.error().message);
   }
-  stream_ = std::move(ends->first);
-  arguments.insert(arguments.begin(), {program.string(), "emulate"});
   arguments.insert(arguments.end(), {"--stream-descriptor", std::to_string(kStreamDescriptor)});
-  child_ = spawn(program, std::move(arguments), ends->second->descriptor());
+  std::unique_ptr<EmulatorProcess> process(new EmulatorProcess);
+  process->stream_ = std::move(ends->first);
+  process->child_ = spawn(program, std::move(arguments), ends->second->descriptor());
+  return process;
+}
+
+std::unique_ptr<EmulatorProcess> EmulatorProcess::on_wire(const std::filesystem::path& program,
+                                                          std::vector<std::string> arguments,
+                                                          const std::string& address) {
+  // An orphan that nobody greets must not hold the wire for ever.
+  arguments.insert(arguments.end(), {"--carrier", address, "--patience", "10"});
+  std::unique_ptr<EmulatorProcess> process(new EmulatorProcess);
+  process->child_ = spawn(program, std::move(arguments), -1);
+  return process;
 }
 
 EmulatorProcess::~EmulatorProcess() {
@@ -82,7 +97,7 @@ std::string EmulatorProcess::join() {
   if (child_ < 0) {
     return {};
   }
-  stream_->close();
+  stream_.reset();
   int status = 0;
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   while (waitpid(child_, &status, WNOHANG) == 0) {

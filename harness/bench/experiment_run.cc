@@ -1,18 +1,26 @@
 #include "harness/bench/experiment_run.h"
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "harness/bench/emulator_process.h"
 #include "harness/bench/in_process_plant.h"
 #include "harness/bench/linked_plant.h"
+#include "harness/bench/real_lines.h"
 #include "harness/faults/case_link.h"
 #include "harness/faults/faulted_experiment.h"
 #include "harness/fixtures/canonical_hash.h"
+#include "harness/realtime/realtime_plant.h"
+#include "harness/realtime/run_timing.h"
+#include "harness/record/can_log.h"
 #include "harness/record/controller_recorder.h"
 #include "harness/record/event_lines.h"
 #include "harness/record/plant_recorder.h"
 #include "harness/record/result_files.h"
 #include "harness/record/run_folder.h"
+#include "protocol/carriers/connection.h"
+#include "protocol/carriers/line_address.h"
 
 namespace towbench::harness {
 namespace {
@@ -23,7 +31,9 @@ class Run {
       : faults_(faults_of(fixture, options)),
         fixture_(faults_ ? faults_->fixture() : fixture),
         options_(options) {
-    identity_.carrier = options.carrier == Carrier::kLocal ? "local" : "in-process";
+    identity_.carrier = name_of_carrier(options);
+    identity_.clock = options.clock == RunClock::kReal ? "real" : "lockstep";
+    identity_.fidelity = is_bus(options) ? "digest" : "edges";
     identity_.seed = seed_of(fixture, options);
     identity_.started_utc = utc_now();
     constexpr std::size_t kShortHash = 8;
@@ -34,7 +44,7 @@ class Run {
   }
 
   RunResult run() {
-    auto outcome = options_.carrier == Carrier::kLocal ? run_with_child() : run_in_process();
+    auto outcome = options_.carrier == Carrier::kInProcess ? run_in_process() : run_with_child();
     outcome.control_period_ns = fixture_.controller.configuration.control_period_ns();
     outcome.complete = outcome.complete || (faults_ && faults_->kills_plant());
     RunResult result;
@@ -44,6 +54,9 @@ class Run {
     if (outcome.complete) {
       merge_events(folder_);
       result.judgement = judge(folder_, fixture_, outcome);
+      if (timing_) {
+        result.timing = timing_->judge_into(result.judgement, outcome.control_period_ns);
+      }
       if (faults_) {
         faults_->judge_into(folder_, result.judgement);
       }
@@ -59,6 +72,22 @@ class Run {
  private:
   static std::uint64_t seed_of(const ExperimentFixture& fixture, const RunOptions& options) {
     return options.seed.value_or(fixture.experiment.seed);
+  }
+  static std::string name_of_carrier(const RunOptions& options) {
+    const auto lines = options.lines.controller.empty() ? "" : " and " + options.lines.controller;
+    switch (options.carrier) {
+      case Carrier::kInProcess:
+        return "in-process";
+      case Carrier::kLocal:
+        return "local" + lines;
+      case Carrier::kWire:
+        break;
+    }
+    return options.wire->controller.text() + lines;
+  }
+  static bool is_bus(const RunOptions& options) {
+    return options.carrier == Carrier::kWire &&
+           options.wire->controller.scheme == protocol::Scheme::kCan;
   }
   static std::unique_ptr<FaultedExperiment> faults_of(const ExperimentFixture& fixture,
                                                       const RunOptions& options) {
@@ -78,16 +107,76 @@ class Run {
   }
 
   RunOutcome run_with_child() {
-    EmulatorProcess child(options_.program,
-                          {(folder_ / identity_.experiment_copy).string(), "--seed",
-                           std::to_string(identity_.seed), "--out", folder_.string()});
-    LinkedPlant plant(child.stream());
-    auto outcome = play_against(plant);
-    if (const auto trouble = child.join(); !trouble.empty()) {
+    std::vector<std::string> arguments{(folder_ / identity_.experiment_copy).string(), "--seed",
+                                       std::to_string(identity_.seed), "--out", folder_.string()};
+    if (!options_.lines.plant.empty()) {
+      arguments.insert(arguments.end(), {"--lines", options_.lines.plant});
+    }
+    if (options_.clock == RunClock::kReal) {
+      arguments.insert(arguments.end(), {"--clock", "real"});
+    }
+    const auto child =
+        options_.carrier == Carrier::kLocal
+            ? EmulatorProcess::with_socket(options_.program, arguments)
+            : EmulatorProcess::on_wire(options_.program, arguments, options_.wire->plant.text());
+    auto outcome = play_over(*child);
+    if (const auto trouble = child->join(); !trouble.empty()) {
       outcome.reason += (outcome.reason.empty() ? "" : "; ") + trouble;
       outcome.complete = false;
     }
     return outcome;
+  }
+
+  RunOutcome play_over(EmulatorProcess& child) {
+    using protocol::Connection;
+    protocol::CarrierResult<std::unique_ptr<Connection>> connection;
+    constexpr core::Nanoseconds kStartUp_ns = 10 * core::kNanosecondsPerSecond;
+    if (options_.carrier == Carrier::kWire) {
+      connection = Connection::to_plant(options_.wire->controller, kStartUp_ns);
+    } else {
+      connection = Connection::over(child.take_stream());
+      // A child that died shows in the handshake.
+      (void)(*connection)->await_heartbeat(kStartUp_ns);
+    }
+    if (!connection) {
+      RunOutcome outcome;
+      outcome.reason = connection.error().message;
+      return outcome;
+    }
+    std::unique_ptr<CanLog> log;
+    if (auto* can = (*connection)->can_link(); can != nullptr) {
+      log = std::make_unique<CanLog>(folder_ / "candump.log", options_.wire->controller.place);
+      can->log_to(*log);
+    }
+    auto outcome = options_.clock == RunClock::kReal ? play_in_real_time((*connection)->link())
+                                                     : play_in_lockstep((*connection)->link());
+    if (log != nullptr) {
+      log->flush();
+      outcome.writes_succeeded = outcome.writes_succeeded && log->good();
+    }
+    return outcome;
+  }
+
+  RunOutcome play_in_lockstep(protocol::TurnLink& link) {
+    LinkedPlant plant(link);
+    if (options_.lines.controller.empty()) {
+      return play_against(plant);
+    }
+    const auto port =
+        protocol::open_lines(options_.lines.controller, protocol::LineSide::kController);
+    if (!port) {
+      RunOutcome outcome;
+      outcome.reason = port.error().message;
+      return outcome;
+    }
+    RealLinesAtController with_lines(plant, **port);
+    return play_against(with_lines);
+  }
+
+  RunOutcome play_in_real_time(protocol::TurnLink& link) {
+    timing_.emplace(folder_, fixture_.controller.configuration);
+    RealtimePlantEnd plant(link, timing_->loop());
+    return play_against(plant);
   }
 
   RunOutcome play_against(PlantEnd& plant) {
@@ -108,6 +197,7 @@ class Run {
   const RunOptions& options_;
   RunIdentity identity_;
   std::filesystem::path folder_;
+  std::optional<ControllerTiming> timing_;  // of a run in real time
 };
 
 }  // namespace

@@ -12,15 +12,26 @@
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/judge/check.h"
 #include "harness/judge/judge.h"
+#include "protocol/carriers/carrier_address.h"
 
 namespace towbench::harness {
 
-enum class Carrier : std::uint8_t { kInProcess, kLocal };
+enum class RunClock : std::uint8_t { kLockstep, kReal };
+enum class Carrier : std::uint8_t { kInProcess, kLocal, kWire };
+
+// Real lines (line_address.h) of both sides; empty: lines are messages. Need two processes.
+struct LineEnds {
+  std::string controller;
+  std::string plant;
+};
 
 struct RunOptions {
   std::filesystem::path out = "runs";
   std::optional<std::uint64_t> seed;  // instead of the experiment's own
   Carrier carrier = Carrier::kInProcess;
+  std::optional<protocol::CarrierEnds> wire;  // of Carrier::kWire
+  LineEnds lines;
+  RunClock clock = RunClock::kLockstep;              // kReal needs two processes: not kInProcess
   std::filesystem::path program = "/proc/self/exe";  // for the emulator's process
   LoopWatchers watchers;
 };
@@ -30,6 +41,7 @@ struct RunResult {
   bool complete = false;
   std::string reason;  // why not
   RunOutcome outcome;
+  std::string timing;   // how the loops of a run in real time kept time, in words
   Judgement judgement;  // of a complete run
   int exit_code = kExitRuntime;
 };

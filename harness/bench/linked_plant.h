@@ -1,15 +1,15 @@
-// The plant in another process, over a byte stream.
+// The plant in another process, over any carrier.
 #pragma once
 
 #include "harness/bench/plant_end.h"
-#include "protocol/byte_stream.h"
+#include "protocol/carriers/turn_link.h"
 
 namespace towbench::harness {
 
 class LinkedPlant final : public PlantEnd {
  public:
-  // The stream outlives this.
-  explicit LinkedPlant(protocol::ByteStream& stream) noexcept : link_(stream) {}
+  // The link outlives this.
+  explicit LinkedPlant(protocol::TurnLink& link) noexcept : link_(link) {}
 
   [[nodiscard]] protocol::MessageSink& sink() noexcept override { return link_.peer(); }
   void connect(protocol::MessageSink& controller) noexcept override { controller_ = &controller; }
@@ -18,7 +18,7 @@ class LinkedPlant final : public PlantEnd {
   }
 
  private:
-  protocol::LockstepLink link_;
+  protocol::TurnLink& link_;
   protocol::MessageSink* controller_ = nullptr;
 };
 

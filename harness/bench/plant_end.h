@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/result.h"
-#include "protocol/carriers/lockstep_link.h"
+#include "protocol/carriers/turn_watch.h"
 #include "protocol/message_sink.h"
 
 namespace towbench::harness {

@@ -1,20 +1,31 @@
 #include "harness/bench/plant_service.h"
 
-#include <memory>
+#include <optional>
 
-#include "protocol/carriers/lockstep_link.h"
+#include "harness/bench/real_lines.h"
 
 namespace towbench::harness {
 
-core::Status serve_plant(emulator::PlantNode& plant, protocol::ByteStream& stream,
-                         core::Nanoseconds silence_limit_ns) {
-  // On the heap: the link holds its buffers.
-  const auto link = std::make_unique<protocol::LockstepLink>(stream, silence_limit_ns);
-  plant.connect(link->peer());
+core::Status serve_plant(emulator::PlantNode& plant, protocol::TurnLink& link,
+                         const protocol::Hello& hello, protocol::LinePort* lines) {
+  std::optional<RealLinesAtPlant> real;
+  protocol::MessageSink* to_plant = &plant;
+  protocol::MessageSink* to_controller = &link.peer();
+  if (lines != nullptr) {
+    real.emplace(plant, link.peer(), *lines);
+    to_plant = &real->from_controller();
+    to_controller = &real->to_controller();
+  }
+  plant.connect(*to_controller);
+  plant.on(hello);
   while (!plant.finished()) {
-    if (const auto turn = link->wait(plant); !turn) {
-      plant.peer_lost(turn.error());
-      return core::failure(turn.error());
+    const auto turn = link.wait(*to_plant);
+    const auto lost = !turn                     ? turn.error()
+                      : real && !real->status() ? real->status().error()
+                                                : core::ErrorCode::kNone;
+    if (lost != core::ErrorCode::kNone) {
+      plant.peer_lost(lost);
+      return core::failure(lost);
     }
   }
   return {};

@@ -16,6 +16,7 @@ void add_control(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_campaign(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
+void add_doctor(CLI::App& app, int& exit_code);
 void add_completion(CLI::App& app, int& exit_code);
 
 // The whole command line. Never throws.

@@ -46,7 +46,7 @@ int parse_and_run(int argc, char** argv) {
       "4 INVALID (the run proves nothing), 99 skipped.\n\nExample: towbench demo");
   int exit_code = kExitRuntime;
   for (const auto add : {add_demo, add_run, add_list, add_validate, add_emulate, add_control,
-                         add_replay, add_report, add_campaign, add_completion}) {
+                         add_replay, add_report, add_campaign, add_doctor, add_completion}) {
     add(app, exit_code);
   }
   if (argc > 1 && refuse_unknown_verb(verbs_of(app), argv[1])) {

@@ -10,9 +10,10 @@
 #include "harness/bench/in_process_plant.h"
 #include "harness/bench/linked_plant.h"
 #include "harness/bench/lockstep_bench.h"
+#include "harness/bench/real_lines.h"
 #include "harness/bench/unrecorded_plant.h"
+#include "harness/commands/carrier_option.h"
 #include "harness/commands/command.h"
-#include "harness/commands/local_address.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/commands/terminal.h"
 #include "harness/fixtures/controller_fixture.h"
@@ -20,14 +21,16 @@
 #include "harness/judge/check.h"
 #include "harness/record/controller_recorder.h"
 #include "harness/record/plant_recorder.h"
-#include "protocol/carriers/local_socket.h"
+#include "protocol/carriers/connection.h"
+#include "protocol/carriers/line_address.h"
 
 namespace towbench::harness {
 namespace {
 
 struct Options {
   std::string controller;
-  std::string connect;
+  std::string carrier;
+  std::string lines;
   std::string rig;
   std::string out;
   bool fast = false;
@@ -118,12 +121,20 @@ class Session {
   bool paced_;
 };
 
-std::unique_ptr<protocol::LocalSocket> connect_to(const std::string& address) {
-  auto socket = protocol::LocalSocket::connect(local_path("--connect", address));
-  if (!socket) {
-    throw std::runtime_error(socket.error().message);
+std::unique_ptr<protocol::Connection> connect_to(const std::string& address) {
+  auto connection = protocol::Connection::to_plant(carrier_address("--carrier", address));
+  if (!connection) {
+    throw std::runtime_error(connection.error().message);
   }
-  return std::move(*socket);
+  return std::move(*connection);
+}
+
+std::unique_ptr<protocol::LinePort> open_the_lines(const std::string& address) {
+  auto lines = protocol::open_lines(address, protocol::LineSide::kController);
+  if (!lines) {
+    throw std::runtime_error(lines.error().message);
+  }
+  return std::move(*lines);
 }
 
 int execute(const Options& options) {
@@ -136,11 +147,18 @@ int execute(const Options& options) {
     std::filesystem::create_directories(options.out);
     recorder = std::make_unique<ControllerRecorder>(options.out);
   }
-  std::unique_ptr<protocol::LocalSocket> stream;
+  std::unique_ptr<protocol::Connection> connection;
+  std::unique_ptr<protocol::LinePort> lines;
+  std::unique_ptr<PlantEnd> wired;
   std::unique_ptr<PlantEnd> plant;
-  if (!options.connect.empty()) {
-    stream = connect_to(options.connect);
-    plant = std::make_unique<LinkedPlant>(*stream);
+  if (!options.carrier.empty()) {
+    connection = connect_to(options.carrier);
+    plant = std::make_unique<LinkedPlant>(connection->link());
+    if (!options.lines.empty()) {
+      lines = open_the_lines(options.lines);
+      wired = std::move(plant);
+      plant = std::make_unique<RealLinesAtController>(*wired, *lines);
+    }
   } else {
     const auto rig = load_rig(options.rig, sources);
     plant_recorder = options.out.empty() ? nullptr : std::make_unique<PlantRecorder>(options.out);
@@ -160,10 +178,13 @@ void add_control(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   auto* verb = app.add_subcommand("control", "the controller, with its console on this terminal");
   verb->add_option("--controller", options->controller, "controller file")->required();
-  auto* connect =
-      verb->add_option("--connect", options->connect, "local:PATH, where `towbench emulate` waits");
+  auto* connect = verb->add_option(
+      "--carrier,--connect", options->carrier,
+      std::string("where `towbench emulate` waits: ") + std::string(protocol::kAddressForms));
   auto* rig = verb->add_option("--rig", options->rig, "instead: a rig emulated in this process");
   connect->excludes(rig);
+  verb->add_option("--lines", options->lines, "digital lines on a GPIO chip: CHIP[+FIRST]")
+      ->excludes(rig);
   verb->add_option("--out", options->out, "folder for log.csv and the other records");
   verb->add_flag("--fast", options->fast, "as fast as it goes, not at the wall clock's pace");
   verb->footer(
@@ -171,8 +192,8 @@ void add_control(CLI::App& app, int& exit_code) {
       "--rig fixtures/rigs/macs-nominal.toml\n"
       "Type `help`; Ctrl-C stops a motion, Ctrl-D or `quit` ends the session.");
   verb->callback([options, &exit_code] {
-    if (options->connect.empty() == options->rig.empty()) {
-      throw CLI::RequiredError("--connect or --rig");
+    if (options->carrier.empty() == options->rig.empty()) {
+      throw CLI::RequiredError("--carrier or --rig");
     }
     exit_code = execute(*options);
   });

@@ -53,9 +53,8 @@ void add_demo(CLI::App& app, int& exit_code) {
       "demo", "trapezoid, circle, open-loop pulses and an end-stop, judged in one report");
   verb->add_option("--out", options->out, "folder below which the run folders are made")
       ->capture_default_str();
-  verb->add_option("--carrier", options->carrier, "in-process or local")
-      ->check(CLI::IsMember({"in-process", "local"}))
-      ->capture_default_str();
+  verb->add_option("--carrier", options->carrier, kCarrierHelp);
+  verb->add_option("--lines", options->lines, kLinesHelp);
   verb->add_flag("-q,--quiet", options->quiet, "print failures and the report's path only");
   verb->footer("Example: towbench demo");
   verb->callback([options, &exit_code] { exit_code = execute(*options); });

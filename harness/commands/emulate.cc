@@ -1,4 +1,5 @@
 // towbench emulate: the emulated machine as a process of its own.
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -8,14 +9,18 @@
 
 #include "harness/bench/plant_service.h"
 #include "harness/bench/unrecorded_plant.h"
+#include "harness/commands/carrier_option.h"
 #include "harness/commands/command.h"
 #include "harness/commands/fixture_paths.h"
-#include "harness/commands/local_address.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/faults/faulted_experiment.h"
 #include "harness/judge/check.h"
+#include "harness/realtime/realtime_plant.h"
+#include "harness/realtime/run_timing.h"
 #include "harness/record/plant_recorder.h"
+#include "protocol/carriers/connection.h"
+#include "protocol/carriers/line_address.h"
 #include "protocol/carriers/local_socket.h"
 
 namespace towbench::harness {
@@ -24,10 +29,13 @@ namespace {
 struct Options {
   std::string experiment;
   std::string rig;
-  std::string listen;
+  std::string carrier;
+  std::string lines;
   std::string out;
   std::optional<std::uint64_t> seed;
   int stream_descriptor = -1;
+  std::string clock = "lockstep";
+  double patience_s = 0;  // 0: as long as it takes
 };
 
 struct Machine {
@@ -58,33 +66,48 @@ Machine machine_of(const Options& options) {
   return machine;
 }
 
-std::unique_ptr<protocol::LocalSocket> wait_for_controller(const std::string& address) {
-  auto server = protocol::LocalServer::listen(local_path("--listen", address));
-  if (!server) {
-    throw std::runtime_error(server.error().message);
+template <typename T>
+T opened(protocol::CarrierResult<T> result) {
+  if (!result) {
+    throw std::runtime_error(result.error().message);
   }
-  std::fprintf(stderr, "emulator: waiting at %s\n", address.c_str());
-  constexpr core::Nanoseconds kLookForSignals_ns = 200 * core::kNanosecondsPerMillisecond;
-  while (!stop_requested()) {
-    if (auto socket = (*server)->accept(kLookForSignals_ns)) {
-      std::fprintf(stderr, "emulator: controller connected\n");
-      return std::move(*socket);
-    } else if (socket.error().code != core::ErrorCode::kPeerSilent) {
-      throw std::runtime_error(socket.error().message);
-    }
-  }
-  return nullptr;
+  return std::move(*result);
 }
 
-std::unique_ptr<protocol::LocalSocket> open_stream(const Options& options) {
-  if (options.stream_descriptor < 0) {
-    return wait_for_controller(options.listen);
+// The open end and who greeted there. Null and told on stderr when nobody did in time.
+struct Caller {
+  std::unique_ptr<protocol::Connection> connection;
+  protocol::Hello hello;
+};
+
+Caller wait_for_controller(const Options& options) {
+  using Clock = std::chrono::steady_clock;
+  const auto deadline = Clock::now() + std::chrono::duration<double>(options.patience_s);
+  const auto keep_waiting = [&] {
+    return !stop_requested() && (options.patience_s == 0 || Clock::now() < deadline);
+  };
+  Caller caller;
+  if (options.stream_descriptor >= 0) {
+    caller.connection =
+        protocol::Connection::over(opened(protocol::LocalSocket::adopt(options.stream_descriptor)));
+  } else {
+    std::fprintf(stderr, "emulator: waiting at %s\n", options.carrier.c_str());
+    caller.connection = opened(protocol::Connection::to_controller(
+        carrier_address("--carrier", options.carrier), keep_waiting));
   }
-  auto socket = protocol::LocalSocket::adopt(options.stream_descriptor);
-  if (!socket) {
-    throw std::runtime_error(socket.error().message);
+  if (caller.connection == nullptr) {
+    std::fprintf(stderr, "emulator: no controller came\n");
+    return caller;
   }
-  return std::move(*socket);
+  if (const auto hello = caller.connection->await_hello(keep_waiting); !hello) {
+    std::fprintf(stderr, "emulator: no controller came: %s (%u)\n",
+                 std::string(core::describe(hello.error())).c_str(),
+                 core::number_of(hello.error()));
+    caller.connection.reset();
+  } else {
+    caller.hello = *hello;
+  }
+  return caller;
 }
 
 int execute(const Options& options) {
@@ -97,12 +120,24 @@ int execute(const Options& options) {
   }
   emulator::PlantObserver& observer =
       recorder ? static_cast<emulator::PlantObserver&>(*recorder) : unrecorded;
-  const auto stream = open_stream(options);
-  if (stream == nullptr) {
+  const auto lines = options.lines.empty()
+                         ? nullptr
+                         : opened(protocol::open_lines(options.lines, protocol::LineSide::kPlant));
+  const auto caller = wait_for_controller(options);
+  if (caller.connection == nullptr) {
     return kExitRuntime;
   }
-  emulator::PlantNode plant(machine.rig, machine.seed, machine.events, observer);
-  const auto ended = serve_plant(plant, *stream, core::kNanosecondsPerSecond);
+  const bool real = options.clock == "real";
+  std::optional<EmulatorTiming> timing;
+  ThinnedTruth thinned(observer, caller.hello.exchange_ns);
+  emulator::PlantNode plant(machine.rig, machine.seed, machine.events,
+                            real ? static_cast<emulator::PlantObserver&>(thinned) : observer);
+  if (real) {
+    timing.emplace(options.out);
+  }
+  const auto ended = real
+                         ? timing->serve(plant, caller.connection->link(), caller.hello)
+                         : serve_plant(plant, caller.connection->link(), caller.hello, lines.get());
   if (recorder) {
     recorder->flush();
   }
@@ -127,18 +162,31 @@ void add_emulate(CLI::App& app, int& exit_code) {
   auto* experiment = verb->add_option("experiment", options->experiment,
                                       "take rig, seed and events from this experiment");
   verb->add_option("--rig", options->rig, "rig file")->excludes(experiment);
-  auto* listen = verb->add_option("--listen", options->listen, "local:PATH, where to wait");
+  auto* carrier = verb->add_option(
+      "--carrier,--listen", options->carrier,
+      std::string("where to wait for a controller: ") + std::string(protocol::kAddressForms));
+  verb->add_option("--lines", options->lines,
+                   std::string("digital lines on real ones: ") + std::string(protocol::kLineForms));
+  verb->add_option("--patience", options->patience_s, "seconds to wait for it; 0: for ever")
+      ->check(CLI::NonNegativeNumber);
+  verb->add_option("--clock", options->clock,
+                   "lockstep: time waits for both sides; real: 10 kHz by this host's clock")
+      ->check(CLI::IsMember({"lockstep", "real"}))
+      ->capture_default_str();
   verb->add_option("--out", options->out, "folder for truth.csv and plant_events.jsonl");
   verb->add_option("--seed", options->seed, "of every random quantity");
   // For the bench's own child: the connected end it inherited.
   auto* inherited = verb->add_option("--stream-descriptor", options->stream_descriptor)->group("");
-  listen->excludes(inherited);
+  carrier->excludes(inherited);
   verb->footer(
       "Example: towbench emulate --rig fixtures/rigs/macs-nominal.toml --listen "
       "local:/tmp/tb/plant");
   verb->callback([options, &exit_code] {
-    if (options->listen.empty() && options->stream_descriptor < 0) {
-      throw CLI::RequiredError("--listen");
+    if (!options->lines.empty() && options->clock == "real") {
+      throw CLI::ExcludesError("--lines", "--clock real");
+    }
+    if (options->carrier.empty() && options->stream_descriptor < 0) {
+      throw CLI::RequiredError("--carrier");
     }
     exit_code = execute(*options);
   });

@@ -4,7 +4,9 @@
 
 #include "harness/commands/progress_line.h"
 #include "harness/commands/stop_signal.h"
+#include "harness/fixtures/fixture_error.h"
 #include "harness/report/report.h"
+#include "protocol/carriers/load.h"
 
 namespace towbench::harness {
 
@@ -12,25 +14,91 @@ void add_experiment_options(CLI::App& verb, ExperimentOptions& options) {
   verb.add_option("--out", options.out, "folder below which the run folder is made")
       ->capture_default_str();
   verb.add_option("--seed", options.seed, "instead of the experiment's own seed");
-  verb.add_option("--carrier", options.carrier,
-                  "in-process, or local: the emulator in a process of its own, over a local socket")
-      ->check(CLI::IsMember({"in-process", "local"}))
+  verb.add_option("--carrier", options.carrier, kCarrierHelp);
+  verb.add_option("--lines", options.lines, kLinesHelp);
+  verb.add_option("--clock", options.clock,
+                  "lockstep: as fast as it goes, repeatable bit for bit; real: by the wall clock")
+      ->check(CLI::IsMember({"lockstep", "real"}))
       ->capture_default_str();
   verb.add_flag("--json", options.json, "print the result as JSON instead of a table");
   verb.add_flag("-q,--quiet", options.quiet, "print failures and the report's path only");
   verb.add_flag("--no-report", options.no_report, "write no report.html");
 }
 
+void choose_carrier(const std::string& text, RunOptions& options) {
+  if (text.empty() || text == "in-process" || text == "local") {
+    options.carrier = text == "local" ? Carrier::kLocal : Carrier::kInProcess;
+    return;
+  }
+  const auto ends = protocol::parse_carrier_ends(text);
+  if (!ends) {
+    throw FixtureError({"command line", 0, "--carrier"}, '"' + text + '"',
+                       "in-process, local, serial:DEVICE,DEVICE[@BAUD] or "
+                       "can:INTERFACE[,INTERFACE]");
+  }
+  options.carrier = Carrier::kWire;
+  options.wire = *ends;
+}
+
+void choose_clock(const std::string& clock, RunOptions& options) {
+  if (clock != "real") {
+    return;
+  }
+  options.clock = RunClock::kReal;
+  if (options.carrier == Carrier::kInProcess) {
+    options.carrier = Carrier::kLocal;
+  }
+  if (options.carrier != Carrier::kWire) {
+    return;
+  }
+  // The emulator sends in each of its ticks.
+  const auto& end = options.wire->controller;
+  const bool is_bus = end.scheme == protocol::Scheme::kCan;
+  const protocol::Traffic traffic{
+      .fidelity = is_bus ? protocol::Fidelity::kDigest : protocol::Fidelity::kEdges,
+      .lockstep = true,
+      .exchange_ns = core::kPlantTick_ns};
+  constexpr std::uint32_t kFastestClassicCan = 1'000'000;
+  const auto load = is_bus ? protocol::can_load(traffic, kFastestClassicCan)
+                           : protocol::serial_load(traffic, end.baud);
+  if (const auto bearable = protocol::accept_load(load, end.text()); !bearable) {
+    throw FixtureError({"command line", 0, "--clock real"}, bearable.error().message,
+                       "a carrier that bears the worst case");
+  }
+}
+
+void choose_lines(const std::string& text, RunOptions& options) {
+  if (text.empty()) {
+    return;
+  }
+  const auto comma = text.find(',');
+  const bool is_good = comma != std::string::npos && comma > 0 && comma + 1 < text.size() &&
+                       options.clock == RunClock::kLockstep;
+  if (!is_good) {
+    throw FixtureError({"command line", 0, "--lines"}, '"' + text + '"',
+                       "CONTROLLER,PLANT, by the clock of lockstep");
+  }
+  options.lines = {text.substr(0, comma), text.substr(comma + 1)};
+  if (options.carrier == Carrier::kInProcess) {
+    options.carrier = Carrier::kLocal;
+  }
+}
+
 RunResult run_with_options(const ExperimentFixture& fixture, const ExperimentOptions& options) {
   RunOptions run_options;
   run_options.out = options.out;
   run_options.seed = options.seed;
-  run_options.carrier = options.carrier == "local" ? Carrier::kLocal : Carrier::kInProcess;
+  choose_carrier(options.carrier, run_options);
+  choose_clock(options.clock, run_options);
+  choose_lines(options.lines, run_options);
   run_options.watchers.stop = &stop_requested();
   ProgressLine progress(fixture.experiment.name, fixture.experiment.duration_limit_s,
                         !options.quiet && !options.json);
   run_options.watchers.progress = [&](core::Nanoseconds now_ns) { progress.show(now_ns); };
   auto result = run_experiment(fixture, run_options);
+  if (!options.quiet && !options.json) {
+    std::fputs(result.timing.c_str(), stdout);
+  }
   if (!options.no_report) {
     if (const auto written = write_report(result.folder); !written) {
       std::fprintf(stderr, "towbench: no report: %s\n", written.error().c_str());

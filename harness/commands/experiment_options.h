@@ -14,11 +14,32 @@ namespace towbench::harness {
 struct ExperimentOptions {
   std::string out = "runs";
   std::optional<std::uint64_t> seed;
-  std::string carrier = "in-process";
+  std::string carrier;  // empty: in-process, or local for the real clock
+  std::string lines;    // "CONTROLLER,PLANT"; empty: lines are messages
+  std::string clock = "lockstep";
   bool json = false;
   bool quiet = false;
   bool no_report = false;
 };
+
+// "lockstep" or "real"; empty `carrier` is what the clock needs. Throws FixtureError for a carrier
+// that cannot serve the clock, with the load that it would bear.
+void choose_clock(const std::string& clock, RunOptions& options);
+
+// "CONTROLLER,PLANT" (line_address.h). Throws FixtureError; after choose_carrier() and
+// choose_clock().
+void choose_lines(const std::string& text, RunOptions& options);
+
+inline constexpr const char* kLinesHelp =
+    "digital lines on real ones, controller's and machine's end: CHIP[+FIRST],CHIP[+FIRST] or "
+    "CHIP[+FIRST],sim:CHIP[+FIRST]";
+
+// "in-process", "local", or an address with both ends (carrier_address.h). Throws FixtureError.
+void choose_carrier(const std::string& text, RunOptions& options);
+
+inline constexpr const char* kCarrierHelp =
+    "in-process; local: the emulator in a process of its own; serial:DEVICE,DEVICE[@BAUD] or "
+    "can:INTERFACE[,INTERFACE]: the same over wires";
 
 void add_experiment_options(CLI::App& verb, ExperimentOptions& options);
 

@@ -11,6 +11,7 @@
 
 #include "harness/bench/experiment_run.h"
 #include "harness/commands/command.h"
+#include "harness/commands/experiment_options.h"
 #include "harness/commands/stop_signal.h"
 
 namespace towbench::harness {
@@ -104,7 +105,7 @@ int execute(const Options& options) {
   RunOptions run_options;
   run_options.out = temporary ? make_temporary_folder() : std::filesystem::path(options.out);
   run_options.seed = recorded.seed;
-  run_options.carrier = options.carrier == "local" ? Carrier::kLocal : Carrier::kInProcess;
+  choose_carrier(options.carrier, run_options);
   run_options.watchers.stop = &stop_requested();
   const auto run = run_experiment(fixture, run_options);
   const int exit_code = compare(folder, run);
@@ -123,9 +124,7 @@ void add_replay(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("replay", "run a folder's inputs again and compare the records");
   verb->add_option("folder", options->folder, "a complete run folder")->required();
   verb->add_option("--out", options->out, "keep the replayed run below this folder");
-  verb->add_option("--carrier", options->carrier, "in-process or local")
-      ->check(CLI::IsMember({"in-process", "local"}))
-      ->capture_default_str();
+  verb->add_option("--carrier", options->carrier, kCarrierHelp)->capture_default_str();
   verb->footer("Example: towbench replay runs/20250131T120000Z-circle-1a2b3c4d");
   verb->callback([options, &exit_code] { exit_code = execute(*options); });
 }

@@ -15,7 +15,9 @@ namespace towbench::harness {
 
 // What is known of a run before it starts.
 struct RunIdentity {
-  std::string carrier;  // "in-process", "local"
+  std::string carrier;             // "in-process", "local", or an address: "can:vcan0"
+  std::string clock = "lockstep";  // or "real"
+  std::string fidelity = "edges";  // or "digest"
   std::uint64_t seed = 0;
   std::string started_utc;
   std::filesystem::path experiment_copy;  // relative to the folder

@@ -33,7 +33,7 @@ class CanUnpacker::Watch final : public EachMessage<Watch> {
 };
 
 void CanUnpacker::take(const CanFrame& frame, MessageSink& sink) noexcept {
-  if (!is_ours(frame.id)) {
+  if (!is_carried(direction_, frame.id)) {
     return;
   }
   if (frame.size != kCanDataSize) {
@@ -51,17 +51,17 @@ void CanUnpacker::take(const CanFrame& frame, MessageSink& sink) noexcept {
   }
 }
 
-bool CanUnpacker::is_ours(std::uint32_t id) const noexcept {
+bool CanUnpacker::is_carried(CanDirection direction, std::uint32_t id) noexcept {
   for (const std::uint32_t base : {can_id::kFault, can_id::kBye, can_id::kLines, can_id::kLockstep,
                                    can_id::kLong, can_id::kHeartbeat}) {
-    if (id == base + static_cast<std::uint32_t>(direction_)) {
+    if (id == base + static_cast<std::uint32_t>(direction)) {
       return true;
     }
   }
   const auto is_axis_of = [id](std::uint32_t base) {
     return id >= base && id < base + core::kAxisCount;
   };
-  return direction_ == CanDirection::kToPlant
+  return direction == CanDirection::kToPlant
              ? is_axis_of(can_id::kDuty)
              : is_axis_of(can_id::kIndex) || is_axis_of(can_id::kDigest);
 }

@@ -22,6 +22,9 @@ class CanUnpacker {
   // A frame with another identifier than ours is another node's and is ignored.
   void take(const CanFrame& frame, MessageSink& sink) noexcept;
 
+  // Whether an identifier is one of those that go this way.
+  [[nodiscard]] static bool is_carried(CanDirection direction, std::uint32_t id) noexcept;
+
   // `malformed`: wrong length or order of segments; `bad_field`: an illegal value.
   [[nodiscard]] const LinkCounts& counts() const noexcept { return counts_; }
   // Reports that could not be expanded because one before them was lost. They are not delivered:
@@ -32,7 +35,6 @@ class CanUnpacker {
 
  private:
   class Watch;
-  [[nodiscard]] bool is_ours(std::uint32_t id) const noexcept;
   void take_packed(const CanFrame& frame, MessageSink& sink) noexcept;
   void take_duty(core::Axis axis, std::uint64_t word, MessageSink& sink) noexcept;
   void take_digest(core::Axis axis, std::uint64_t word, MessageSink& sink) noexcept;

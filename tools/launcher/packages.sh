@@ -4,12 +4,13 @@
 # To build and run the bench.
 run_packages=(
   g++ cmake ninja-build ccache git ca-certificates
-  libboost-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libexpected-dev
+  libboost-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libexpected-dev libgpiod-dev
 )
 # To build and test the bench in every way that CI does.
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev libsundials-dev libode-dev
   clang clang-format clang-tidy libclang-rt-14-dev shellcheck chromium python3 debootstrap
+  qemu-system-x86 can-utils socat cpio make
 )
 
 package_is_missing() { ! dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'ok installed'; }

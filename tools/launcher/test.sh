@@ -4,21 +4,24 @@
 # A stage is a function stage_NAME that returns 0 (passed), 99 (skipped, reason in $skip_reason) or
 # anything else (failed). It adds what it counted to $passed and $failed.
 
-all_stages=(lint tests tidy sanitize_address sanitize_thread fuzz fresh_start)
+all_stages=(lint tests carriers tidy sanitize_address sanitize_thread fuzz fresh_start)
 quick_stages=(lint tests)
 on_request_stages=(tidy_everything campaign mutants)
 
 test_usage() {
   cat <<'TEXT'
-usage: ./towbench test [--quick] [--only STAGE]... [--list]
+usage: ./towbench test [--quick] [--carriers] [--only STAGE]... [--list]
 
   (nothing)     every stage; about half an hour on two cores from nothing
   --quick       lint, unit, integration and browser tests only
+  --carriers    the same as --only carriers
   --only STAGE  this stage only; may be repeated
   --list        name the stages
 
 stages: lint              format, shellcheck, include rules
         tests             unit, integration and browser tests of the release build
+        carriers          the demo over local socket, CAN and serial, and the carriers' own tests, in
+                          an emulated machine whose Debian kernel has CAN and GPIO
         tidy              clang-tidy of plant, controller and protocol
         sanitize_address  the tests under address and undefined-behaviour sanitizers
         sanitize_thread   the same under the thread sanitizer
@@ -39,6 +42,7 @@ run_tests() {
   while (($#)); do
     case $1 in
       --quick) stages=("${quick_stages[@]}") ;;
+      --carriers) chosen+=(carriers) ;;
       --only)
         [[ " ${all_stages[*]} ${on_request_stages[*]} " == *" ${2:-} "* ]] || {
           echo "towbench: no stage '${2:-}' (allowed: ${all_stages[*]} ${on_request_stages[*]})" >&2
@@ -49,7 +53,7 @@ run_tests() {
         ;;
       --list) printf '%s\n' "${all_stages[@]}" "${on_request_stages[@]}"; return ;;
       --help | -h) test_usage; return ;;
-      *) echo "towbench: unknown argument '$1' to test (allowed: --quick --only --list --help)" >&2; exit 2 ;;
+      *) echo "towbench: unknown argument '$1' to test (allowed: --quick --carriers --only --list --help)" >&2; exit 2 ;;
     esac
     shift
   done
@@ -141,6 +145,19 @@ stage_fuzz() {
     failed=$((failed + 1))
     return 1
   fi
+}
+
+stage_carriers() {
+  local status=0 log=$root/build/carriers.log
+  build_preset release release towbench-bench test_protocol
+  "$root/tests/carriers/run.sh" "$root" "$root/build/release" 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
+  passed=$((passed + $(grep -c '^@@ passed' "$log")))
+  case $status in
+    0) ;;
+    99) skip_reason=$(sed -n 's/^carriers: //p' "$log" | tail -n 1) ;;
+    *) failed=$((failed + 1)) ;;
+  esac
+  return "$status"
 }
 
 stage_campaign() {

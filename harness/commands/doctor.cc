@@ -1,0 +1,67 @@
+// towbench doctor: is this host fit for wires and for real time, and what would mend it.
+#include <cstdio>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "harness/commands/command.h"
+#include "harness/judge/check.h"
+#include "harness/realtime/host_findings.h"
+#include "harness/realtime/loop_comparison.h"
+#include "harness/realtime/own_lateness.h"
+
+namespace towbench::harness {
+namespace {
+
+struct Options {
+  double seconds = 10;
+  unsigned compare_blocks = 0;
+  bool json = false;
+};
+
+int execute(const Options& options) {
+  if (options.compare_blocks > 0) {
+    constexpr core::Nanoseconds kBlock_ns = core::kNanosecondsPerSecond / 2;
+    fmt::print("{}", compare_loops(options.compare_blocks, kBlock_ns).text());
+    return kExitPass;
+  }
+  auto findings = host_findings();
+  if (options.seconds > 0) {
+    findings.push_back(lateness_finding(measure_own_lateness(core::nanoseconds(options.seconds))));
+  }
+  auto lines = nlohmann::json::array();
+  for (const auto& finding : findings) {
+    if (options.json) {
+      lines.push_back({{"subject", finding.subject},
+                       {"fit", name_of(finding.fit)},
+                       {"found", finding.found},
+                       {"mend", finding.mend}});
+    } else {
+      fmt::print("{:<8} {:<12} {}{}\n", name_of(finding.fit), finding.subject, finding.found,
+                 finding.mend.empty() ? "" : "; " + finding.mend);
+    }
+  }
+  if (options.json) {
+    fmt::print("{}\n", lines.dump(2));
+  }
+  // What a host lacks is a finding, not a failure.
+  return kExitPass;
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto* verb = app.add_subcommand("doctor", "what this host is fit for, and how to mend it");
+  verb->add_option("--seconds", options->seconds, "how long to measure its lateness; 0: not at all")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
+  verb->add_option("--compare", options->compare_blocks,
+                   "instead: so many blocks of our loop against a bare one, half a second each");
+  verb->add_flag("--json", options->json, "print the findings as JSON");
+  verb->footer("Example: towbench doctor --seconds 3");
+  verb->callback([options, &exit_code] { exit_code = execute(*options); });
+}
+
+}  // namespace towbench::harness

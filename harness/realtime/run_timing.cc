@@ -1,0 +1,98 @@
+#include "harness/realtime/run_timing.h"
+
+#include <cstdio>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/realtime/realtime_checks.h"
+#include "harness/realtime/realtime_plant.h"
+#include "harness/realtime/tick_summary.h"
+#include "harness/record/line_writer.h"
+
+namespace towbench::harness {
+namespace {
+
+using nlohmann::json;
+
+// The plant goes before the controller: a machine does not wait.
+constexpr int kEmulatorPriority = 80;
+constexpr int kControllerPriority = 70;
+// 5 ms and 10 ms that a side may be behind and still catch up.
+constexpr std::uint32_t kEmulatorMaxBehind = 50;
+constexpr std::uint32_t kControllerMaxBehind = 10;
+
+constexpr const char* kEmulatorFile = "realtime_emulator.json";
+
+void warn(const char* side, const RealtimeRights& rights) {
+  for (const auto& warning : rights.warnings) {
+    std::fprintf(stderr, "%s: %s\n", side, warning.c_str());
+  }
+}
+
+json described(const TickSummary& summary, const TickRecord& record) {
+  auto object = to_json(summary);
+  object["lateness_us_ticks"] = bins_of(record.lateness);
+  object["execution_us_ticks"] = bins_of(record.execution);
+  return object;
+}
+
+void write(const std::filesystem::path& path, const json& value) {
+  write_atomically(path, value.dump(1) + "\n");
+}
+
+}  // namespace
+
+EmulatorTiming::EmulatorTiming(std::filesystem::path folder)
+    : folder_(std::move(folder)),
+      rights_(take_realtime_rights(kEmulatorPriority, 0)),
+      loop_(std::make_unique<TickLoop>(
+          clock_, TickPolicy{.period_ns = core::kPlantTick_ns, .max_behind = kEmulatorMaxBehind})) {
+  warn("emulator", rights_);
+}
+
+core::Status EmulatorTiming::serve(emulator::PlantNode& plant, protocol::TurnLink& link,
+                                   const protocol::Hello& hello) {
+  const auto ended = serve_plant_in_real_time(plant, link, hello, *loop_);
+  if (!folder_.empty()) {
+    const auto summary = summarise("emulator", rights_.text(), loop_->policy(), loop_->record());
+    write(folder_ / kEmulatorFile, described(summary, loop_->record()));
+  }
+  return ended;
+}
+
+ControllerTiming::ControllerTiming(std::filesystem::path folder,
+                                   const bbmc::Configuration& configuration)
+    : folder_(std::move(folder)),
+      rights_(take_realtime_rights(kControllerPriority, 1)),
+      loop_(std::make_unique<TickLoop>(clock_, TickPolicy{.period_ns = bbmc::exchange_period_ns(
+                                                              configuration.control_period_ns()),
+                                                          .max_behind = kControllerMaxBehind})) {
+  warn("controller", rights_);
+}
+
+std::string ControllerTiming::judge_into(Judgement& judgement,
+                                         core::Nanoseconds control_period_ns) {
+  loop_->end_tick();
+  const auto controller = summarise("controller", rights_.text(), loop_->policy(), loop_->record());
+  TickSummary emulator;  // without a tick, unless its file says more
+  emulator.side = "emulator";
+  json of_emulator = nullptr;
+  try {
+    std::ifstream stream(folder_ / kEmulatorFile);
+    of_emulator = json::parse(stream);
+    emulator = tick_summary_from(of_emulator);
+  } catch (const json::exception&) {
+    std::fprintf(stderr, "towbench: the emulator left no figures of its timing\n");
+  }
+  for (auto& check : realtime_checks(emulator, controller, control_period_ns)) {
+    judgement.checks.push_back(std::move(check));
+  }
+  judgement.verdict = worst_of(judgement.checks);
+  write(folder_ / "realtime.json", {{"schema", 1},
+                                    {"emulator", of_emulator},
+                                    {"controller", described(controller, loop_->record())}});
+  return text_of(emulator) + text_of(controller);
+}
+
+}  // namespace towbench::harness

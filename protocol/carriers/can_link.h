@@ -1,0 +1,70 @@
+// A lockstep run over a CAN bus. The frames of a turn go out together.
+//
+// A bus carries the digest, not edges, so this takes "edges" out of the capabilities of the Hello
+// that it sends: the plant then chooses what the bus can carry. A bus has no end of stream: a peer
+// that dies is noticed after the silence limit.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "protocol/carriers/can_packer.h"
+#include "protocol/carriers/can_port.h"
+#include "protocol/carriers/can_unpacker.h"
+#include "protocol/carriers/turn_link.h"
+
+namespace towbench::protocol {
+
+class CanLink final : public TurnLink {
+ public:
+  // `direction` is where our own frames go. `port` outlives this.
+  CanLink(CanPort& port, CanDirection direction,
+          core::Nanoseconds silence_limit_ns = core::kNanosecondsPerSecond) noexcept;
+
+  // Every frame sent and received, in order, also goes there. Outlives this.
+  void log_to(CanFrameSink& log) noexcept { log_ = &log; }
+
+  [[nodiscard]] MessageSink& peer() noexcept override { return writer_; }
+  [[nodiscard]] const LinkCounts& counts() const noexcept override { return unpacker_.counts(); }
+  [[nodiscard]] std::uint64_t frames_sent() const noexcept { return writer_.frames_sent; }
+  [[nodiscard]] std::uint64_t frames_received() const noexcept { return frames_received_; }
+  // Messages that CAN does not carry, and reports that could not be expanded (can_unpacker.h).
+  [[nodiscard]] std::uint64_t refused() const noexcept { return writer_.packer.refused(); }
+  [[nodiscard]] std::uint64_t reports_without_reference() const noexcept {
+    return unpacker_.reports_without_reference();
+  }
+
+ private:
+  // Holds the frames of a turn.
+  struct Queue final : CanFrameSink {
+    explicit Queue(CanLink& owner) noexcept : link(owner) {}
+    void on(const CanFrame& frame) noexcept override;
+    void flush() noexcept;
+
+    CanLink& link;
+    core::Status status{};
+    std::size_t held = 0;
+    std::array<CanFrame, 256> frames{};
+  };
+  struct Writer final : EachMessage<Writer> {
+    Writer(CanLink& owner, CanDirection direction) noexcept
+        : queue(owner), packer(direction, queue) {}
+    template <typename Message>
+    void handle(const Message& message) noexcept;
+
+    Queue queue;
+    CanPacker packer;
+    std::uint64_t frames_sent = 0;
+  };
+
+  core::Result<Progress> read_once(core::Nanoseconds timeout_ns) noexcept override;
+
+  CanPort& port_;
+  CanFrameSink* log_ = nullptr;
+  Writer writer_;
+  CanUnpacker unpacker_;
+  std::uint64_t frames_received_ = 0;
+  std::array<CanFrame, 64> received_{};
+};
+
+}  // namespace towbench::protocol

@@ -1,0 +1,103 @@
+#!/usr/bin/env bash
+# What is tested: the project's own programs on real carriers, and the same verdicts on each.
+# usage: jobs.sh ROOT BUILD_FOLDER host|machine
+#   host      in one process, and over a pair of ptys: a tty is real everywhere
+#   machine   inside the test machine, after `host`: CAN
+set -uo pipefail
+root=${1:?usage: jobs.sh ROOT BUILD_FOLDER host|machine} build=${2:?} where=${3:?}
+cd "$root" || exit 1
+export TOWBENCH_TEST_MACHINE=1 # where a carrier is missing a test fails instead of being skipped
+runs=$root/build/carriers/runs
+failed=0
+
+# job NAME COMMAND...: one line of result, the output when it failed.
+job() {
+  local name=$1 log started=$SECONDS
+  shift
+  log=$(mktemp)
+  if "$@" >"$log" 2>&1; then
+    echo "@@ passed: $name ($((SECONDS - started)) s)"
+  else
+    echo "@@ FAILED: $name ($((SECONDS - started)) s), exit code $?"
+    tail -n 40 "$log"
+    failed=$((failed + 1))
+  fi
+  rm -f "$log"
+}
+
+# One processor carries both sides: without preemption on wake-up a turn is two switches, not ten.
+bench() { chrt --batch 0 "$build/harness/towbench-bench" "$@"; }
+
+# What the experiments of a folder were found to be: every check with its verdict.
+verdicts() {
+  python3 - "$1"/*/result.json <<'PY'
+import json, sys
+for result in sorted((json.load(open(path)) for path in sys.argv[1:]), key=lambda r: r["experiment"]["name"]):
+    print(result["experiment"]["name"], result["verdict"])
+    for check in result["checks"]:
+        print("  ", check["name"], check.get("window"), check["verdict"])
+PY
+}
+
+same_verdicts() {
+  verdicts "$1" >"$2.expected" && verdicts "$2" >"$2.found" && [[ -s $2.found ]] && diff "$2.expected" "$2.found"
+}
+
+# demo_over NAME CARRIER [LINES]
+demo_over() {
+  local name=$1 carrier=$2 lines=${3:-}
+  rm -rf "${runs:?}/$name"
+  job "demo over $name" bench demo -q --carrier "$carrier" ${lines:+--lines "$lines"} --out "$runs/$name"
+  if [[ $name != in-process ]]; then
+    job "the same verdicts over $name as in one process" same_verdicts "$runs/in-process" "$runs/$name"
+  fi
+}
+
+# can-utils read what the bench logs, and play it.
+candump_is_played() {
+  local log
+  log=$(find "$runs/vcan" -name candump.log | head -n 1)
+  candump -n 500 vcan1 >/tmp/seen &
+  sleep 1
+  head -n 500 "$log" | canplayer -t vcan1=vcan0 || return 1
+  wait
+  [[ $(wc -l </tmp/seen) == 500 ]]
+}
+
+# Nine lines that the kernel simulates.
+make_simulated_chip() {
+  local device=/sys/kernel/config/gpio-sim/bench
+  mkdir -p "$device/bank0"
+  echo 9 >"$device/bank0/num_lines"
+  echo 1 >"$device/live"
+  chip=$(<"$device/bank0/chip_name")
+}
+
+on_host() {
+  demo_over in-process in-process
+  local ends line
+  ends=$(mktemp -d)
+  socat "pty,rawer,link=$ends/a" "pty,rawer,link=$ends/b" &
+  line=$!
+  while [[ ! -e $ends/a || ! -e $ends/b ]]; do kill -0 "$line" || break; done
+  demo_over serial "serial:$ends/a,$ends/b"
+  kill "$line"
+  rm -rf "$ends"
+}
+
+in_machine() {
+  job 'SocketCAN: filters, error frames, bus-off, queues' \
+    "$build/tests/protocol/test_protocol" --gtest_brief=1 '--gtest_filter=SocketCan*'
+  demo_over vcan can:vcan0
+  job 'GPIO lines: both sides, edges, debouncing, taken lines' \
+    "$build/tests/protocol/test_protocol" --gtest_brief=1 '--gtest_filter=GpioLines*'
+  make_simulated_chip
+  demo_over vcan-and-gpio can:vcan0 "$chip,sim:$chip"
+  job "can-utils play the bench's candump.log" candump_is_played
+}
+
+case $where in
+  host) on_host ;;
+  machine) in_machine ;;
+esac
+((failed == 0))

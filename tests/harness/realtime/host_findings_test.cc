@@ -1,0 +1,68 @@
+#include "harness/realtime/host_findings.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "harness/realtime/own_lateness.h"
+#include "tests/harness/fixtures/temporary_fixtures.h"
+
+namespace towbench::harness {
+namespace {
+
+Finding finding_on(const TemporaryFixtures& root, const std::string& subject) {
+  const auto findings = host_findings(root.folder());
+  const auto found = std::find_if(findings.begin(), findings.end(),
+                                  [&](const Finding& each) { return each.subject == subject; });
+  return found == findings.end() ? Finding{} : *found;
+}
+
+TEST(HostFindings, SayOneThingOfEverySubjectAndHowToMendWhatIsMissing) {
+  const auto findings = host_findings();
+  EXPECT_EQ(findings.size(), 8U);
+  for (const auto& finding : findings) {
+    EXPECT_FALSE(finding.found.empty()) << finding.subject;
+    EXPECT_EQ(finding.fit == Fitness::kGood, finding.mend.empty()) << finding.subject;
+  }
+}
+
+TEST(HostFindings, TellCanInterfacesByTypeAndState) {
+  const TemporaryFixtures root;
+  EXPECT_EQ(finding_on(root, "can").fit, Fitness::kMissing);
+  root.write("sys/class/net/eth0/type", "1\n");
+  root.write("sys/class/net/can0/type", "280\n");
+  root.write("sys/class/net/can0/operstate", "down\n");
+  root.write("sys/class/net/can0/mtu", "16\n");
+  const auto down = finding_on(root, "can");
+  EXPECT_EQ(down.fit, Fitness::kMissing);
+  EXPECT_EQ(down.mend, "ip link set can0 up type can bitrate 1000000 restart-ms 100");
+  root.write("sys/class/net/vcan0/type", "280\n");
+  root.write("sys/class/net/vcan0/operstate", "unknown\n");
+  root.write("sys/class/net/vcan0/mtu", "72\n");
+  EXPECT_EQ(finding_on(root, "can").found, "up: vcan0 (FD); down: can0");
+}
+
+TEST(HostFindings, TellGpioChipsAndIsolatedProcessors) {
+  const TemporaryFixtures root;
+  EXPECT_EQ(finding_on(root, "gpio").fit, Fitness::kMissing);
+  root.write("dev/gpiochip0", "");
+  EXPECT_EQ(finding_on(root, "gpio").found, "gpiochip0");
+}
+
+TEST(LatenessFinding, NamesTheFastestRateThatTheHostIsFitFor) {
+  TickSummary summary;
+  summary.ticks = 1000;
+  summary.lateness.p99_ns = 4'000;
+  EXPECT_EQ(lateness_finding(summary).fit, Fitness::kGood);
+  summary.lateness.p99_ns = 40'000;
+  EXPECT_EQ(lateness_finding(summary).fit, Fitness::kLimited);
+  summary.lateness.p99_ns = 500'000;
+  const auto late = lateness_finding(summary);
+  EXPECT_EQ(late.fit, Fitness::kMissing);
+  EXPECT_NE(late.found.find("fit for controllers up to 100 Hz"), std::string::npos) << late.found;
+  EXPECT_EQ(lateness_finding({}).fit, Fitness::kMissing) << "nothing measured is no fitness";
+}
+
+}  // namespace
+}  // namespace towbench::harness
