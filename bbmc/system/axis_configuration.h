@@ -79,19 +79,27 @@ struct FrictionCompensation {
   }
 };
 
-// What the model leaves over, estimated from torque and speed, and taken off (thesis 9.3.1).
+// What the motor feels beyond its own inertia, estimated from torque and speed (thesis 9.3.1). Its
+// slow part is taken off; its fast part is the carriage swinging on the chain, and the motor gives
+// way to that as a damper would.
 struct DisturbanceObserverSettings {
   bool enabled = false;
-  double bandwidth_rad_per_s = 30.0;  // below the chain's mode
-  double inertia_kg_m2 = 1.714e-5;    // J, Table 7.4
-  double limit_Nm = 8e-3;             // twice (7.2)
+  double bandwidth_rad_per_s = 150.0;  // well above the chain's mode
+  double inertia_kg_m2 = 3.6e-6;       // of what turns with the motor, App. A
+  double compensation_rad_per_s = 5.0;
+  double damping_ratio = 0.2;
+  double limit_Nm = 8e-3;  // twice (7.2)
 
   template <typename Visitor>
   void visit(Visitor& v) {
-    v.value("enabled", enabled, core::any_finite(), "whether the law takes off what it estimates");
+    v.value("enabled", enabled, core::any_finite(), "whether the law uses what it estimates");
     v.value("bandwidth_rad_per_s", bandwidth_rad_per_s, core::between(0.1, 1e3), "of the estimate");
-    v.value("inertia_kg_m2", inertia_kg_m2, core::above(0.0), "J of its model");
-    v.value("limit_Nm", limit_Nm, core::above(0.0), "largest torque it adds");
+    v.value("inertia_kg_m2", inertia_kg_m2, core::above(0.0), "of what turns with the motor");
+    v.value("compensation_rad_per_s", compensation_rad_per_s, core::between(0.1, 1e3),
+            "what is slower than this is taken off, what is faster is damped");
+    v.value("damping_ratio", damping_ratio, core::between(0.0, 1.0),
+            "that the motor adds to the chain's mode; 0 for none");
+    v.value("limit_Nm", limit_Nm, core::above(0.0), "largest torque of either");
   }
 };
 

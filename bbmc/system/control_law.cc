@@ -28,22 +28,26 @@ void ControlLaw::set_additions(const AxisConfiguration& axis) noexcept {
   friction_ = axis.friction;
   observer_ = axis.disturbance_observer;
   chain_ = axis.chain;
-  const double held_rad_per_s = 2.0 * std::numbers::pi * axis.braking.held_motor_chain_Hz;
-  inverse_held_s2_ = 1.0 / (held_rad_per_s * held_rad_per_s);
-  const double carriage_kg_m2 = axis.braking.inertia_kg_m2 - axis.braking.rotor_inertia_kg_m2;
+  held_rad_per_s_ = 2.0 * std::numbers::pi * axis.braking.held_motor_chain_Hz;
+  inverse_held_s2_ = 1.0 / (held_rad_per_s_ * held_rad_per_s_);
+  carriage_kg_m2_ = axis.braking.inertia_kg_m2 - axis.braking.rotor_inertia_kg_m2;
   friction_stretch_rad_ =
-      carriage_kg_m2 > 0 ? chain_.carriage_friction_Nm / carriage_kg_m2 * inverse_held_s2_ : 0.0;
+      carriage_kg_m2_ > 0 ? chain_.carriage_friction_Nm / carriage_kg_m2_ * inverse_held_s2_ : 0.0;
+  forget_disturbance();
+}
+
+void ControlLaw::forget_disturbance() noexcept {
   disturbance_Nm_ = 0;
-  friction_Nm_ = 0;
+  felt_Nm_ = 0;
+  slow_unexplained_Nm_ = 0;
+  give_way_rad_ = 0;
   observing_ = false;
 }
 
 void ControlLaw::reset() noexcept {
   pid_.reset();
-  disturbance_Nm_ = 0;
-  friction_Nm_ = 0;
   last_acceleration_m_per_s2_ = 0;
-  observing_ = false;
+  forget_disturbance();
 }
 
 Reference ControlLaw::with_stretch(const Reference& reference, double step_s) noexcept {
@@ -67,11 +71,8 @@ Reference ControlLaw::with_stretch(const Reference& reference, double step_s) no
   return moved;
 }
 
-// Backward Euler: stable at every control rate, whatever the bandwidth.
+// Filters by backward Euler: stable at every control rate, whatever the bandwidth.
 void ControlLaw::observe(const Input& input, double speed_rad_per_s) noexcept {
-  if (!observer_.enabled) {
-    return;
-  }
   const double momentum_Nm =
       observer_.bandwidth_rad_per_s * observer_.inertia_kg_m2 * speed_rad_per_s;
   if (!observing_) {
@@ -79,21 +80,48 @@ void ControlLaw::observe(const Input& input, double speed_rad_per_s) noexcept {
     observer_state_Nm_ = momentum_Nm;
   }
   const double share = observer_.bandwidth_rad_per_s * input.step_s;
-  const double target_Nm = input.applied_Nm - friction_Nm_ + momentum_Nm;
-  observer_state_Nm_ = (observer_state_Nm_ + share * target_Nm) / (1.0 + share);
-  disturbance_Nm_ =
-      std::clamp(observer_state_Nm_ - momentum_Nm, -observer_.limit_Nm, observer_.limit_Nm);
+  observer_state_Nm_ =
+      (observer_state_Nm_ + share * (input.applied_Nm + momentum_Nm)) / (1.0 + share);
+  felt_Nm_ = std::clamp(observer_state_Nm_ - momentum_Nm, -observer_.limit_Nm, observer_.limit_Nm);
+}
+
+void ControlLaw::give_way(const Input& input, Reference& reference) noexcept {
+  if (!observer_.enabled) {
+    return;
+  }
+  observe(input, input.velocity_m_per_s * rad_per_m_);
+  const double speed_rad_per_s = input.reference.velocity_m_per_s * rad_per_m_;
+  FrictionCompensation model = friction_;
+  model.enabled = true;
+  const double explained_Nm = friction_torque_Nm(model, speed_rad_per_s) +
+                              carriage_kg_m2_ * input.reference.acceleration_m_per_s2 * rad_per_m_;
+  const double unexplained_Nm = felt_Nm_ - explained_Nm;
+  const double share = observer_.compensation_rad_per_s * input.step_s;
+  slow_unexplained_Nm_ = (slow_unexplained_Nm_ + share * unexplained_Nm) / (1.0 + share);
+  const bool adds_model = friction_.enabled || feed_forward_.enabled;
+  const double slow_target_Nm = adds_model ? unexplained_Nm : felt_Nm_;
+  disturbance_Nm_ = (disturbance_Nm_ + share * slow_target_Nm) / (1.0 + share);
+  if (!(carriage_kg_m2_ > 0)) {
+    return;
+  }
+  const double swing_Nm = unexplained_Nm - slow_unexplained_Nm_;
+  const double before_rad = give_way_rad_;
+  give_way_rad_ -=
+      input.step_s * 2.0 * observer_.damping_ratio * swing_Nm / (carriage_kg_m2_ * held_rad_per_s_);
+  give_way_rad_ /= 1.0 + share;
+  reference.position_m += give_way_rad_ / rad_per_m_;
+  reference.velocity_m_per_s += (give_way_rad_ - before_rad) / input.step_s / rad_per_m_;
 }
 
 double ControlLaw::torque_Nm(const Input& input) noexcept {
-  const Reference wanted = with_stretch(input.reference, input.step_s);
+  Reference wanted = with_stretch(input.reference, input.step_s);
+  give_way(input, wanted);
   const double reference_rad_per_s = input.reference.velocity_m_per_s * rad_per_m_;
   const double reference_rad_per_s2 = input.reference.acceleration_m_per_s2 * rad_per_m_;
-  observe(input, input.velocity_m_per_s * rad_per_m_);
-  friction_Nm_ = friction_torque_Nm(friction_, reference_rad_per_s);
+  const double friction_Nm = friction_torque_Nm(friction_, reference_rad_per_s);
   double added_Nm =
       friction_.enabled
-          ? friction_Nm_ +
+          ? friction_Nm +
                 (feed_forward_.enabled ? feed_forward_.inertia_kg_m2 * reference_rad_per_s2 : 0.0)
           : feed_forward_torque_Nm(feed_forward_, reference_rad_per_s, reference_rad_per_s2);
   added_Nm += disturbance_Nm_;

@@ -10,8 +10,11 @@
 //
 // q_c  the reference, or the reference plus the stretch of the chain (J_l q'' + C_l s(q')) / k
 // s    q' / (|q'| + w_0): the sign, without its step
-// d    L-filtered tau - tau_friction - J v': what the model leaves over, integrated as
-//      z' = L (tau - tau_friction - d), d = z - L J v, so that nothing is differentiated
+// d    the slow part of d_m, what the motor feels: d_m = z - L J_m v, z' = L (tau - d_m), so that
+//      nothing is differentiated. Less the reference's friction and J_l q'', its fast part r is the
+//      carriage swinging on the chain, and the reference gives way to it:
+//      p' = -2 zeta r / (J_l w_h) - c p. A motor that follows to the micrometre is a wall to swing
+//      on.
 // e_n  the part of both axes' errors that is across the path
 //
 // When friction compensation is on, the feed-forward gives J q'' only.
@@ -49,7 +52,9 @@ class ControlLaw {
 
  private:
   [[nodiscard]] Reference with_stretch(const Reference& reference, double step_s) noexcept;
+  void forget_disturbance() noexcept;
   void observe(const Input& input, double speed_rad_per_s) noexcept;
+  void give_way(const Input& input, Reference& reference) noexcept;
 
   FeedForward feed_forward_;
   FrictionCompensation friction_;
@@ -61,7 +66,11 @@ class ControlLaw {
   Pid pid_;
   double observer_state_Nm_ = 0;
   double disturbance_Nm_ = 0;
-  double friction_Nm_ = 0;
+  double felt_Nm_ = 0;  // by the motor
+  double slow_unexplained_Nm_ = 0;
+  double give_way_rad_ = 0;
+  double carriage_kg_m2_ = 0;
+  double held_rad_per_s_ = 0;
   double last_acceleration_m_per_s2_ = 0;
   bool observing_ = false;
 };

@@ -29,7 +29,7 @@ core::Status SystemManager::set_law(Axis axis, const AxisConfiguration& parts) n
        {parts.feed_forward.inertia_kg_m2, parts.feed_forward.viscous_friction_Nm_s_per_rad,
         parts.feed_forward.coulomb_friction_Nm, parts.friction.breakaway_Nm,
         parts.friction.coulomb_friction_Nm, parts.friction.viscous_friction_Nm_s_per_rad,
-        parts.chain.carriage_friction_Nm}) {
+        parts.disturbance_observer.damping_ratio, parts.chain.carriage_friction_Nm}) {
     if (!std::isfinite(value) || value < 0) {
       return failure(ErrorCode::kRequestOutOfRange);
     }
@@ -37,7 +37,8 @@ core::Status SystemManager::set_law(Axis axis, const AxisConfiguration& parts) n
   for (const double value :
        {parts.friction.stribeck_speed_rad_per_s, parts.friction.smoothing_rad_per_s,
         parts.disturbance_observer.bandwidth_rad_per_s, parts.disturbance_observer.inertia_kg_m2,
-        parts.disturbance_observer.limit_Nm, parts.chain.smoothing_rad_per_s}) {
+        parts.disturbance_observer.compensation_rad_per_s, parts.disturbance_observer.limit_Nm,
+        parts.chain.smoothing_rad_per_s}) {
     if (!std::isfinite(value) || value <= 0) {
       return failure(ErrorCode::kRequestOutOfRange);
     }

@@ -1,0 +1,11 @@
+// Pages and pictures of docs/ that are measured, each printed by one function.
+#pragma once
+
+namespace towbench::tests {
+
+void print_tracking();
+// The estimators' errors against truth as a table, and as a picture.
+void print_velocity_table();
+void print_velocity_picture();
+
+}  // namespace towbench::tests

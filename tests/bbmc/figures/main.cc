@@ -1,0 +1,20 @@
+// bbmc_figures PAGE: prints a measured page of docs/ to standard output.
+#include <cstdio>
+#include <string_view>
+
+#include "tests/bbmc/figures/figures.h"
+
+int main(int argc, char** argv) {
+  const std::string_view page = argc == 2 ? argv[1] : "";
+  if (page == "tracking") {
+    towbench::tests::print_tracking();
+  } else if (page == "velocity") {
+    towbench::tests::print_velocity_table();
+  } else if (page == "velocity.svg") {
+    towbench::tests::print_velocity_picture();
+  } else {
+    std::fputs("usage: bbmc_figures tracking|velocity|velocity.svg\n", stderr);
+    return 2;
+  }
+  return 0;
+}

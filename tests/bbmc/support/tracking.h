@@ -1,0 +1,69 @@
+// The tracking experiments of experiments.md, measured: motor side against the controller's own
+// rows, carriage side against what only the emulator knows.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "bbmc/system/configuration.h"
+#include "core/axis.h"
+
+namespace towbench::tests {
+
+// A law by name, made of the tuned plain PID and what is added to it.
+struct Law {
+  std::string_view name;
+  bool feed_forward = false;
+  bool friction = false;
+  bool observer = false;
+  bool cross_coupling = false;
+  bool chain = false;  // with S-curve profiles, which it needs
+};
+
+inline constexpr std::array<Law, 7> kLaws{{
+    {.name = "PID"},
+    {.name = "PID, feed-forward", .feed_forward = true},
+    {.name = "PID, feed-forward, friction", .feed_forward = true, .friction = true},
+    {.name = "PID, observer", .observer = true},
+    {.name = "PID, cross-coupling", .cross_coupling = true},
+    {.name = "PID, feed-forward, friction, chain; S-curve",
+     .feed_forward = true,
+     .friction = true,
+     .chain = true},
+    {.name = "everything; S-curve",
+     .feed_forward = true,
+     .friction = true,
+     .observer = true,
+     .cross_coupling = true,
+     .chain = true},
+}};
+
+// The gains of fixtures/controllers/bbmc-tuned.toml and the parts of the law.
+[[nodiscard]] bbmc::Configuration tuned(const Law& law);
+
+struct TrapezoidFigures {
+  bool sound = false;                      // ran to its end without a fault
+  double mean_velocity_error_m_per_s = 0;  // steady state, as Table 7.6
+  double mean_error_m = 0;                 // steady state, motor side
+  double rms_error_m = 0;                  // steady state, motor side
+  double peak_error_m = 0;                 // whole profile, motor side
+  double carriage_peak_m = 0;              // whole profile, truth
+};
+
+// 0.8 s to speed, 3 s of it, 0.8 s to rest, from y = 0.449 m or x = 0.1 m.
+[[nodiscard]] TrapezoidFigures measure_trapezoid(const Law& law, core::Axis axis,
+                                                 double speed_m_per_s);
+
+struct CircleFigures {
+  bool sound = false;
+  core::PerAxis<double> peak_error_m{};  // motor side
+  double path_peak_m = 0;                // motor side, across the path
+  double carriage_path_peak_m = 0;       // truth, across the path
+  double carriage_path_rms_m = 0;
+};
+
+// Figs 7.14, 7.15: r = 0.20 m, T = 7 s, two turns, one second to speed.
+[[nodiscard]] CircleFigures measure_circle(const Law& law);
+
+}  // namespace towbench::tests
