@@ -18,9 +18,14 @@ using nlohmann::json;
 // The plant goes before the controller: a machine does not wait.
 constexpr int kEmulatorPriority = 80;
 constexpr int kControllerPriority = 70;
-// 5 ms and 10 ms that a side may be behind and still catch up.
-constexpr std::uint32_t kEmulatorMaxBehind = 50;
-constexpr std::uint32_t kControllerMaxBehind = 10;
+// 2 ms that a side may be behind and still catch up: as long as a reaction may take, so that a run
+// that counts has not been late by a whole reaction.
+constexpr core::Nanoseconds kMaxBehind_ns = 2 * core::kNanosecondsPerMillisecond;
+
+TickPolicy policy_of(core::Nanoseconds period_ns) {
+  return {.period_ns = period_ns,
+          .max_behind = static_cast<std::uint32_t>(kMaxBehind_ns / period_ns)};
+}
 
 constexpr const char* kEmulatorFile = "realtime_emulator.json";
 
@@ -46,8 +51,7 @@ void write(const std::filesystem::path& path, const json& value) {
 EmulatorTiming::EmulatorTiming(std::filesystem::path folder)
     : folder_(std::move(folder)),
       rights_(take_realtime_rights(kEmulatorPriority, 0)),
-      loop_(std::make_unique<TickLoop>(
-          clock_, TickPolicy{.period_ns = core::kPlantTick_ns, .max_behind = kEmulatorMaxBehind})) {
+      loop_(std::make_unique<TickLoop>(clock_, policy_of(core::kPlantTick_ns))) {
   warn("emulator", rights_);
 }
 
@@ -65,9 +69,8 @@ ControllerTiming::ControllerTiming(std::filesystem::path folder,
                                    const bbmc::Configuration& configuration)
     : folder_(std::move(folder)),
       rights_(take_realtime_rights(kControllerPriority, 1)),
-      loop_(std::make_unique<TickLoop>(clock_, TickPolicy{.period_ns = bbmc::exchange_period_ns(
-                                                              configuration.control_period_ns()),
-                                                          .max_behind = kControllerMaxBehind})) {
+      loop_(std::make_unique<TickLoop>(
+          clock_, policy_of(bbmc::exchange_period_ns(configuration.control_period_ns())))) {
   warn("controller", rights_);
 }
 
