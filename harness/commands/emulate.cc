@@ -91,7 +91,9 @@ Caller wait_for_controller(const Options& options) {
     caller.connection =
         protocol::Connection::over(opened(protocol::LocalSocket::adopt(options.stream_descriptor)));
   } else {
-    std::fprintf(stderr, "emulator: waiting at %s\n", options.carrier.c_str());
+    if (options.patience_s == 0) {  // a person started it, not a run
+      std::fprintf(stderr, "emulator: waiting at %s\n", options.carrier.c_str());
+    }
     caller.connection = opened(protocol::Connection::to_controller(
         carrier_address("--carrier", options.carrier), keep_waiting));
   }
