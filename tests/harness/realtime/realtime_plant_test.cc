@@ -65,17 +65,24 @@ class RealtimePlantTest : public testing::Test {
   std::unique_ptr<LockstepLink> far_link_;
 };
 
-// A peer that takes everything and says nothing.
+// A peer that takes everything and says nothing, or one word only.
 class QuietLink final : public protocol::TurnLink {
  public:
-  QuietLink() : TurnLink(0) {}
+  QuietLink() : TurnLink(core::kNanosecondsPerSecond) {}
+  void say_advanced() { has_word_ = true; }
   [[nodiscard]] protocol::MessageSink& peer() noexcept override { return ignored_; }
   [[nodiscard]] const protocol::LinkCounts& counts() const noexcept override { return counts_; }
 
  private:
   core::Result<Progress> read_once(core::Nanoseconds /*timeout_ns*/) noexcept override {
-    return Progress::kNothing;
+    if (!has_word_) {
+      return Progress::kNothing;
+    }
+    has_word_ = false;
+    watch().on(protocol::Advanced{core::kPlantTick_ns});
+    return Progress::kSomething;
   }
+  bool has_word_ = false;
   class Ignored final : public protocol::MessageSink {
   } ignored_;
   protocol::LinkCounts counts_;
@@ -125,10 +132,11 @@ TEST_F(RealtimePlantTest, TruthIsThinnedToWholeExchanges) {
 
 TEST_F(RealtimePlantTest, TheControllerIsToldItsOwnTimeAndAPlantThatFallsSilentIsLost) {
   const auto loop = loop_of(core::kNanosecondsPerMillisecond);
-  RealtimePlantEnd end(*near_link_, *loop);
+  QuietLink link;
+  RealtimePlantEnd end(link, *loop);
   KeepingController controller;
   end.connect(controller);
-  far_link_->peer().on(protocol::Advanced{core::kPlantTick_ns});
+  link.say_advanced();
   end.sink().on(protocol::Advance{0});
   ASSERT_TRUE(end.wait_for(protocol::Turn::kAdvanced).has_value());
   EXPECT_EQ(controller.told_ns, 0);
