@@ -3,17 +3,20 @@
 #include <string_view>
 
 #include "tests/bbmc/figures/figures.h"
+#include "tests/bbmc/support/typed_session.h"
 
 int main(int argc, char** argv) {
   const std::string_view page = argc == 2 ? argv[1] : "";
   if (page == "tracking") {
     towbench::tests::print_tracking();
+  } else if (page == "session") {
+    std::fputs(towbench::tests::typed_session().c_str(), stdout);
   } else if (page == "velocity") {
     towbench::tests::print_velocity_table();
   } else if (page == "velocity.svg") {
     towbench::tests::print_velocity_picture();
   } else {
-    std::fputs("usage: bbmc_figures tracking|velocity|velocity.svg\n", stderr);
+    std::fputs("usage: bbmc_figures tracking|session|velocity|velocity.svg\n", stderr);
     return 2;
   }
   return 0;
