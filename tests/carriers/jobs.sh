@@ -90,6 +90,57 @@ real_time_window() {
   esac
 }
 
+# started FOLDER: a run over vcan1 in the background, under way when this returns. Sets $run.
+started() {
+  rm -rf "${1:?}"
+  bench run circle -q --no-report --carrier can:vcan1 --out "$1" &
+  run=$!
+  local i
+  for ((i = 0; i < 600; ++i)); do
+    (($(cat "$1"/*/log.csv 2>/dev/null | wc -c) > 5000)) && return 0
+    sleep 0.1
+  done
+  return 1
+}
+
+# ended_safely FOLDER: the run is incomplete, the plant has lost its drive, the controller is faulted.
+ended_safely() {
+  local code=0
+  wait "$run" || code=$?
+  [[ $code == 3 ]] && grep -q '"status": "incomplete"' "$1"/*/result.json &&
+    grep -q drive_removed "$1"/*/plant_events.jsonl &&
+    grep -q fault_latched "$1"/*/controller_events.jsonl
+}
+
+bus_goes_down() {
+  started "$runs/down" || return 1
+  ip link set vcan1 down
+  local safe=0
+  ended_safely "$runs/down" || safe=1
+  ip link set vcan1 up
+  return "$safe"
+}
+
+# Somebody else's Advanced at times of its own: the controller must not believe it.
+node_babbles() {
+  started "$runs/babble" || return 1
+  cangen vcan1 -g 1 -I 201 -L 8 -D r &
+  local babbler=$! safe=0
+  ended_safely "$runs/babble" || safe=1
+  kill "$babbler"
+  return "$safe"
+}
+
+# Identifiers that are not ours do not reach us.
+flood_of_foreign_frames() {
+  cangen vcan1 -g 1 -I 333 -L 8 -D r &
+  local flood=$! code=0
+  rm -rf "$runs/flood"
+  bench run endstop-y-max -q --no-report --carrier can:vcan1 --out "$runs/flood" || code=$?
+  kill "$flood"
+  return "$code"
+}
+
 on_host() {
   real_time_window
   demo_over in-process in-process
@@ -111,6 +162,9 @@ in_machine() {
     "$build/tests/protocol/test_protocol" --gtest_brief=1 '--gtest_filter=GpioLines*'
   make_simulated_chip
   demo_over vcan-and-gpio can:vcan0 "$chip,sim:$chip"
+  job 'a bus that goes down in a run leaves both sides safe' bus_goes_down
+  job "a node that babbles with the bench's identifiers leaves both sides safe" node_babbles
+  job 'a flood of foreign frames changes no verdict' flood_of_foreign_frames
   job "can-utils play the bench's candump.log" candump_is_played
 }
 

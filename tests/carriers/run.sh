@@ -5,7 +5,7 @@
 set -uo pipefail
 root=${1:?usage: run.sh ROOT BUILD_FOLDER} build=${2:?}
 here=$(dirname "${BASH_SOURCE[0]}")
-patience=${TOWBENCH_CARRIERS_SECONDS:-900}
+patience=${TOWBENCH_CARRIERS_SECONDS:-1500}
 kernel=$root/build/carriers/kernel
 
 "$here/jobs.sh" "$root" "$build" host || exit
