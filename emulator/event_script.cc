@@ -57,6 +57,7 @@ namespace {
     case ScheduledEventKind::kDropLoad:
     case ScheduledEventKind::kSlipDisc:
     case ScheduledEventKind::kTurnDisc:
+    case ScheduledEventKind::kSkipChain:
       return fail_axis(rig, event);
   }
   return true;

@@ -59,6 +59,9 @@ void RigAxis::step(core::Nanoseconds start_ns, const Surroundings& around,
   faults_.apply(before, acceleration_m_per_s2_, input);
   command_V_ = input.command_V;
   plant_.step(input, segments_);
+  if (skipped_rad_ != 0.0) {
+    turn_shaft();
+  }
   encoder_.step(segments_, edges_);
   wiring_.step(disc_.step(encoder_.levels(), edges_), edges_);
   state_ = plant_.state();
@@ -79,11 +82,22 @@ void RigAxis::step(core::Nanoseconds start_ns, const Surroundings& around,
   }
 }
 
+// The encoder sits on the shaft.
+void RigAxis::turn_shaft() noexcept {
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    segments_[i].start_angle_rad += skipped_rad_;
+    segments_[i].end_angle_rad += skipped_rad_;
+  }
+}
+
 void RigAxis::fail(ScheduledEventKind kind, double value) noexcept {
   if (kind == ScheduledEventKind::kSlipDisc) {
     disc_.slip(static_cast<std::int64_t>(value), encoder_.count());
   } else if (kind == ScheduledEventKind::kTurnDisc) {
     disc_.turn(static_cast<std::int64_t>(value), encoder_.count());
+  } else if (kind == ScheduledEventKind::kSkipChain) {
+    skipped_rad_ += plant_.skip_chain(value);
+    state_ = plant_.state();
   } else {
     faults_.set(kind, value, state_, command_V_);
   }
@@ -106,7 +120,7 @@ std::uint16_t RigAxis::hall_lines() const noexcept {
 AxisTruth RigAxis::truth() const noexcept {
   const AxisState& state = state_;
   const AxisForces forces = plant_.forces();
-  return {.motor_angle_rad = state.motor_angle_rad,
+  return {.motor_angle_rad = state.motor_angle_rad + skipped_rad_,
           .motor_speed_rad_per_s = state.motor_speed_rad_per_s,
           .carriage_m = state.carriage_m,
           .carriage_speed_m_per_s = state.carriage_speed_m_per_s,

@@ -78,6 +78,8 @@ class RigAxis {
   [[nodiscard]] AxisTruth truth() const noexcept;
 
  private:
+  TOWBENCH_REALTIME void turn_shaft() noexcept;
+
   // Each starts from the state of the one before it.
   AxisPlant plant_;
   AxisState state_;  // the plant's, at the end of the last step
@@ -94,6 +96,7 @@ class RigAxis {
   double resistance_ohm_;
   double torque_constant_Nm_per_A_;
   double command_V_ = 0.0;
+  double skipped_rad_ = 0.0;  // the shaft's angle above that by the chain
   double acceleration_m_per_s2_ = 0.0;
 };
 

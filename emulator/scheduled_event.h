@@ -35,6 +35,8 @@ enum class ScheduledEventKind : std::uint8_t {
   // Encoder disc on its shaft (emulator/faults/slipping_disc.h).
   kSlipDisc,  // stands still for the next `value` counts of the shaft
   kTurnDisc,  // jumps by `value` counts
+  // Chain on its sprocket.
+  kSkipChain,  // jumps: the motor has turned `value` m of chain further without moving the carriage
 };
 
 struct ScheduledEvent {

@@ -301,6 +301,23 @@ void AxisPlant::step_through_events(MotionSegments& segments) noexcept {
   }
 }
 
+double AxisPlant::skip_chain(double by_m) noexcept {
+  const AxisModel& model = *model_;
+  if (model.parameters.chain.rigid) {
+    return 0.0;
+  }
+  const double carriage_m = carriage_position_m(model, z_);
+  const double by_rad = by_m / model.mechanics.metres_per_radian;
+  z_[kMotorAngle] -= by_rad;
+  situation_.motor_anchor_rad -= by_rad;
+  // What the stretch must be for the carriage to stay where it is, on a real sprocket too.
+  z_[kStretch] += carriage_position_m(model, z_) - carriage_m;
+  half_change_ = {};
+  settle(model, situation_, z_);
+  enter_mode();
+  return by_rad;
+}
+
 AxisState AxisPlant::state() const noexcept {
   return {.current_A = z_[kCurrent],
           .current_integral_V = z_[kIntegral],

@@ -77,6 +77,12 @@ class AxisPlant {
   // Advances by one tick. `segments` describes the motor shaft during it, without gaps.
   TOWBENCH_REALTIME void step(const AxisInput& input, MotionSegments& segments) noexcept;
 
+  // Between two steps the chain jumps over its sprocket: stretched by `by_m` less, as if the motor
+  // stood so far back, while neither body moves. state() has the motor's angle by the chain, which
+  // from then on is not that of the shaft; the difference is returned, in rad. A rigid chain has no
+  // teeth to jump: 0.
+  TOWBENCH_REALTIME [[nodiscard]] double skip_chain(double by_m) noexcept;
+
   [[nodiscard]] AxisState state() const noexcept;
   // Of the last step.
   [[nodiscard]] const HardEndContact& contact() const noexcept { return contact_; }

@@ -1,6 +1,8 @@
-// A campaign: faults x phases of motion x seeds on a set of motions, as its fixture says.
+// A campaign: faults x phases of motion x seeds x drawn machines on a set of motions, as its
+// fixture says.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -21,6 +23,7 @@ struct CampaignEntry {
   std::vector<std::string> phases;   // a random moment of each that the motion has
   std::string event;                 // instead of phases
   std::string words;                 // what is added: duration, parameters
+  std::vector<std::string> also;     // further faults of the same case, each complete
   std::uint64_t seeds = 0;           // 0: as the campaign
 };
 
@@ -30,34 +33,51 @@ struct CampaignMotion {
   std::unique_ptr<CaseRecord> twin;
 };
 
+class DrawnMachines;
+
 struct Campaign {
+  Campaign();
+  Campaign(Campaign&&) noexcept;
+  Campaign& operator=(Campaign&&) noexcept;
+  ~Campaign();
+
   std::string name;
   std::string title;
   std::uint64_t seeds = 1;
+  std::uint64_t machines = 0;  // drawn ones, besides the nominal one
+  double spread = 0.1;         // they differ from it by up to so much, relative
+  std::filesystem::path file;
   std::vector<CampaignEntry> entries;
-  std::vector<CampaignMotion> motions;  // twins have been run
-  std::vector<std::string> incapable;   // "part kind: why", for each kind refused
+  std::vector<CampaignMotion> motions;   // twins have been run
+  std::vector<std::string> incapable;    // "part kind: why", for each kind refused
+  std::unique_ptr<DrawnMachines> drawn;  // once drawn (drawn_machines.h)
+  // Of everything that decides a result: fixtures, seeds, machines and this program. Results that
+  // bear another are of another campaign.
+  std::string fingerprint;
 
   [[nodiscard]] const CampaignMotion& motion(const std::string& name) const;
 };
 
-// One case, complete in words: `run MOTION --fault "WORDS"` repeats it.
+// One case, complete in words: `run MOTION --fault "WORDS" ...` repeats it.
 struct CampaignCase {
   std::string id;  // motion/part.kind/moment/seed
   std::string motion;
   std::string part;
   std::string kind;
-  std::string moment;  // phase or event; "built" for what is so from the start
-  std::string words;
+  std::string moment;               // phase or event; "built" for what is so from the start
+  std::vector<std::string> faults;  // in words; the first is the one that the case is about
+  std::size_t machine = 0;          // 0: nominal
 };
 
-// Throws FixtureError. `seeds` instead of the fixture's own when it is not 0.
+// Throws FixtureError. `seeds` instead of every number of seeds in the fixture when it is not 0.
 [[nodiscard]] Campaign load_campaign(const std::filesystem::path& path, std::uint64_t seeds);
 // The same list in the same order, on every machine.
 [[nodiscard]] std::vector<CampaignCase> cases_of(const Campaign& campaign);
+[[nodiscard]] FaultPlan plan_of(const CampaignCase& one);
 // One line of JSON without its end.
 [[nodiscard]] std::string run_campaign_case(const Campaign& campaign, const CampaignCase& one);
 // What stands for a case whose process died in it.
-[[nodiscard]] std::string crashed_case(const CampaignCase& one, const std::string& how);
+[[nodiscard]] std::string crashed_case(const Campaign& campaign, const CampaignCase& one,
+                                       const std::string& how);
 
 }  // namespace towbench::harness

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/campaign/campaign.h"
+#include "harness/campaign/drawn_machines.h"
 #include "harness/faults/fault_text.h"
 
 namespace towbench::harness {
@@ -11,9 +12,10 @@ namespace {
 
 using nlohmann::json;
 
-json identity_of(const CampaignCase& one) {
-  return {{"case", one.id},   {"motion", one.motion}, {"part", one.part},
-          {"kind", one.kind}, {"moment", one.moment}, {"fault", one.words}};
+json identity_of(const Campaign& campaign, const CampaignCase& one) {
+  return {{"case", one.id},         {"motion", one.motion},      {"part", one.part},
+          {"kind", one.kind},       {"moment", one.moment},      {"faults", one.faults},
+          {"machine", one.machine}, {"of", campaign.fingerprint}};
 }
 
 void put(json& line, const char* key, const std::optional<double>& value) {
@@ -24,12 +26,20 @@ void put(json& line, const char* key, const std::optional<double>& value) {
 
 }  // namespace
 
+FaultPlan plan_of(const CampaignCase& one) {
+  FaultPlan plan;
+  for (const auto& words : one.faults) {
+    plan.push_back(parse_fault(words));
+  }
+  return plan;
+}
+
 std::string run_campaign_case(const Campaign& campaign, const CampaignCase& one) {
-  const auto& motion = campaign.motion(one.motion);
-  const auto seed = motion.plain.experiment.seed;
-  auto line = identity_of(one);
+  auto line = identity_of(campaign, one);
   try {
-    const auto prepared = prepare({parse_fault(one.words)}, motion.plain, *motion.twin);
+    const auto& motion = motion_of(campaign, one);
+    const auto seed = motion.plain.experiment.seed;
+    const auto prepared = prepare(plan_of(one), motion.plain, *motion.twin);
     const auto verdict = judge_case(motion.plain, prepared, *motion.twin, seed);
     const auto& figures = verdict.figures;
     line["verdict"] = name_of(verdict.verdict());
@@ -66,8 +76,9 @@ std::string run_campaign_case(const Campaign& campaign, const CampaignCase& one)
   return line.dump();
 }
 
-std::string crashed_case(const CampaignCase& one, const std::string& how) {
-  auto line = identity_of(one);
+std::string crashed_case(const Campaign& campaign, const CampaignCase& one,
+                         const std::string& how) {
+  auto line = identity_of(campaign, one);
   line["verdict"] = name_of(Verdict::kFail);
   line["fired"] = true;
   line["detected"] = line["handled"] = false;

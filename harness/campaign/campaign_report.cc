@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "harness/faults/fault.h"
+
 namespace towbench::harness {
 namespace {
 
@@ -31,7 +33,9 @@ std::string row_of(const std::string& name, const CampaignSummary& sum) {
 std::string matrix(const Results& results, const char* first, const char* second) {
   std::map<std::string, CampaignSummary> rows;
   for (const auto& line : results) {
-    auto name = line.value(first, "");
+    auto name = line.contains(first) && line.at(first).is_number()
+                    ? std::to_string(line.at(first).get<std::size_t>())
+                    : line.value(first, "");
     name += second == nullptr ? "" : ' ' + line.value(second, "");
     count(rows[name], line);
   }
@@ -61,7 +65,14 @@ constexpr std::array<Figure, 8> kFigures{{
     {"contact_speed_m_per_s", "speed at a hard end", "mm/s", 1e3},
 }};
 
-std::string figures(const Results& results) {
+// The case's name, as a link where its run folder was kept.
+std::string linked(const CampaignReport& report, const std::string& name) {
+  const auto kept = report.kept.find(name);
+  return kept == report.kept.end() ? '`' + name + '`'
+                                   : fmt::format("[`{}`]({})", name, kept->second);
+}
+
+std::string figures(const CampaignReport& report, const Results& results) {
   std::string text =
       "| figure | cases | median | 90 % | 99 % | worst | case |\n"
       "| --- | ---: | ---: | ---: | ---: | ---: | --- |\n";
@@ -81,9 +92,9 @@ std::string figures(const Results& results) {
       const auto last = static_cast<double>(values.size() - 1);
       return values[static_cast<std::size_t>(share * last + 0.5)].first;
     };
-    text += fmt::format("| {} | {} | {:.3g} {} | {:.3g} | {:.3g} | {:.4g} | `{}` |\n",
-                        figure.meaning, values.size(), quantile(0.5), figure.unit, quantile(0.9),
-                        quantile(0.99), values.back().first, values.back().second);
+    text += fmt::format("| {} | {} | {:.3g} {} | {:.3g} | {:.3g} | {:.4g} | {} |\n", figure.meaning,
+                        values.size(), quantile(0.5), figure.unit, quantile(0.9), quantile(0.99),
+                        values.back().first, linked(report, values.back().second));
   }
   return text;
 }
@@ -105,7 +116,8 @@ std::string rules(const Results& results) {
   return text;
 }
 
-std::string complaints(const Results& results, const std::string& verdict) {
+std::string complaints(const CampaignReport& report, const Results& results,
+                       const std::string& verdict) {
   constexpr std::size_t kMost = 40;
   std::string text;
   std::size_t told = 0;
@@ -113,14 +125,47 @@ std::string complaints(const Results& results, const std::string& verdict) {
     if (line.value("verdict", "") != verdict || ++told > kMost) {
       continue;
     }
-    text += fmt::format("- `{}`: ", line.value("case", ""));
+    text += fmt::format("- {}: ", linked(report, line.value("case", "")));
     for (const auto& broken : line.value("broken", json::array())) {
       text += fmt::format("{}: {}; ", broken.value("rule", ""), broken.value("reason", ""));
     }
-    text += fmt::format("again: `./towbench run fixtures/motions/{}.toml --fault \"{}\"`\n",
-                        line.value("motion", ""), line.value("fault", ""));
+    text += fmt::format("again: `{}`\n", report.again(line));
   }
   return told > kMost ? text + fmt::format("- and {} more\n", told - kMost) : text;
+}
+
+// Every kind at every moment: how often it was tried there. What was never tried is empty.
+std::string coverage(const Results& results) {
+  std::map<std::string, std::map<std::string, std::size_t>> tried;
+  std::set<std::string> moments;
+  for (const auto& row : fault_catalogue()) {
+    if (row.refused.empty()) {
+      tried[fmt::format("{} {}", name_of(row.part), row.name)];
+    }
+  }
+  for (const auto& line : results) {
+    const auto place = place_named(line.value("part", ""));
+    const auto part = place ? std::string(name_of(place->part)) : line.value("part", "");
+    const auto moment = line.value("moment", "");
+    ++tried[fmt::format("{} {}", part, line.value("kind", ""))][moment];
+    moments.insert(moment);
+  }
+  std::string text = "| |";
+  std::string rule = "| --- |";
+  for (const auto& moment : moments) {
+    text += fmt::format(" {} |", moment);
+    rule += " ---: |";
+  }
+  text += '\n' + rule + '\n';
+  for (const auto& [kind, at] : tried) {
+    text += fmt::format("| {}{} |", kind, at.empty() ? " **not tried**" : "");
+    for (const auto& moment : moments) {
+      const auto found = at.find(moment);
+      text += found == at.end() ? std::string(" |") : fmt::format(" {} |", found->second);
+    }
+    text += '\n';
+  }
+  return text;
 }
 
 std::string remarks(const Results& results) {
@@ -139,7 +184,7 @@ std::string remarks(const Results& results) {
 
 }  // namespace
 
-std::vector<json> load_results(const std::filesystem::path& folder) {
+std::vector<json> load_results(const std::filesystem::path& folder, const std::string& of) {
   std::vector<std::filesystem::path> files;
   if (std::filesystem::is_directory(folder)) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -156,7 +201,7 @@ std::vector<json> load_results(const std::filesystem::path& folder) {
     std::string text;
     while (std::getline(stream, text)) {
       auto line = json::parse(text, nullptr, false);
-      if (line.is_object() && line.contains("case")) {
+      if (line.is_object() && line.contains("case") && line.value("of", "") == of) {
         by_case.try_emplace(line.at("case").get<std::string>(), std::move(line));
       }
     }
@@ -176,31 +221,50 @@ CampaignSummary summary_of(const Results& results) {
   return sum;
 }
 
-std::string campaign_report(const std::string& title, const Results& results,
-                            const std::vector<std::string>& incapable, std::size_t missing) {
-  const auto sum = summary_of(results);
+std::map<std::string, json> worst_cases(const Results& results) {
+  std::map<std::string, json> worst;
+  for (const auto& figure : kFigures) {
+    for (const auto& line : results) {
+      if (line.contains(figure.key) &&
+          (!worst.contains(figure.key) ||
+           line.at(figure.key) >= worst.at(figure.key).at(figure.key))) {
+        worst[figure.key] = line;
+      }
+    }
+  }
+  return worst;
+}
+
+std::string campaign_report(const CampaignReport& report, const Results& results) {
+  const auto& sum = report.sum;
   auto text = fmt::format(
       "# {}\n\n{}: {} cases, {} fired, {} detected, {} handled, {} failed, {} "
       "invalid; {} not run yet\n\n",
-      title, name_of(sum.verdict()), sum.cases, sum.fired, sum.detected, sum.handled, sum.failed,
-      sum.invalid, missing);
+      report.title, name_of(sum.verdict()), sum.cases, sum.fired, sum.detected, sum.handled,
+      sum.failed, sum.invalid, sum.missing);
   text +=
       "Injected: made to happen. Fired: a plant or sensor signal differs from the fault-free twin. "
       "Detected: the controller latched a fault. Handled: every requirement that applies held; a "
       "fault that nobody can see is handled when nothing worse follows.\n\n";
+  text += fmt::format(
+      "Failed and worst cases link to the folder of their run. Any other case, by the name in "
+      "`results*.jsonl`, is run again with `{}`, which prints the folder.\n\n",
+      report.keep_command);
   text += "## Faults\n\n" + matrix(results, "part", "kind");
   text += "\n## Phases\n\n" + matrix(results, "moment", nullptr);
   text += "\n## Motions\n\n" + matrix(results, "motion", nullptr);
+  text += "\n## Machines (0: nominal)\n\n" + matrix(results, "machine", nullptr);
   text += "\n## Requirements\n\n" + rules(results);
-  text += "\n## Figures, and the case behind the worst\n\n" + figures(results);
+  text += "\n## Figures, and the case behind the worst\n\n" + figures(report, results);
   const auto section = [&](const char* head, const std::string& body) {
     text += body.empty() ? "" : fmt::format("\n## {}\n\n{}", head, body);
   };
-  section("Failed", complaints(results, "FAIL"));
-  section("Took no effect", complaints(results, "INVALID"));
+  section("Failed", complaints(report, results, "FAIL"));
+  section("Took no effect", complaints(report, results, "INVALID"));
   section("Passed with a remark", remarks(results));
+  section("Covered: cases of each kind at each moment", coverage(results));
   std::string refused;
-  for (const auto& kind : incapable) {
+  for (const auto& kind : report.incapable) {
     refused += "- " + kind + "\n";
   }
   section("Not covered: kinds that the bench refuses", refused);

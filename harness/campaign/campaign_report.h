@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,23 +21,38 @@ struct CampaignSummary {
   std::size_t handled = 0;
   std::size_t failed = 0;
   std::size_t invalid = 0;
+  std::size_t missing = 0;  // have no result yet
   [[nodiscard]] Verdict verdict() const noexcept {
-    return cases == 0 || invalid > 0 ? (failed > 0 ? Verdict::kFail : Verdict::kInvalid)
-           : failed > 0              ? Verdict::kFail
-                                     : Verdict::kPass;
+    return cases == 0 || invalid > 0 || missing > 0
+               ? (failed > 0 ? Verdict::kFail : Verdict::kInvalid)
+           : failed > 0 ? Verdict::kFail
+                        : Verdict::kPass;
   }
 };
 
-// Every line of every results*.jsonl of the folder; of a case that stands there twice, the first.
-// A last line torn by a kill is left out.
-[[nodiscard]] std::vector<nlohmann::json> load_results(const std::filesystem::path& folder);
+// Every line of every results*.jsonl of the folder that is of the campaign with this fingerprint;
+// of a case that stands there twice, the first. A last line torn by a kill is left out.
+[[nodiscard]] std::vector<nlohmann::json> load_results(const std::filesystem::path& folder,
+                                                       const std::string& of);
 
 [[nodiscard]] CampaignSummary summary_of(const std::vector<nlohmann::json>& results);
 
-// Markdown. `incapable`: kinds that the bench refuses; `missing`: cases that have no result yet.
-[[nodiscard]] std::string campaign_report(const std::string& title,
-                                          const std::vector<nlohmann::json>& results,
-                                          const std::vector<std::string>& incapable,
-                                          std::size_t missing);
+// By key of the figure: the case with the largest value.
+[[nodiscard]] std::map<std::string, nlohmann::json> worst_cases(
+    const std::vector<nlohmann::json>& results);
+
+// What the report says beside the results.
+struct CampaignReport {
+  std::string title;
+  std::vector<std::string> incapable;  // kinds that the bench refuses, with the reason
+  CampaignSummary sum;
+  std::map<std::string, std::string> kept;  // case -> folder of its run, relative to the report
+  std::function<std::string(const nlohmann::json&)> again;  // the command that runs a case again
+  std::string keep_command;  // that runs any case of the campaign again
+};
+
+// Markdown.
+[[nodiscard]] std::string campaign_report(const CampaignReport& report,
+                                          const std::vector<nlohmann::json>& results);
 
 }  // namespace towbench::harness

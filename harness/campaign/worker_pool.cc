@@ -143,7 +143,7 @@ class Pool {
     if (worker.share.empty()) {
       return;
     }
-    take_(crashed_case(*worker.share.front(), ended_how(status)));
+    take_(crashed_case(campaign_, *worker.share.front(), ended_how(status)));
     worker.share.pop_front();
     if (!worker.share.empty()) {
       start(worker, campaign_);

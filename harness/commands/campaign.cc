@@ -12,6 +12,9 @@
 #include <unistd.h>
 
 #include "harness/campaign/campaign_report.h"
+#include "harness/campaign/drawn_machines.h"
+#include "harness/campaign/kept_runs.h"
+#include "harness/campaign/slurm_array.h"
 #include "harness/campaign/worker_pool.h"
 #include "harness/commands/command.h"
 #include "harness/commands/fixture_paths.h"
@@ -26,8 +29,11 @@ struct Options {
   std::string out = "runs/campaign";
   std::string shard = "1/1";
   std::string only;
+  std::string keep;
+  std::vector<std::string> slurm_options;
   std::uint64_t seeds = 0;
   std::size_t workers = 0;
+  std::size_t slurm = 0;
   bool fresh = false;
   bool quiet = false;
 };
@@ -69,6 +75,9 @@ std::vector<CampaignCase> left_over(const std::vector<CampaignCase>& all, const 
       left.push_back(all[i]);
     }
   }
+  // A worker keeps one machine at a time.
+  std::stable_sort(left.begin(), left.end(),
+                   [](const auto& a, const auto& b) { return a.machine < b.machine; });
   return left;
 }
 
@@ -102,56 +111,165 @@ class Progress {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-int execute(const Options& options) {
-  const auto shard = parse_shard(options.shard);
-  const auto campaign = load_campaign(find_campaign(options.campaign), options.seeds);
-  const auto all = cases_of(campaign);
+std::string results_file(const Shard& shard) {
+  return shard.of == 1 ? std::string("results.jsonl")
+                       : fmt::format("results-{}-of-{}.jsonl", shard.index, shard.of);
+}
+
+// Runs what is left of this shard here.
+void run_here(const Options& options, const Campaign& campaign,
+              const std::vector<CampaignCase>& cases, const Shard& shard) {
   const std::filesystem::path folder = options.out;
-  std::filesystem::create_directories(folder);
-  const auto file =
-      folder / (shard.of == 1 ? std::string("results.jsonl")
-                              : fmt::format("results-{}-of-{}.jsonl", shard.index, shard.of));
-  if (options.fresh) {
-    std::filesystem::remove(file);
-  }
-  const auto cases = left_over(all, options, shard, load_results(folder));
+  const auto file = folder / results_file(shard);
   const auto workers = options.workers > 0
                            ? options.workers
                            : std::max<std::size_t>(1, std::thread::hardware_concurrency());
-  {
-    // Appends: what an interrupted campaign left is kept.
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> results(std::fopen(file.c_str(), "a"),
-                                                            &std::fclose);
-    if (!results) {
-      throw std::runtime_error(file.string() + " cannot be written");
-    }
-    Progress progress(cases.size(), !options.quiet);
-    run_in_workers(campaign, cases, workers, stop_requested(), [&](const std::string& line) {
-      std::fprintf(results.get(), "%s\n", line.c_str());
-      std::fflush(results.get());
-      progress.step();
-    });
-    if (!options.quiet && progress.done() > 0) {
-      std::printf("%zu cases in %.1f s with %zu workers: %.0f a minute\n", progress.done(),
-                  progress.elapsed_s(), workers,
-                  60.0 * static_cast<double>(progress.done()) / progress.elapsed_s());
+  // Appends: what an interrupted campaign left is kept.
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> results(std::fopen(file.c_str(), "a"),
+                                                          &std::fclose);
+  if (!results) {
+    throw std::runtime_error(file.string() + " cannot be written");
+  }
+  Progress progress(cases.size(), !options.quiet);
+  run_in_workers(campaign, cases, workers, stop_requested(), [&](const std::string& line) {
+    std::fprintf(results.get(), "%s\n", line.c_str());
+    std::fflush(results.get());
+    progress.step();
+  });
+  if (!options.quiet && progress.done() > 0) {
+    std::printf("%zu cases in %.1f s with %zu workers: %.0f a minute\n", progress.done(),
+                progress.elapsed_s(), workers,
+                60.0 * static_cast<double>(progress.done()) / progress.elapsed_s());
+  }
+}
+
+// Shards of which a case has no result yet.
+std::vector<std::size_t> unfinished(const Options& options, const Campaign& campaign,
+                                    const std::vector<CampaignCase>& all) {
+  const auto results = load_results(options.out, campaign.fingerprint);
+  std::vector<std::size_t> shards;
+  for (std::size_t index = 1; index <= options.slurm; ++index) {
+    if (!left_over(all, options, {index, options.slurm}, results).empty()) {
+      shards.push_back(index);
     }
   }
-  const auto results = load_results(folder);
-  const auto sum = summary_of(results);
-  const bool whole = shard.of == 1 && options.only.empty();
-  const auto missing = whole && all.size() > sum.cases ? all.size() - sum.cases : 0;
-  write_atomically(folder / "matrix.md",
-                   campaign_report(campaign.title, results, campaign.incapable, missing));
+  return shards;
+}
+
+// As a job array; a task that was lost is submitted again, as long as that helps.
+void run_on_slurm(const Options& options, const Campaign& campaign,
+                  const std::vector<CampaignCase>& all) {
+  SlurmArray array{.name = campaign.name,
+                   .tasks = options.slurm,
+                   .program = std::filesystem::canonical("/proc/self/exe"),
+                   .arguments = {"campaign", std::filesystem::absolute(campaign.file).string()},
+                   .folder = std::filesystem::absolute(options.out),
+                   .directives = options.slurm_options};
+  if (options.seeds != 0) {
+    array.arguments.insert(array.arguments.end(), {"--seeds", std::to_string(options.seeds)});
+  }
+  if (!options.only.empty()) {
+    array.arguments.insert(array.arguments.end(), {"--only", options.only});
+  }
+  auto shards = unfinished(options, campaign, all);
+  while (!shards.empty() && !stop_requested()) {
+    const auto before = load_results(options.out, campaign.fingerprint).size();
+    const auto job = submit_and_wait(array, shards, stop_requested());
+    if (!options.quiet && !job.empty()) {
+      std::printf("job %s: %zu of %zu shards\n", job.c_str(), shards.size(), options.slurm);
+    }
+    shards = unfinished(options, campaign, all);
+    if (!shards.empty() && load_results(options.out, campaign.fingerprint).size() == before) {
+      std::fprintf(stderr, "towbench: shards %s gave no result; see %s\n",
+                   fmt::format("{}", fmt::join(shards, ", ")).c_str(),
+                   (array.folder / "slurm").c_str());
+      return;
+    }
+  }
+}
+
+// Everything, or what this shard has written: the others may be running.
+void remove_results(const std::filesystem::path& folder, const Shard& shard) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const auto name = entry.path().filename().string();
+    const bool any = name.starts_with("results") && name.ends_with(".jsonl");
+    if (shard.of == 1 ? any : name == results_file(shard)) {
+      std::filesystem::remove(entry.path());
+    }
+  }
+}
+
+// Which command keeps any case's run, in the words of this campaign's call.
+std::string keep_command(const Options& options) {
+  const auto seeds = options.seeds == 0 ? "" : fmt::format(" --seeds {}", options.seeds);
+  return fmt::format("./towbench campaign {}{} --out {} --keep CASE", options.campaign, seeds,
+                     options.out);
+}
+
+int keep_one(const Options& options, const Campaign& campaign,
+             const std::vector<CampaignCase>& all) {
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const CampaignCase& one) { return one.id == options.keep; });
+  if (found == all.end()) {
+    throw FixtureError({"--keep"}, '"' + options.keep + '"', "the name of a case of this campaign");
+  }
+  std::printf("%s\n", keep_run(campaign, *found, options.out).c_str());
+  return kExitPass;
+}
+
+// All results there are, as matrix.md, with the runs that are worth keeping.
+int report_all(const Options& options, const Campaign& campaign,
+               const std::vector<CampaignCase>& all, bool whole) {
+  const std::filesystem::path folder = options.out;
+  const auto results = load_results(folder, campaign.fingerprint);
+  auto sum = summary_of(results);
+  CampaignReport report;
+  report.title = campaign.title;
+  report.incapable = campaign.incapable;
+  sum.missing = whole && all.size() > sum.cases ? all.size() - sum.cases : 0;
+  report.sum = sum;
+  report.again = [&](const nlohmann::json& line) { return command_of(campaign, line, folder); };
+  report.keep_command = keep_command(options);
+  if (whole && !stop_requested()) {
+    report.kept = keep_runs(campaign, results, folder);
+  }
+  if (whole || !options.only.empty()) {
+    write_atomically(folder / "matrix.md", campaign_report(report, results));
+  }
   std::printf(
       "%-7s  %s: %zu cases, %zu fired, %zu detected, %zu handled, %zu failed, %zu invalid\n",
       std::string(name_of(sum.verdict())).c_str(), campaign.name.c_str(), sum.cases, sum.fired,
       sum.detected, sum.handled, sum.failed, sum.invalid);
-  std::printf("%s\n", (folder / "matrix.md").c_str());
+  if (sum.missing > 0) {
+    std::printf("%zu cases have no result\n", sum.missing);
+  }
+  std::printf("%s\n", (whole ? folder / "matrix.md" : folder).c_str());
   if (stop_requested()) {
     return kExitRuntime;
   }
-  return exit_code_of(missing > 0 ? Verdict::kInvalid : sum.verdict());
+  return exit_code_of(sum.verdict());
+}
+
+int execute(const Options& options) {
+  const auto shard = parse_shard(options.shard);
+  auto campaign = load_campaign(find_campaign(options.campaign), options.seeds);
+  const std::filesystem::path folder = options.out;
+  std::filesystem::create_directories(folder);
+  campaign.drawn = std::make_unique<DrawnMachines>(campaign, folder);
+  const auto all = cases_of(campaign);
+  if (!options.keep.empty()) {
+    return keep_one(options, campaign, all);
+  }
+  if (options.fresh) {
+    remove_results(folder, shard);
+  }
+  if (options.slurm > 0) {
+    run_on_slurm(options, campaign, all);
+  } else {
+    const auto results = load_results(folder, campaign.fingerprint);
+    run_here(options, campaign, left_over(all, options, shard, results), shard);
+  }
+  return report_all(options, campaign, all, shard.of == 1 && options.only.empty());
 }
 
 }  // namespace
@@ -168,8 +286,18 @@ void add_campaign(CLI::App& app, int& exit_code) {
   verb->add_option("--shard", options->shard, "i/n: every n-th case, from the i-th on")
       ->capture_default_str();
   verb->add_option("--workers", options->workers, "processes; as many as cores when 0");
-  verb->add_option("--seeds", options->seeds, "cases of each combination, instead of the file's");
+  verb->add_option("--seeds", options->seeds,
+                   "cases of each combination, instead of the file's numbers");
   verb->add_option("--only", options->only, "cases whose name holds this text");
+  verb->add_option("--keep", options->keep,
+                   "run the case of this name alone, into a run folder with a report");
+  auto* slurm =
+      verb->add_option("--slurm", options->slurm,
+                       "as a Slurm job array of so many tasks; --out is seen by all nodes");
+  slurm->check(CLI::Range(1, 10000))->excludes("--shard")->excludes("--workers");
+  verb->add_option("--slurm-option", options->slurm_options,
+                   "one more #SBATCH line, such as --partition=main")
+      ->needs(slurm);
   verb->add_flag("--fresh", options->fresh, "run everything again");
   verb->add_flag("-q,--quiet", options->quiet, "print the verdict and the report's path only");
   verb->footer("Example: towbench campaign standard --seeds 3 --shard 1/4 --out runs/campaign");

@@ -1,4 +1,5 @@
 // towbench replay: runs a folder's inputs again and compares the records byte for byte.
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "harness/commands/command.h"
 #include "harness/commands/experiment_options.h"
 #include "harness/commands/stop_signal.h"
+#include "harness/faults/shrink.h"
 
 namespace towbench::harness {
 namespace {
@@ -21,6 +23,7 @@ struct Options {
   std::string folder;
   std::string out;
   std::string carrier = "in-process";
+  bool shrink = false;
 };
 
 struct Recorded {
@@ -97,10 +100,38 @@ int compare(const std::filesystem::path& recorded, const RunResult& run) {
   return exit_code;
 }
 
+// The smallest run that fails in the same way, as a run folder of its own.
+int shrink_run(const ExperimentFixture& fixture, std::uint64_t seed, const Options& options) {
+  const auto shrunk = shrink(fixture, seed);
+  RunOptions run_options;
+  run_options.out = options.out.empty() ? "runs" : options.out;
+  run_options.seed = seed;
+  const auto run = run_experiment(shrunk.fixture, run_options);
+  const bool reproduces = std::any_of(
+      run.judgement.checks.begin(), run.judgement.checks.end(), [&](const Check& check) {
+        return check.name == shrunk.rule && check.verdict == Verdict::kFail;
+      });
+  const auto& experiment = shrunk.fixture.experiment;
+  std::printf("%s in %zu trials: %zu faults, %zu console lines, %zu events\n  %s\n",
+              shrunk.rule.c_str(), shrunk.trials, experiment.faults.size(),
+              experiment.console.size(), experiment.events.size(), shrunk.reason.c_str());
+  std::ifstream stream(run.folder / "result.json");
+  const auto result = nlohmann::json::parse(stream, nullptr, false);
+  std::printf("%s\n", (run.folder / result.at("experiment").at("file").get<std::string>()).c_str());
+  if (!reproduces) {
+    std::fprintf(stderr, "towbench: the smaller run does not fail in the same way\n");
+    return kExitRuntime;
+  }
+  return kExitFail;  // what was shrunk fails
+}
+
 int execute(const Options& options) {
   const std::filesystem::path folder = options.folder;
   const auto recorded = recorded_in(folder);
   const auto fixture = load_experiment(recorded.experiment);
+  if (options.shrink) {
+    return shrink_run(fixture, recorded.seed, options);
+  }
   const bool temporary = options.out.empty();
   RunOptions run_options;
   run_options.out = temporary ? make_temporary_folder() : std::filesystem::path(options.out);
@@ -125,6 +156,8 @@ void add_replay(CLI::App& app, int& exit_code) {
   verb->add_option("folder", options->folder, "a complete run folder")->required();
   verb->add_option("--out", options->out, "keep the replayed run below this folder");
   verb->add_option("--carrier", options->carrier, kCarrierHelp)->capture_default_str();
+  verb->add_flag("--shrink", options->shrink,
+                 "instead: find the smallest run that breaks the same requirement, and run it");
   verb->footer("Example: towbench replay runs/20250131T120000Z-circle-1a2b3c4d");
   verb->callback([options, &exit_code] { exit_code = execute(*options); });
 }

@@ -20,6 +20,9 @@ void build_in(const Fault& fault, emulator::RigParameters& rig) {
     case kLatching:
       hall.latching = true;
       break;
+    case kBacklash:
+      axis.plant.gear.backlash_deg = fault.parameters[0];
+      break;
     case kPhase:
       axis.encoder.phase_deg = fault.parameters[0];
       break;

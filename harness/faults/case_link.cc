@@ -66,14 +66,15 @@ void CaseLink::ToPlant::handle(const protocol::DigitalOutputs& outputs) noexcept
 }
 
 void CaseLink::ToPlant::drive_in_reverse() noexcept {
-  const auto ticks = static_cast<std::uint16_t>(reverse->duty * period_ticks);
+  const bool over = link.now_ns_ >= reverse->until_ns;
+  const auto ticks = static_cast<std::uint16_t>(over ? 0.0 : reverse->duty * period_ticks);
   const bool to_max = reverse->direction > 0;
   auto& plant = link.plant_.sink();
-  plant.on(protocol::DigitalOutputs{.lines = enable_mask(reverse->axis),
+  plant.on(protocol::DigitalOutputs{.lines = over ? std::uint16_t{0} : enable_mask(reverse->axis),
                                     .change_ns = link.now_ns_,
                                     .sequence = ++outputs_sequence});
   plant.on(protocol::PwmDuty{.axis = reverse->axis,
-                             .enable = true,
+                             .enable = !over,
                              .channel_a_ticks = to_max ? ticks : std::uint16_t{0},
                              .channel_b_ticks = to_max ? std::uint16_t{0} : ticks,
                              .period_ticks = period_ticks,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -14,10 +15,12 @@
 
 namespace towbench::harness {
 
-// From `from_ns` on the axis is driven with `duty` in `direction`, whatever the controller says.
+// From `from_ns` to `until_ns` the axis is driven with `duty` in `direction`, whatever the
+// controller says; afterwards it is not driven at all.
 struct FullReverse {
   core::Axis axis = core::Axis::kY;
   core::Nanoseconds from_ns = 0;
+  core::Nanoseconds until_ns = std::numeric_limits<core::Nanoseconds>::max();
   int direction = -1;
   double duty = 1;  // 0 .. 1
 };

@@ -70,13 +70,42 @@ Nanoseconds could_know_ns(const CaseEvidence& evidence, const Contact& contact) 
   return encoder_lies ? std::min(known_ns, evidence.cause_ns + kDetection_ns) : known_ns;
 }
 
-// A kill takes braking away with everything else, whatever else is latched.
-bool killed_before(const CaseEvidence& evidence, const Contact& contact) {
+// What a requirement takes away: from then on nobody may drive the axis, braking included.
+struct DriveTaken {
+  Nanoseconds from_ns = kNever;
+  const char* why = "";
+};
+
+DriveTaken drive_taken(const CaseEvidence& evidence, const Contact& contact) {
   constexpr auto kKill = protocol::mask_of(protocol::InputLine::kKillSwitch);
-  const auto& lines = evidence.run.lines;
-  return std::any_of(lines.begin(), lines.end(), [&](const LineArrival& arrival) {
-    return (arrival.lines & kKill) != 0 && arrival.served_ns < contact.time_ns;
-  });
+  const auto& run = evidence.run;
+  DriveTaken taken;
+  for (const auto& arrival : run.lines) {
+    if ((arrival.lines & kKill) != 0) {
+      taken = {served_ns(evidence, arrival.served_ns) + kReaction_ns,
+               "a kill takes the drive away"};
+      break;
+    }
+  }
+  // What the controller has given up, though it brakes for less: the plan must hold the reason.
+  const bool blind = std::any_of(
+      evidence.prepared.plan.begin(), evidence.prepared.plan.end(), [&](const Fault& fault) {
+        return fault.place.part == FaultPart::kEncoder && fault.place.axis == contact.axis &&
+               fault.kind != FaultKind::kIndexMissing;
+      });
+  for (const auto& event : run.controller_events) {
+    if (event.kind != bbmc::ControllerEvent::Kind::kDutyZeroed || event.time_ns >= taken.from_ns) {
+      continue;
+    }
+    const auto code = core::number_of(event.code);
+    const auto between = [&](int low, int high) { return code >= low && code <= high; };
+    if (blind && event.axis == contact.axis && between(310, 315)) {
+      taken = {event.time_ns, "an axis without a believable encoder is not driven"};
+    } else if (has(evidence, FaultPart::kLink) && between(320, 321)) {
+      taken = {event.time_ns, "a machine whose link fails is not driven"};
+    }
+  }
+  return taken;
 }
 
 // As much as gear and chain may take (App. A, 3.2 N m at the gear's output): a stop that breaks the
@@ -86,36 +115,15 @@ double reverse_duty(const CaseEvidence& evidence, const Contact& contact) {
   return std::min(1.0, bbmc::braking_torque_Nm(axis) / axis.drive.full_duty_torque_Nm());
 }
 
-// Accepted, not proven unavoidable (docs/safety.md): a host that does not run cannot react, and a
-// drive without a believable encoder can only be cut: nothing tells how long to brake.
-const char* why_accepted(const CaseEvidence& evidence, const Contact& contact,
-                         Nanoseconds known_ns) {
-  const auto& stalls = evidence.prepared.injection.host.stalls;
-  if (std::any_of(stalls.begin(), stalls.end(), [&](const HostStall& stall) {
-        return stall.from_ns < contact.time_ns && stall.until_ns > known_ns;
-      })) {
-    return "accepted: the host did not run";
-  }
-  if (has(evidence, FaultPart::kLink)) {
-    return "accepted: a broken link takes the drive away, braking included";
-  }
-  const auto& plan = evidence.prepared.plan;
-  const bool blind = std::any_of(plan.begin(), plan.end(), [&](const Fault& fault) {
-    return fault.place.part == FaultPart::kEncoder && fault.place.axis == contact.axis &&
-           fault.kind != FaultKind::kIndexMissing;
-  });
-  const bool cut = !is_driven_mode(mode_at(evidence.run, contact.axis, contact.time_ns)) &&
-                   !evidence.run.driven_at(contact.time_ns - 1);
-  return blind && cut ? "accepted: without an encoder the axis can only coast" : nullptr;
-}
-
-bool touches_even_so(const CaseEvidence& evidence, const Contact& contact, Nanoseconds reverse_ns) {
-  constexpr double kLongEnough_s = 0.5;
-  const auto best = run_case(evidence.fixture, evidence.prepared.built, evidence.prepared.injection,
-                             {.seed = evidence.seed,
-                              .reverse = FullReverse{contact.axis, reverse_ns, -contact.side,
-                                                     reverse_duty(evidence, contact)},
-                              .until_s = core::seconds(reverse_ns) + kLongEnough_s});
+bool touches_even_so(const CaseEvidence& evidence, const Contact& contact, Nanoseconds reverse_ns,
+                     Nanoseconds until_ns) {
+  constexpr double kLongEnough_s = 2.0;  // coasting included
+  const auto best =
+      run_case(evidence.fixture, evidence.prepared.built, evidence.prepared.injection,
+               {.seed = evidence.seed,
+                .reverse = FullReverse{contact.axis, reverse_ns, until_ns, -contact.side,
+                                       reverse_duty(evidence, contact)},
+                .until_s = core::seconds(reverse_ns) + kLongEnough_s});
   Nanoseconds turned_ns = kNever;
   for (const auto& row : best->truth) {
     if (row.time_ns > reverse_ns &&
@@ -143,22 +151,20 @@ Check no_preventable_contact(const CaseEvidence& evidence) {
   auto unavoidable = passed(kName, kMeaning);
   unavoidable.value = contact.speed_m_per_s;
   unavoidable.unit = "m/s";
-  if (killed_before(evidence, contact)) {
-    unavoidable.reason = "accepted: a kill takes the drive away, braking included";
-    return unavoidable;
-  }
-  // What the controller did before the fault began did no harm: the twin touches nothing.
-  const auto known_ns = std::max(could_know_ns(evidence, contact), evidence.cause_ns);
+  // What the controller did before the fault began did no harm: the twin touches nothing. A host
+  // that does not run reacts when it runs again.
+  const auto known_ns =
+      served_ns(evidence, std::max(could_know_ns(evidence, contact), evidence.cause_ns));
   if (known_ns == kNever || known_ns + kReaction_ns >= contact.time_ns) {
-    unavoidable.reason = "unavoidable: nothing told the controller in time";
+    unavoidable.reason = "unavoidable: nothing told a running controller in time";
     return unavoidable;
   }
-  if (const char* why = why_accepted(evidence, contact, known_ns)) {
-    unavoidable.reason = why;
-    return unavoidable;
-  }
-  if (touches_even_so(evidence, contact, known_ns + kReaction_ns)) {
-    unavoidable.reason = "unavoidable: full reverse from the first evidence on touches too";
+  const auto taken = drive_taken(evidence, contact);
+  if (touches_even_so(evidence, contact, known_ns + kReaction_ns, taken.from_ns)) {
+    unavoidable.reason =
+        taken.from_ns < contact.time_ns
+            ? fmt::format("by requirement: {}; full reverse until then touches too", taken.why)
+            : "unavoidable: full reverse from the first evidence on touches too";
     return unavoidable;
   }
   auto check = failed(kName, kMeaning,

@@ -19,6 +19,12 @@ Injection injection_of(const FaultPlan& plan, const std::vector<core::Nanosecond
   Injection injection;
   const auto end_ns = core::nanoseconds(fixture.experiment.duration_limit_s);
   for (std::size_t i = 0; i < plan.size(); ++i) {
+    if (i == without && plan[i].kind == FaultKind::kWelded) {
+      // A welded contact shows only when somebody presses it: the sound one is pressed too.
+      auto pressed = plan[i];
+      pressed.kind = FaultKind::kPressed;
+      inject(pressed, onsets_ns[i] + kHandComes_ns, twin, end_ns, injection);
+    }
     if (i != without && plan[i].row().start == FaultStart::kAnyTime) {
       inject(plan[i], onsets_ns[i], twin, end_ns, injection);
     }
@@ -48,7 +54,7 @@ Check fired_check(const ExperimentFixture& plain, const PreparedPlan& prepared,
   check.name = prepared.plan.size() == 1 ? "fault_fired" : fmt::format("fault_{}_fired", index + 1);
   check.meaning = "a plant or sensor signal differs from the run without the fault";
   check.unit = "s";
-  if (prepared.plan.size() == 1) {
+  if (prepared.plan.size() == 1 && prepared.plan[0].kind != FaultKind::kWelded) {
     fired_ns = first_difference_ns(run, twin);
   } else {
     const auto other = run_case(plain, rig_of(prepared.plan, plain, index),

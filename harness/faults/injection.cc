@@ -171,7 +171,6 @@ class Injector {
   }
 
   void kill_switch() {
-    constexpr core::Nanoseconds kHandComes_ns = 50 * core::kNanosecondsPerMillisecond;
     switch (fault_.kind) {
       case kBrokenWire:
         return hold_line(InputLine::kKillSwitch, WireCondition::kStuckHigh);
@@ -295,6 +294,9 @@ class Injector {
         return hold(ScheduledEventKind::kDragCarriage, parameter(0), 0.0);
       case kObstacle:
         return hold(ScheduledEventKind::kObstacle, parameter(0), 0.0);
+      case kChainSkip:
+        return add(
+            {.time_ns = at_ns_, .kind = ScheduledEventKind::kSkipChain, .value = parameter(0)});
       case kDroppedLoad:
         return hold(ScheduledEventKind::kDropLoad, parameter(0), 0.0);
       default:

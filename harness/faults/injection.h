@@ -13,6 +13,9 @@
 
 namespace towbench::harness {
 
+// After a kill switch has welded somebody presses it.
+inline constexpr core::Nanoseconds kHandComes_ns = 50 * core::kNanosecondsPerMillisecond;
+
 struct Injection {
   std::vector<emulator::ScheduledEvent> events;  // sorted by time
   std::vector<LinkFault> link;

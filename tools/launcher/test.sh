@@ -6,7 +6,7 @@
 
 all_stages=(lint tests carriers tidy sanitize_address sanitize_thread fuzz fresh_start)
 quick_stages=(lint tests)
-on_request_stages=(tidy_everything campaign mutants)
+on_request_stages=(tidy_everything campaign mutants slurm)
 
 test_usage() {
   cat <<'TEXT'
@@ -32,6 +32,7 @@ on request only (--only):
         tidy_everything   clang-tidy of the harness and carriers too; about half an hour
         campaign          the standard fault campaign, some 2,000 cases, from scratch
         mutants           controllers with one reaction removed: the campaign must catch each
+        slurm             the campaign as a job array on a real Slurm of one node, on loopback
 
 exit code: 0 all passed; 1 something failed; 2 bad arguments; 99 nothing failed but all was skipped
 TEXT
@@ -169,6 +170,25 @@ stage_campaign() {
 stage_mutants() {
   build_preset release release mutants
   count "$root/tests/mutants/score.sh" "$root/build/release" "$root"
+}
+
+stage_slurm() {
+  local package status=0
+  # Slurm serves this stage alone; without it the bench is whole.
+  for package in slurm-wlm munge; do
+    if package_is_missing "$package" && ((EUID == 0)); then
+      { apt-get update && DEBIAN_FRONTEND=noninteractive \
+        apt-get install -y --no-install-recommends "$package"; } >"$root/build/slurm-install.log" 2>&1 </dev/null || true
+    fi
+  done
+  build_preset release release towbench-bench
+  "$root/tests/slurm/slurm_test.sh" "$root/build/release/harness/towbench-bench" "$root" || status=$?
+  if ((status == 99)); then
+    skip_reason='there is no Slurm to be had here (see above)'
+  elif ((status == 0)); then
+    passed=$((passed + 1))
+  fi
+  return "$status"
 }
 
 stage_fresh_start() {

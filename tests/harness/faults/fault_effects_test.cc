@@ -93,6 +93,10 @@ INSTANTIATE_TEST_SUITE_P(
         Trial{kMid, "amplifier.y inverted phase=cruise"},
         Trial{kMid, "amplifier.y both_channels phase=cruise"},
         Trial{kMid, "supply over_current phase=cruise"}, Trial{kMid, "supply sag phase=cruise"},
+        Trial{kMid, "kill_switch welded phase=cruise"},
+        Trial{"../motions/end-y-max-and-back", "endstop.y_max latching"},
+        Trial{kMid, "drive.y chain_skip phase=cruise"},
+        Trial{kMid, "drive.y growing_backlash play=0.5deg"},
         Trial{kMid, "drive.y jam phase=cruise"}, Trial{kMid, "drive.y dropped_load phase=cruise"},
         Trial{kMid, "drive.y brake_drag phase=cruise"},
         Trial{kMid, "drive.y obstacle phase=cruise ahead=50mm"},
@@ -143,6 +147,17 @@ TEST(FaultEffects, ASlippedDiscKeepsItsIndexAndLosesItsCounts) {
   // The controller follows what it sees: the carriage ends 20 counts further on.
   EXPECT_NEAR(static_cast<double>(truth.count - twin.count), 20.0, 3.0);
   EXPECT_EQ(run->first_fault(), nullptr);
+}
+
+TEST(FaultEffects, ASkippedChainLeavesTheCarriageBehindTheMotorByATooth) {
+  std::unique_ptr<CaseRecord> run;
+  (void)stage(kMid).carry_out("drive.y chain_skip phase=cruise after=0.1s by=8mm", &run);
+  ASSERT_EQ(run->first_fault(), nullptr);
+  // At rest the chain is as relaxed as the twin's, to what friction holds.
+  const auto& truth = run->truth.back().axes[core::Axis::kY];
+  const auto& twin = stage(kMid).twin->truth.back().axes[core::Axis::kY];
+  EXPECT_NEAR(static_cast<double>(truth.count - twin.count), 0.0, 3.0);
+  EXPECT_NEAR(truth.carriage_m - twin.carriage_m, -8e-3, 0.5e-3);
 }
 
 TEST(FaultEffects, SeveralFaultsAreEachShownToActOnTheirOwn) {

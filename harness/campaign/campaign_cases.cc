@@ -1,0 +1,137 @@
+// The cases of a campaign: every combination that its entries name, each with a name of its own.
+#include <algorithm>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "core/random.h"
+#include "harness/campaign/campaign.h"
+#include "harness/fixtures/canonical_hash.h"
+
+namespace towbench::harness {
+namespace {
+
+std::uint64_t hash_of(const std::string& text) {
+  CanonicalHash hash;
+  hash.add(text);
+  return hash.value();
+}
+
+class CaseList {
+ public:
+  explicit CaseList(const Campaign& campaign) : campaign_(campaign) {}
+
+  std::vector<CampaignCase> build() {
+    for (const auto& entry : campaign_.entries) {
+      for (const auto& motion : campaign_.motions) {
+        const auto& name = motion.plain.experiment.name;
+        const bool wanted =
+            entry.motions.empty() ||
+            std::find(entry.motions.begin(), entry.motions.end(), name) != entry.motions.end();
+        if (wanted) {
+          cross(entry, motion);
+        }
+      }
+    }
+    return std::move(cases_);
+  }
+
+ private:
+  void cross(const CampaignEntry& entry, const CampaignMotion& motion) {
+    for (const auto& part : entry.parts) {
+      for (const auto& kind : entry.kinds) {
+        const auto place = place_named(part);
+        const bool built = find_fault(place->part, kind)->start == FaultStart::kWholeRun;
+        if (built) {
+          add_built(entry, motion, part, kind);
+        } else if (!entry.event.empty()) {
+          add_event(entry, motion, part, kind);
+        } else {
+          add_phases(entry, motion, part, kind, *place);
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] std::uint64_t seeds(const CampaignEntry& entry) const {
+    return entry.seeds == 0 ? campaign_.seeds : entry.seeds;
+  }
+
+  // What is so from the start has no moment to draw: one case a machine.
+  void add_built(const CampaignEntry& entry, const CampaignMotion& motion, const std::string& part,
+                 const std::string& kind) {
+    for (std::uint64_t seed = 1; seed <= std::min(seeds(entry), campaign_.machines + 1); ++seed) {
+      add(entry, motion, part, kind, "built", "", seed);
+    }
+  }
+
+  void add_event(const CampaignEntry& entry, const CampaignMotion& motion, const std::string& part,
+                 const std::string& kind) {
+    for (std::uint64_t seed = 1; seed <= seeds(entry); ++seed) {
+      add(entry, motion, part, kind, entry.event, "event=" + entry.event, seed);
+    }
+  }
+
+  void add_phases(const CampaignEntry& entry, const CampaignMotion& motion, const std::string& part,
+                  const std::string& kind, const FaultPlace& place) {
+    Fault fault;
+    fault.place = place;
+    const auto spans = phases_of(*motion.twin, trigger_axis(fault, *motion.twin));
+    // The motion itself; what is tried afterwards belongs to the script.
+    const auto end_ns = onset_of({.kind = FaultTrigger::Kind::kEvent, .name = "motion_end"},
+                                 fault.place.axis, *motion.twin);
+    for (const auto& phase : entry.phases) {
+      std::vector<PhaseSpan> fitting;
+      std::copy_if(spans.begin(), spans.end(), std::back_inserter(fitting),
+                   [&](const PhaseSpan& span) {
+                     return span.phase == phase && (!end_ns || span.from_ns < *end_ns);
+                   });
+      if (fitting.empty()) {
+        continue;  // this motion has no such phase
+      }
+      for (std::uint64_t seed = 1; seed <= seeds(entry); ++seed) {
+        core::Random random(hash_of(
+            fmt::format("{}/{}/{}/{}/{}", motion.plain.experiment.name, part, kind, phase, seed)));
+        const auto& span = fitting[random.bits() % fitting.size()];
+        const auto length_ns = static_cast<double>(span.to_ns - span.from_ns);
+        const auto at_ns =
+            span.from_ns + static_cast<core::Nanoseconds>(random.uniform() * length_ns);
+        add(entry, motion, part, kind, phase, fmt::format("at_s={}", core::seconds(at_ns)), seed);
+      }
+    }
+  }
+
+  void add(const CampaignEntry& entry, const CampaignMotion& motion, const std::string& part,
+           const std::string& kind, const std::string& moment, const std::string& trigger,
+           std::uint64_t seed) {
+    const auto& name = motion.plain.experiment.name;
+    auto words = fmt::format("{} {}", part, kind);
+    for (const auto& more : {trigger, entry.words}) {
+      words += more.empty() ? "" : ' ' + more;
+    }
+    words += fmt::format(" seed={}", seed);
+    auto id = fmt::format("{}/{}.{}/{}/{}", name, part, kind, moment, seed);
+    if (!entry.words.empty()) {
+      id += '/' + entry.words;
+    }
+    std::vector<std::string> faults{std::move(words)};
+    for (const auto& more : entry.also) {
+      id += "/and " + more;
+      faults.push_back(more);
+    }
+    std::replace(id.begin(), id.end(), ' ', ',');
+    cases_.push_back({std::move(id), name, part, kind, moment, std::move(faults),
+                      static_cast<std::size_t>((seed - 1) % (campaign_.machines + 1))});
+  }
+
+  const Campaign& campaign_;
+  std::vector<CampaignCase> cases_;
+};
+
+}  // namespace
+
+std::vector<CampaignCase> cases_of(const Campaign& campaign) {
+  return CaseList(campaign).build();
+}
+
+}  // namespace towbench::harness

@@ -1,0 +1,30 @@
+// From a failing run with faults to the smallest that still fails in the same way: fewer faults,
+// fewer console lines and events, shorter and slower motions, round figures.
+//
+// Greedy and deterministic: one simplification after the other is tried and kept when the same
+// requirement is still broken, until none is. Every trial is a whole run with its fault-free twin.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "harness/experiment/experiment_fixture.h"
+
+namespace towbench::harness {
+
+struct ShrunkCase {
+  ExperimentFixture fixture;  // its own text is that of the smaller experiment
+  std::string rule;           // the requirement that both break
+  std::string reason;         // as broken by the smaller one
+  std::size_t trials = 0;
+};
+
+// Throws FixtureError when the experiment has no faults, or breaks no requirement.
+[[nodiscard]] ShrunkCase shrink(const ExperimentFixture& failing, std::uint64_t seed);
+
+// An experiment in TOML that reads back as the same: budgets, windows and expectations left out,
+// which do not speak of a broken machine. `rig` and `controller` as the text is to name them.
+[[nodiscard]] std::string to_toml(const ExperimentFixture& fixture, const std::string& rig,
+                                  const std::string& controller);
+
+}  // namespace towbench::harness
