@@ -30,7 +30,7 @@ stages: lint              format, shellcheck, include rules
 
 on request only (--only):
         tidy_everything   clang-tidy of the harness and carriers too; about half an hour
-        campaign          the standard fault campaign, some 2,000 cases, from scratch
+        campaign          the standard fault campaign, some 3,000 cases, from scratch
         mutants           controllers with one reaction removed: the campaign must catch each
         slurm             the campaign as a job array on a real Slurm of one node, on loopback
 
