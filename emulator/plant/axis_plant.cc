@@ -25,13 +25,13 @@ void append(MotionSegments& segments, double start_s, double end_s, const StateV
 }
 
 // Whether the middle speeds taken for friction were off by so much that it shows: by 1e-4 of the
-// Stribeck speed, and at a speed where friction depends on it.
+// Stribeck speed, and at a speed where friction depends on it: with optional terms at any.
 bool prediction_failed(const AxisModel& model, double motor, double motor_miss, double carriage,
                        double carriage_miss) noexcept {
   constexpr double kTolerance = 1e-4;
   const auto failed = [&](const DryFriction& law, double speed, double miss) {
     return std::fabs(miss) * law.inverse_speed > kTolerance &&
-           !model.stribeck.has_faded(std::fabs(speed) * law.inverse_speed);
+           (model.has_terms || !model.stribeck.has_faded(std::fabs(speed) * law.inverse_speed));
   };
   return failed(model.mechanics.motor, motor, motor_miss) ||
          failed(model.mechanics.carriage, carriage, carriage_miss);
@@ -48,6 +48,16 @@ double angle_of_relaxed_chain(const AxisModel& model, double carriage_m) noexcep
     }
   }
   return angle_rad;
+}
+
+// From the speeds at z to the means over the tick to `next`, which the travelled way gives exactly:
+// where the current turns inside the tick, the mean is not half-way.
+HalfChange to_mean_speeds(const AxisModel& model, const StateVector& z,
+                          const StateVector& next) noexcept {
+  const double per_s = 1.0 / model.tick_s;
+  const double travel_m = carriage_position_m(model, next) - carriage_position_m(model, z);
+  return {.motor_rad_per_s = per_s * (next[kMotorAngle] - z[kMotorAngle]) - z[kMotorSpeed],
+          .carriage_m_per_s = per_s * travel_m - z[kCarriageSpeed]};
 }
 
 // Where the middle of the coming tick will be, if speeds change as in the tick before.
@@ -192,7 +202,7 @@ bool AxisPlant::step_without_event(MotionSegments& segments) noexcept {
                         change.motor_rad_per_s - half_change_.motor_rad_per_s,
                         z_[kCarriageSpeed] + half_change_.carriage_m_per_s,
                         change.carriage_m_per_s - half_change_.carriage_m_per_s)) {
-    hold_middle_of_tick(change);
+    hold_middle_of_tick(model.has_terms ? to_mean_speeds(model, z_, next) : change);
     const InputVector refined = held_inputs(model, situation_);
     add_input(mode, kMotorTorque, refined[kMotorTorque] - inputs[kMotorTorque], next);
     add_input(mode, kCarriageForce, refined[kCarriageForce] - inputs[kCarriageForce], next);
