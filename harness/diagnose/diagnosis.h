@@ -18,8 +18,8 @@ namespace towbench::harness::diagnose {
 struct Request {
   NominalModel model;
   std::vector<Run> runs;
-  std::vector<Run>
-      holdout;  // none: the last of several runs, or every third stretch of the only one
+  // None: the last of several runs, or every fourth stretch of the only one.
+  std::vector<Run> holdout;
   std::uint64_t seed = 1;
   Progress progress;
 };

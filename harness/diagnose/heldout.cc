@@ -43,30 +43,31 @@ double quantile(std::vector<double>& sorted, double p) {
 
 }  // namespace
 
-HeldOut::HeldOut(const Dataset& data, const Context& context, bool same_session)
-    : data_(data), context_(context), same_session_(same_session), scored_starts_{0} {
+HeldOut::HeldOut(const Dataset& data, const Context& context, const ScoredPart& part)
+    : data_(data), context_(context), scored_starts_{0} {
   for (const auto& member : data.members) {
     const Index rows = member.conditioner.rows();
-    const Index calibration =
-        same_session ? 0 : static_cast<Index>(kCalibrationShare * static_cast<double>(rows));
-    calibration_rows_.push_back(calibration);
-    scored_starts_.push_back(scored_starts_.back() + rows - calibration);
+    const auto row = [rows](double share) {
+      return static_cast<Index>(share * static_cast<double>(rows));
+    };
+    scored_.push_back({row(part.calibrated), row(part.from), row(part.to) - row(part.from)});
+    scored_starts_.push_back(scored_starts_.back() + scored_.back().count);
   }
 }
 
 VectorXd HeldOut::recalibrated(const MatrixXd& x, const VectorXd& y, const FittedModel& model,
-                               Index scored_from) const {
+                               Index calibration_rows) const {
   VectorXd coefficients = model.coefficients;
   const std::vector<Index> free = session_columns(model);
   const auto count = static_cast<Index>(free.size());
-  if (scored_from <= 4 * count) {
+  if (calibration_rows <= 4 * count) {
     return coefficients;
   }
-  MatrixXd columns(scored_from, count);
+  MatrixXd columns(calibration_rows, count);
   for (Index j = 0; j < count; ++j) {
-    columns.col(j) = x.col(free[static_cast<std::size_t>(j)]).head(scored_from);
+    columns.col(j) = x.col(free[static_cast<std::size_t>(j)]).head(calibration_rows);
   }
-  const VectorXd off = y.head(scored_from) - x.topRows(scored_from) * coefficients;
+  const VectorXd off = y.head(calibration_rows) - x.topRows(calibration_rows) * coefficients;
   const VectorXd correction = columns.colPivHouseholderQr().solve(off);
   for (Index j = 0; j < count; ++j) {
     coefficients[free[static_cast<std::size_t>(j)]] += correction[j];
@@ -81,10 +82,10 @@ VectorXd HeldOut::residual(const FittedModel& model) const {
     const MatrixXd x =
         member.conditioner.columns(raw_columns(member.signals, context_, model.terms));
     const VectorXd y = member.conditioner.column(member.signals.input_N);
-    const Index from = calibration_rows_[i];
-    const VectorXd coefficients = recalibrated(x, y, model, from);
-    const Index rows = y.size() - from;
-    out.segment(scored_starts_[i], rows) = y.tail(rows) - x.bottomRows(rows) * coefficients;
+    const Rows& rows = scored_[i];
+    const VectorXd coefficients = recalibrated(x, y, model, rows.calibrated);
+    out.segment(scored_starts_[i], rows.count) =
+        y.segment(rows.from, rows.count) - x.middleRows(rows.from, rows.count) * coefficients;
   }
   return out;
 }

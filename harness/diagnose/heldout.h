@@ -6,8 +6,9 @@
 // after.
 //
 // What differs between sessions (offset, level of dry friction, phase of a ripple) is estimated
-// again on the first quarter of each held-out run, before and after alike; that quarter is not
-// scored. A held-out part of the same session is scored as it is.
+// again on the first quarter of each held-out run, before and after alike; that quarter is never
+// scored. The second quarter decides which causes stand, the rest is what the result is scored on.
+// A part of the same session is scored as it is.
 #pragma once
 
 #include <cstdint>
@@ -36,29 +37,42 @@ struct FittedModel {
   Eigen::VectorXd coefficients;
 };
 
-inline constexpr double kCalibrationShare = 0.25;
+// Which rows of each run are re-calibrated on (from its start) and which are scored, as shares.
+struct ScoredPart {
+  double calibrated = 0;
+  double from = 0;
+  double to = 1;
+};
+inline constexpr ScoredPart kSameSession{};
+inline constexpr ScoredPart kGateOfAnotherSession{.calibrated = 0.25, .from = 0.25, .to = 0.5};
+inline constexpr ScoredPart kRestOfAnotherSession{.calibrated = 0.25, .from = 0.5, .to = 1.0};
 
 class HeldOut {
  public:
-  // `same_session`: the rows are other parts of the runs that the fit saw; nothing is re-estimated.
-  HeldOut(const Dataset& data, const Context& context, bool same_session);
+  HeldOut(const Dataset& data, const Context& context, const ScoredPart& part);
 
   // Residual of a model on the scored rows.
   [[nodiscard]] Eigen::VectorXd residual(const FittedModel& model) const;
   [[nodiscard]] Gain gain(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
                           std::uint64_t seed) const;
+  // Scored rows of all runs together.
+  [[nodiscard]] Eigen::Index rows() const noexcept { return scored_starts_.back(); }
   [[nodiscard]] double force_rms_N() const;
 
  private:
   [[nodiscard]] Eigen::VectorXd recalibrated(const Eigen::MatrixXd& x, const Eigen::VectorXd& y,
                                              const FittedModel& model,
-                                             Eigen::Index scored_from) const;
+                                             Eigen::Index calibration_rows) const;
 
   const Dataset& data_;
   const Context& context_;
-  bool same_session_;
-  std::vector<Eigen::Index> scored_starts_;
-  std::vector<Eigen::Index> calibration_rows_;  // one a run
+  struct Rows {
+    Eigen::Index calibrated = 0;
+    Eigen::Index from = 0;
+    Eigen::Index count = 0;
+  };
+  std::vector<Rows> scored_;                 // one a run
+  std::vector<Eigen::Index> scored_starts_;  // where each run's begin, and the total at the end
 };
 
 }  // namespace towbench::harness::diagnose

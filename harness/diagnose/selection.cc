@@ -26,12 +26,18 @@ void sort_by_information(std::vector<Candidate>& candidates) {
       [](const Candidate& a, const Candidate& b) { return information(a) < information(b); });
 }
 
+// Residuals of one model at both gates.
+struct AtGates {
+  Eigen::VectorXd home;
+  Eigen::VectorXd abroad;
+};
+
 class Selector {
  public:
-  Selector(const Dataset& data, const HeldOut& heldout, const Context& context, std::uint64_t seed,
+  Selector(const Dataset& data, const Gates& gates, const Context& context, std::uint64_t seed,
            const Progress& progress)
       : data_(data),
-        heldout_(heldout),
+        gates_(gates),
         context_(context),
         seed_(seed),
         progress_(progress),
@@ -43,18 +49,38 @@ class Selector {
 
   Selection run() {
     Selection s;
-    s.before = weigh(data_, context_, {}, laws_, kTwinRounds, seed_);
+    s.before = fitted({});
     s.after = s.before;
-    s.heldout_before = heldout_.residual({{}, s.before.coefficients});
-    s.heldout_after = s.heldout_before;
+    stand_ = at_gates({}, s.before);
     while (s.causes.size() < kMostCauses && add_one(s)) {
     }
     prune(s);
-    settle(s);
     return s;
   }
 
  private:
+  [[nodiscard]] Evidence fitted(const std::vector<Term>& terms, int rounds = kTwinRounds) const {
+    return weigh(data_, context_, terms, laws_, rounds, seed_);
+  }
+
+  [[nodiscard]] AtGates at_gates(const std::vector<Term>& terms, const Evidence& e) const {
+    const FittedModel model{terms, e.coefficients};
+    return {gates_.home.residual(model),
+            gates_.abroad == nullptr ? Eigen::VectorXd() : gates_.abroad->residual(model)};
+  }
+
+  [[nodiscard]] Gain gain_at_home(const AtGates& before, const AtGates& after) const {
+    return gates_.home.gain(before.home, after.home, seed_);
+  }
+
+  [[nodiscard]] bool proves_itself(const Gain& home, const AtGates& before,
+                                   const AtGates& after) const {
+    const bool certain = home.ci99.low > 0 && home.ci99.value > kLeastGain;
+    return certain &&
+           (gates_.abroad == nullptr ||
+            gates_.abroad->gain(before.abroad, after.abroad, seed_).ci99.value > kLeastGain);
+  }
+
   // Significant and plausible ones, best first, the best of them refined.
   std::vector<Candidate> shortlist(const Selection& s) {
     std::vector<Candidate> list;
@@ -87,11 +113,11 @@ class Selector {
   bool accept(Selection& s, const Candidate& c, const std::vector<Candidate>& list) {
     std::vector<Term> terms = s.terms();
     terms.push_back(c.term);
-    const Evidence with = weigh(data_, context_, terms, laws_, kTwinRounds, seed_);
-    const Eigen::VectorXd residual = heldout_.residual({terms, with.coefficients});
-    const Gain gain = heldout_.gain(s.heldout_after, residual, seed_);
+    const Evidence with = fitted(terms);
+    const AtGates after = at_gates(terms, with);
+    const Gain gain = gain_at_home(stand_, after);
     const double p = std::min(1.0, c.test.p_value * static_cast<double>(s.tried));
-    if (!(gain.ci99.low > 0 && gain.ci99.value > kLeastGain)) {
+    if (!proves_itself(gain, stand_, after)) {
       s.rejected.push_back({c.term.effect->name, p, gain.ci99});
       return false;
     }
@@ -99,59 +125,46 @@ class Selector {
     cause.rivals = find_rivals(s.after, c, list, gain.after_rms_N, [&](const Term& rival) {
       std::vector<Term> other = s.terms();
       other.push_back(rival);
-      const Evidence e = weigh(data_, context_, other, laws_, 1, seed_);
-      const Eigen::VectorXd r = heldout_.residual({other, e.coefficients});
+      const Eigen::VectorXd r = at_gates(other, fitted(other, 1)).home;
       return r.norm() / std::sqrt(static_cast<double>(r.size()));
     });
     s.causes.push_back(std::move(cause));
     s.after = with;
-    s.heldout_after = residual;
+    stand_ = after;
     if (progress_) {
-      progress_(fmt::format("accepted {} (held-out gain {:.1f} %)", c.term.effect->name,
+      progress_(fmt::format("accepted {} (gain where it was tried {:.1f} %)", c.term.effect->name,
                             100 * gain.ci99.value));
     }
     return true;
   }
 
   // A cause accepted early may be idle once the others stand: each must gain over the model without
-  // it. Its gain is then that of the final model.
+  // it.
   void prune(Selection& s) {
     for (std::size_t i = s.causes.size(); s.causes.size() > 1 && i-- > 0;) {
       std::vector<Term> others = s.terms();
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-      const Evidence without = weigh(data_, context_, others, laws_, kTwinRounds, seed_);
-      const Eigen::VectorXd residual = heldout_.residual({others, without.coefficients});
-      const Gain gain = heldout_.gain(residual, s.heldout_after, seed_);
-      if (gain.ci99.low > 0 && gain.ci99.value > kLeastGain) {
-        s.causes[i].gain = gain;
+      const Evidence without = fitted(others);
+      const AtGates lacking = at_gates(others, without);
+      const Gain gain = gain_at_home(lacking, stand_);
+      if (proves_itself(gain, lacking, stand_)) {
         continue;
       }
       s.rejected.push_back({s.causes[i].term.effect->name, s.causes[i].p_value, gain.ci99});
       s.causes.erase(s.causes.begin() + static_cast<std::ptrdiff_t>(i));
       s.after = without;
-      s.heldout_after = residual;
+      stand_ = lacking;
     }
-  }
-
-  // Coefficients of the final model, and the gain of all causes together.
-  void settle(Selection& s) {
-    Eigen::Index at = kBaseColumns;
-    for (Cause& cause : s.causes) {
-      const auto count = static_cast<Eigen::Index>(cause.term.effect->coefficients.size());
-      cause.beta = s.after.coefficients.segment(at, count);
-      cause.covariance = s.after.covariance.block(at, at, count, count);
-      at += count;
-    }
-    s.gain = heldout_.gain(s.heldout_before, s.heldout_after, seed_);
   }
 
   const Dataset& data_;
-  const HeldOut& heldout_;
+  const Gates& gates_;
   const Context& context_;
   std::uint64_t seed_;
   const Progress& progress_;
   Candidates candidates_;
   std::vector<ControlLaw> laws_;
+  AtGates stand_;  // of the causes accepted so far
 };
 
 }  // namespace
@@ -164,9 +177,9 @@ std::vector<Term> Selection::terms() const {
   return out;
 }
 
-Selection select_causes(const Dataset& data, const HeldOut& heldout, const Context& context,
+Selection select_causes(const Dataset& data, const Gates& gates, const Context& context,
                         std::uint64_t seed, const Progress& progress) {
-  return Selector(data, heldout, context, seed, progress).run();
+  return Selector(data, gates, context, seed, progress).run();
 }
 
 }  // namespace towbench::harness::diagnose

@@ -1,10 +1,12 @@
-// Forward selection of causes: significant, plausible, and a gain on data not seen.
+// Forward selection of causes: significant, plausible, and a gain on data set aside to
+// decide on (the gate). What is reported as gained is measured elsewhere (score.h): data that
+// decided once is no longer unseen.
 //
 // Each round every effect is tried at its best scale. Its group Wald p-value is multiplied by the
 // number of groups looked at (Bonferroni, grids and searched frequencies included) and must lie
 // below alpha. The order is by the Bayesian information criterion on effective samples (Schwarz
 // 1978), so a flexible group does not beat a simple one for its flexibility alone. The first whose
-// held-out gain stands is accepted; the twin is run again with it.
+// gain on the gate stands is accepted; the twin is run again with it.
 #pragma once
 
 #include <functional>
@@ -34,7 +36,7 @@ struct Cause {
   Eigen::VectorXd beta;  // in the final model
   Eigen::MatrixXd covariance;
   double p_value = 1;  // corrected for the number tried
-  Gain gain;           // its own increment when it was accepted
+  Gain gain;           // its own increment on held-out data, over the model without it
   std::vector<Rival> rivals;
 };
 
@@ -46,21 +48,25 @@ struct Rejected {
 
 struct Selection {
   std::vector<Cause> causes;
-  std::vector<Rejected> rejected;  // significant in sample, no gain held out
+  std::vector<Rejected> rejected;  // significant in sample, no gain on the gate
   Evidence before;                 // nominal structure refitted
   Evidence after;
   std::vector<Candidate> last_round;  // what every other effect could still add
   std::size_t tried = 0;              // of the last round
-  Gain gain;                          // of all causes together
-  Eigen::VectorXd heldout_before;
-  Eigen::VectorXd heldout_after;
+  Gain gain;                          // of all causes together, on held-out data
 
   [[nodiscard]] std::vector<Term> terms() const;
 };
 
 using Progress = std::function<void(const std::string&)>;
 
-[[nodiscard]] Selection select_causes(const Dataset& data, const HeldOut& heldout,
+// Where a cause must prove itself before it stands.
+struct Gates {
+  const HeldOut& home;              // parts of the same runs: its gain must be certain
+  const HeldOut* abroad = nullptr;  // a part of another run, short as it is: a gain must be likely
+};
+
+[[nodiscard]] Selection select_causes(const Dataset& data, const Gates& gates,
                                       const Context& context, std::uint64_t seed,
                                       const Progress& progress);
 

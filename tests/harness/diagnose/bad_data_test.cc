@@ -83,7 +83,7 @@ TEST(BadData, JitteredTimeStampsAreResampledAndTold) {
     table.columns[0][i] += 0.2e-3;
   }
   Findings findings;
-  const Run run = make_run(table, map_of_table(), "log", findings);
+  const auto run = make_run(table, map_of_table(), "log", findings);
   EXPECT_TRUE(has(findings, "jittered_time"));
   EXPECT_FALSE(is_fatal(findings));
   const double t = 1000 * run.period_s;

@@ -42,11 +42,11 @@ Gains gains_of_memory() {
   const auto terms = memorising_terms();
   const FittedModel plain{{}, weigh(fit, context, {}, {}, 0, 1).coefficients};
   const FittedModel memory{terms, weigh(fit, context, terms, {}, 0, 1).coefficients};
-  const auto gain = [&](const Dataset& data, bool same) {
-    const HeldOut judge(data, context, same);
+  const auto gain = [&](const Dataset& data) {
+    const HeldOut judge(data, context, kSameSession);
     return judge.gain(judge.residual(plain), judge.residual(memory), 1);
   };
-  return {gain(fit, true), gain(unseen, true)};
+  return {gain(fit), gain(unseen)};
 }
 
 TEST(HeldOut, LeakageWouldBeNoticed) {
@@ -60,7 +60,7 @@ TEST(HeldOut, AnUnchangedResidualGainsNothing) {
   axis.duration_s = 10;
   const Dataset data = make_dataset({run_of(axis, make_hidden_log(axis, 1))}, {}, true, everywhere);
   const Context context = make_context(nominal_of(axis), data);
-  const HeldOut judge(data, context, true);
+  const HeldOut judge(data, context, kSameSession);
   const Eigen::VectorXd r = judge.residual({{}, weigh(data, context, {}, {}, 0, 1).coefficients});
   const Gain gain = judge.gain(r, r, 1);
   EXPECT_EQ(gain.ci99.low, 0);

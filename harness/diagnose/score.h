@@ -1,0 +1,16 @@
+// The accepted causes fitted once more to all data but the held-out, and what they gain there: on
+// data that neither the fit nor the selection has seen, so that the figure promises nothing that
+// choosing among many effects has made.
+#pragma once
+
+#include <cstdint>
+
+#include "harness/diagnose/selection.h"
+
+namespace towbench::harness::diagnose {
+
+// Fills in before, after, gain of `selection`, and beta, covariance, gain of each of its causes.
+void refit_and_score(Selection& selection, const Dataset& fit, const HeldOut& heldout,
+                     const Context& context, std::uint64_t seed);
+
+}  // namespace towbench::harness::diagnose
