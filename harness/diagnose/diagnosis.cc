@@ -15,31 +15,18 @@ using Eigen::Index;
 
 constexpr Index kFewestRows = 60;
 
-// A run is cut into stretches. Of every four, one decides which causes stand (the gate); of the
-// only run of a diagnosis another is held out, to be scored on at the end.
+// Of the only run of a diagnosis every fourth stretch is held out, to be scored on at the end.
 constexpr Index kStretches = 12;
 constexpr Index kTurn = 4;
 
-Index stretch_of(Index row, Index rows) {
-  return (row * kStretches / rows) % kTurn;
-}
 bool everywhere(Index /*row*/, Index /*rows*/) {
   return true;
 }
-bool at_gate(Index row, Index rows) {
-  return stretch_of(row, rows) == 1;
-}
-bool not_at_gate(Index row, Index rows) {
-  return stretch_of(row, rows) != 1;
-}
 bool held_out(Index row, Index rows) {
-  return stretch_of(row, rows) == 3;
+  return (row * kStretches / rows) % kTurn == kTurn - 1;
 }
 bool not_held_out(Index row, Index rows) {
-  return stretch_of(row, rows) != 3;
-}
-bool neither(Index row, Index rows) {
-  return stretch_of(row, rows) % 2 == 0;
+  return !held_out(row, rows);
 }
 
 void take_off_known_terms(std::vector<Run>& runs, const NominalModel& model,
@@ -50,10 +37,8 @@ void take_off_known_terms(std::vector<Run>& runs, const NominalModel& model,
 }
 
 struct Split {
-  Dataset selection;  // causes are looked for here,
-  Dataset gate;       // must gain here,
-  Dataset fit;        // are fitted to both of these,
-  Dataset heldout;    // and scored here: the second half of another run, or parts of the only one
+  Dataset fit;      // causes are looked for and fitted here,
+  Dataset heldout;  // and scored here: the second half of another run, or parts of the only one
   bool same_session = false;
 };
 
@@ -70,15 +55,12 @@ Split split(const Request& request) {
     holdout.push_back(runs.back());
     runs.pop_back();
   }
-  const auto part = [&](const std::vector<Run>& of, const Conditioner::Wanted& wanted) {
-    return make_dataset(of, conditioning, held, wanted);
-  };
   if (!holdout.empty()) {
-    return {part(runs, not_at_gate), part(runs, at_gate), part(runs, everywhere),
-            part(holdout, everywhere), false};
+    return {make_dataset(runs, conditioning, held, everywhere),
+            make_dataset(holdout, conditioning, held, everywhere), false};
   }
-  return {part(runs, neither), part(runs, at_gate), part(runs, not_held_out), part(runs, held_out),
-          true};
+  return {make_dataset(runs, conditioning, held, not_held_out),
+          make_dataset(runs, conditioning, held, held_out), true};
 }
 
 // Force that repeats with the reference differs from lap to lap by noise alone.
@@ -109,6 +91,19 @@ std::optional<double> lap_noise_N(const Dataset& data) {
   return std::nullopt;
 }
 
+// A log in the wrong unit looks like one without motion: its noise would drown a true one's forces.
+void explain_lack_of_rows(const Request& request, Findings& findings) {
+  const Dataset plain =
+      make_dataset(request.runs, Conditioning{}, request.model.input_is_held, everywhere);
+  if (plain.rows() >= kFewestRows) {
+    check_against_model(plain, make_context(request.model, plain), findings);
+  }
+  if (!is_fatal(findings)) {
+    findings.push_back({Finding::Kind::kFatal, "too_little_motion",
+                        "too few samples in motion are left to fit and to judge on"});
+  }
+}
+
 void conclude(Diagnosis& d) {
   const bool moved = std::any_of(d.parameters.begin(), d.parameters.end(),
                                  [](const ParameterShift& shift) { return shift.moved; });
@@ -131,10 +126,8 @@ void conclude(Diagnosis& d) {
 Diagnosis diagnose(const Request& request) {
   Diagnosis d;
   const Split data = split(request);
-  const bool enough = std::min(data.selection.rows(), data.fit.rows()) >= kFewestRows;
-  if (!enough || std::min(data.gate.rows(), data.heldout.rows()) < kFewestRows) {
-    d.findings.push_back({Finding::Kind::kFatal, "too_little_motion",
-                          "too few samples in motion are left to fit and to judge on"});
+  if (std::min(data.fit.rows(), data.heldout.rows()) < kFewestRows) {
+    explain_lack_of_rows(request, d.findings);
     return d;
   }
   d.context = make_context(request.model, data.fit);
@@ -143,12 +136,11 @@ Diagnosis diagnose(const Request& request) {
   if (is_fatal(d.findings)) {
     return d;
   }
-  const HeldOut home(data.gate, d.context, kSameSession);
   const HeldOut abroad(data.heldout, d.context, kGateOfAnotherSession);
   const HeldOut heldout(data.heldout, d.context,
                         data.same_session ? kSameSession : kRestOfAnotherSession);
-  const Gates gates{home, data.same_session ? nullptr : &abroad};
-  d.selection = select_causes(data.selection, gates, d.context, request.seed, request.progress);
+  d.selection = select_causes(data.fit, data.same_session ? nullptr : &abroad, d.context,
+                              request.seed, request.progress);
   refit_and_score(d.selection, data.fit, heldout, d.context, request.seed);
   d.parameters = judge_parameters(request.model, d.selection.after, d.selection.terms());
   d.unexplained = find_unexplained(data.fit, d.selection.after);

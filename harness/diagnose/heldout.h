@@ -1,10 +1,5 @@
 // What a term gains on data that its selection never saw.
 //
-//   G = 1 - RMS(after) / RMS(before)
-// with a block bootstrap over time: blocks longer than the residual's correlation are drawn with
-// replacement (Kuensch 1989; Politis & Romano 1992, circular), the same blocks for before and
-// after.
-//
 // What differs between sessions (offset, level of dry friction, phase of a ripple) is estimated
 // again on the first quarter of each held-out run, before and after alike; that quarter is never
 // scored. The second quarter decides which causes stand, the rest is what the result is scored on.
@@ -15,21 +10,9 @@
 #include <vector>
 
 #include "harness/diagnose/evidence.h"
+#include "harness/diagnose/gain.h"
 
 namespace towbench::harness::diagnose {
-
-struct Interval {
-  double value = 0;
-  double low = 0;
-  double high = 0;
-};
-
-struct Gain {
-  Interval ci99;  // as a share, 0.1 = 10 %
-  Interval ci95;
-  double before_rms_N = 0;
-  double after_rms_N = 0;
-};
 
 // A model as fitted elsewhere.
 struct FittedModel {

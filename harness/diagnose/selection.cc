@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/diagnose/cross_validation.h"
 #include "harness/diagnose/rivals.h"
 
 namespace towbench::harness::diagnose {
@@ -34,10 +35,10 @@ struct AtGates {
 
 class Selector {
  public:
-  Selector(const Dataset& data, const Gates& gates, const Context& context, std::uint64_t seed,
+  Selector(const Dataset& data, const HeldOut* abroad, const Context& context, std::uint64_t seed,
            const Progress& progress)
       : data_(data),
-        gates_(gates),
+        abroad_(abroad),
         context_(context),
         seed_(seed),
         progress_(progress),
@@ -64,21 +65,24 @@ class Selector {
   }
 
   [[nodiscard]] AtGates at_gates(const std::vector<Term>& terms, const Evidence& e) const {
-    const FittedModel model{terms, e.coefficients};
-    return {gates_.home.residual(model),
-            gates_.abroad == nullptr ? Eigen::VectorXd() : gates_.abroad->residual(model)};
+    return {cross_validated_residual(e),
+            abroad_ == nullptr ? Eigen::VectorXd() : abroad_->residual({terms, e.coefficients})};
   }
 
   [[nodiscard]] Gain gain_at_home(const AtGates& before, const AtGates& after) const {
-    return gates_.home.gain(before.home, after.home, seed_);
+    return gain_of(before.home, after.home, data_.starts(), seed_);
   }
 
-  [[nodiscard]] bool proves_itself(const Gain& home, const AtGates& before,
-                                   const AtGates& after) const {
-    const bool certain = home.ci99.low > 0 && home.ci99.value > kLeastGain;
-    return certain &&
-           (gates_.abroad == nullptr ||
-            gates_.abroad->gain(before.abroad, after.abroad, seed_).ci99.value > kLeastGain);
+  [[nodiscard]] bool proves_itself(const Gain& home, const AtGates& before, const AtGates& after,
+                                   bool with_the_rest) const {
+    if (!(home.ci99.low > 0 && home.ci99.value > kLeastGain)) {
+      return false;
+    }
+    if (abroad_ == nullptr) {
+      return true;
+    }
+    const Gain gain = abroad_->gain(before.abroad, after.abroad, seed_);
+    return (with_the_rest ? gain.ci99.low : gain.ci95.low) > 0;
   }
 
   // Significant and plausible ones, best first, the best of them refined.
@@ -117,7 +121,7 @@ class Selector {
     const AtGates after = at_gates(terms, with);
     const Gain gain = gain_at_home(stand_, after);
     const double p = std::min(1.0, c.test.p_value * static_cast<double>(s.tried));
-    if (!proves_itself(gain, stand_, after)) {
+    if (!proves_itself(gain, stand_, after, false)) {
       s.rejected.push_back({c.term.effect->name, p, gain.ci99});
       return false;
     }
@@ -139,7 +143,7 @@ class Selector {
   }
 
   // A cause accepted early may be idle once the others stand: each must gain over the model without
-  // it.
+  // it, and now that the others leave little it must be certain abroad too.
   void prune(Selection& s) {
     for (std::size_t i = s.causes.size(); s.causes.size() > 1 && i-- > 0;) {
       std::vector<Term> others = s.terms();
@@ -147,7 +151,7 @@ class Selector {
       const Evidence without = fitted(others);
       const AtGates lacking = at_gates(others, without);
       const Gain gain = gain_at_home(lacking, stand_);
-      if (proves_itself(gain, lacking, stand_)) {
+      if (proves_itself(gain, lacking, stand_, true)) {
         continue;
       }
       s.rejected.push_back({s.causes[i].term.effect->name, s.causes[i].p_value, gain.ci99});
@@ -158,7 +162,7 @@ class Selector {
   }
 
   const Dataset& data_;
-  const Gates& gates_;
+  const HeldOut* abroad_;
   const Context& context_;
   std::uint64_t seed_;
   const Progress& progress_;
@@ -177,9 +181,9 @@ std::vector<Term> Selection::terms() const {
   return out;
 }
 
-Selection select_causes(const Dataset& data, const Gates& gates, const Context& context,
+Selection select_causes(const Dataset& data, const HeldOut* abroad, const Context& context,
                         std::uint64_t seed, const Progress& progress) {
-  return Selector(data, gates, context, seed, progress).run();
+  return Selector(data, abroad, context, seed, progress).run();
 }
 
 }  // namespace towbench::harness::diagnose

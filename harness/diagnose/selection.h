@@ -1,5 +1,5 @@
-// Forward selection of causes: significant, plausible, and a gain on data set aside to
-// decide on (the gate). What is reported as gained is measured elsewhere (score.h): data that
+// Forward selection of causes: significant, plausible, and a gain where they were not
+// fitted (the gate). What is reported as gained is measured elsewhere (score.h): data that
 // decided once is no longer unseen.
 //
 // Each round every effect is tried at its best scale. Its group Wald p-value is multiplied by the
@@ -60,13 +60,9 @@ struct Selection {
 
 using Progress = std::function<void(const std::string&)>;
 
-// Where a cause must prove itself before it stands.
-struct Gates {
-  const HeldOut& home;              // parts of the same runs: its gain must be certain
-  const HeldOut* abroad = nullptr;  // a part of another run, short as it is: a gain must be likely
-};
-
-[[nodiscard]] Selection select_causes(const Dataset& data, const Gates& gates,
+// `abroad`: a part of another run, short as it is, or null. A cause stands when its gain at home,
+// cross-validated, is certain, and a gain abroad is likely.
+[[nodiscard]] Selection select_causes(const Dataset& data, const HeldOut* abroad,
                                       const Context& context, std::uint64_t seed,
                                       const Progress& progress);
 

@@ -36,9 +36,11 @@ TEST(ZeroPhaseFilter, PassesAWaveWithoutShiftingIt) {
   EXPECT_LT((y - x).segment(1000, 2000).cwiseAbs().maxCoeff(), 1e-3);
 }
 
-TEST(ZeroPhaseFilter, KeepsARampToItsEnds) {
+// The sharp one may not: an even-order Chebyshev lies at the bottom of its ripple at rest, 0.6 % a
+// pass.
+TEST(ZeroPhaseFilter, SmoothKeepsARampToItsEnds) {
   const Eigen::VectorXd ramp = Eigen::VectorXd::LinSpaced(2000, 3, 8);
-  EXPECT_LT((ZeroPhaseFilter::sharp(40, 1000).apply(ramp) - ramp).cwiseAbs().maxCoeff(), 0.01);
+  EXPECT_LT((ZeroPhaseFilter::smooth(40, 1000).apply(ramp) - ramp).cwiseAbs().maxCoeff(), 0.01);
 }
 
 TEST(CentralDifference, IsExactOnAParabola) {

@@ -1,0 +1,57 @@
+#include "harness/diagnose/cross_validation.h"
+
+#include <Eigen/QR>
+#include <vector>
+
+namespace towbench::harness::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Index kStretches = 12;  // of a run
+constexpr Index kFolds = 4;
+
+std::vector<Index> fold_of_each_row(const std::vector<Index>& starts) {
+  std::vector<Index> folds;
+  for (std::size_t run = 0; run + 1 < starts.size(); ++run) {
+    const Index rows = starts[run + 1] - starts[run];
+    for (Index row = 0; row < rows; ++row) {
+      folds.push_back((row * kStretches / rows) % kFolds);
+    }
+  }
+  return folds;
+}
+
+VectorXd fitted_without(const Evidence& e, const std::vector<Index>& folds, Index left_out) {
+  MatrixXd x(e.x.rows(), e.x.cols());
+  VectorXd y(e.y.size());
+  Index rows = 0;
+  for (Index i = 0; i < e.y.size(); ++i) {
+    if (folds[static_cast<std::size_t>(i)] != left_out) {
+      x.row(rows) = e.x.row(i);
+      y[rows++] = e.y[i];
+    }
+  }
+  return x.topRows(rows).colPivHouseholderQr().solve(y.head(rows));
+}
+
+}  // namespace
+
+VectorXd cross_validated_residual(const Evidence& e) {
+  const std::vector<Index> folds = fold_of_each_row(e.starts);
+  const VectorXd twin_correction = e.coefficients - e.x.colPivHouseholderQr().solve(e.y);
+  VectorXd residual(e.y.size());
+  for (Index fold = 0; fold < kFolds; ++fold) {
+    const VectorXd coefficients = fitted_without(e, folds, fold) + twin_correction;
+    for (Index i = 0; i < residual.size(); ++i) {
+      if (folds[static_cast<std::size_t>(i)] == fold) {
+        residual[i] = e.y[i] - e.x.row(i).dot(coefficients);
+      }
+    }
+  }
+  return residual;
+}
+
+}  // namespace towbench::harness::diagnose
