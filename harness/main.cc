@@ -1,6 +1,12 @@
 // The composition root of the bench.
+#include <array>
+
 #include "harness/commands/command.h"
 
 int main(int argc, char** argv) {
-  return towbench::harness::run_command_line(argc, argv);
+  using namespace towbench::harness;
+  constexpr std::array kVerbs{add_demo,     add_run,     add_list,      add_validate,
+                              add_emulate,  add_control, add_replay,    add_report,
+                              add_campaign, add_doctor,  add_completion};
+  return run_command_line(kVerbs, argc, argv);
 }

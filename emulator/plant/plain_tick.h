@@ -1,7 +1,7 @@
-// The plain regimes made short: amplifier in current mode (in control, at its limit, or off), elastic
-// chain, each body sliding or standing, no stop touched, no optional term. The same arithmetic as the
-// general tick (axis_plant.cc) with every other case left out: nearly every tick of a run is of this
-// kind, and it takes a third of the time.
+// The plain regimes made short: amplifier in current mode (in control, at its limit, or off),
+// elastic chain, each body sliding or standing, no stop touched, no optional term. The same
+// arithmetic as the general tick (axis_plant.cc) with every other case left out: nearly every tick
+// of a run is of this kind, and it takes a third of the time.
 #pragma once
 
 #include <cmath>
@@ -51,8 +51,8 @@ inline constexpr double kSpeedMiss = 1e-4;
   const DerivedMechanics& m = model.mechanics;
   const double motor_Nm =
       t.motor_direction == 0 ? 0.0 : friction_level(model, m.motor, motor_rad_per_s);
-  const double carriage_N =
-      t.carriage_direction == 0 ? 0.0
+  const double carriage_N = t.carriage_direction == 0
+                                ? 0.0
                                 : friction_level(model, m.carriage, carriage_m_per_s) + rails_N;
   return {t.electrical, -t.motor_direction * motor_Nm,
           t.force_N - t.carriage_direction * carriage_N};
@@ -75,8 +75,8 @@ inline constexpr double kSpeedMiss = 1e-4;
       m.chain_stiffness_N_per_m * z[kStretch] +
       m.chain_damping_N_s_per_m * (m.metres_per_radian * z[kMotorSpeed] - z[kCarriageSpeed]);
   if (t.motor_direction == 0) {
-    const double load_Nm = model.parameters.torque_constant_Nm_per_A * z[kCurrent] -
-                           m.metres_per_radian * chain_N;
+    const double load_Nm =
+        model.parameters.torque_constant_Nm_per_A * z[kCurrent] - m.metres_per_radian * chain_N;
     holds = holds && std::fabs(load_Nm) <= t.motor_breakaway_Nm;
   } else {
     holds = holds && t.motor_direction * z[kMotorSpeed] >= 0;

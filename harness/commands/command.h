@@ -2,6 +2,8 @@
 // with which code the process ends (conventions.md).
 #pragma once
 
+#include <span>
+
 #include <CLI/CLI.hpp>
 
 namespace towbench::harness {
@@ -18,8 +20,11 @@ void add_campaign(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_completion(CLI::App& app, int& exit_code);
+void add_diagnose(CLI::App& app, int& exit_code);  // of towbench-diagnose alone
 
-// The whole command line. Never throws.
-[[nodiscard]] int run_command_line(int argc, char** argv) noexcept;
+using AddVerb = void (*)(CLI::App&, int&);
+
+// A command line of these verbs. Never throws.
+[[nodiscard]] int run_command_line(std::span<const AddVerb> verbs, int argc, char** argv) noexcept;
 
 }  // namespace towbench::harness

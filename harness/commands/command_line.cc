@@ -34,7 +34,7 @@ bool refuse_unknown_verb(const std::vector<std::string>& verbs, std::string_view
   return true;
 }
 
-int parse_and_run(int argc, char** argv) {
+int parse_and_run(std::span<const AddVerb> add_verbs, int argc, char** argv) {
   CLI::App app{
       "towbench: a hardware-in-the-loop bench for the two-axis tow-tank carriage.\n"
       "The unmodified BBMC controller runs against an emulated machine; every run is judged.",
@@ -45,8 +45,7 @@ int parse_and_run(int argc, char** argv) {
       "Exit codes: 0 pass, 1 a budget failed, 2 bad arguments or fixture, 3 runtime error,\n"
       "4 INVALID (the run proves nothing), 99 skipped.\n\nExample: towbench demo");
   int exit_code = kExitRuntime;
-  for (const auto add : {add_demo, add_run, add_list, add_validate, add_emulate, add_control,
-                         add_replay, add_report, add_campaign, add_doctor, add_completion}) {
+  for (const AddVerb add : add_verbs) {
     add(app, exit_code);
   }
   if (argc > 1 && refuse_unknown_verb(verbs_of(app), argv[1])) {
@@ -62,9 +61,9 @@ int parse_and_run(int argc, char** argv) {
 
 }  // namespace
 
-int run_command_line(int argc, char** argv) noexcept {
+int run_command_line(std::span<const AddVerb> verbs, int argc, char** argv) noexcept {
   try {
-    return parse_and_run(argc, argv);
+    return parse_and_run(verbs, argc, argv);
   } catch (const FixtureError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return kExitBadInput;

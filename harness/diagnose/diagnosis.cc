@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "harness/diagnose/context.h"
 #include "harness/diagnose/known_terms.h"
 #include "harness/diagnose/model_checks.h"
@@ -92,7 +94,7 @@ std::optional<double> lap_noise_N(const Dataset& data) {
 }
 
 // A log in the wrong unit looks like one without motion: its noise would drown a true one's forces.
-void explain_lack_of_rows(const Request& request, Findings& findings) {
+void explain_lack_of_rows(const Request& request, const Split& data, Findings& findings) {
   const Dataset plain =
       make_dataset(request.runs, Conditioning{}, request.model.input_is_held, everywhere);
   if (plain.rows() >= kFewestRows) {
@@ -100,7 +102,9 @@ void explain_lack_of_rows(const Request& request, Findings& findings) {
   }
   if (!is_fatal(findings)) {
     findings.push_back({Finding::Kind::kFatal, "too_little_motion",
-                        "too few samples in motion are left to fit and to judge on"});
+                        fmt::format("{} independent samples in motion to fit and {} to judge on, "
+                                    "{} of each are needed: log longer, or give another run",
+                                    data.fit.rows(), data.heldout.rows(), kFewestRows)});
   }
 }
 
@@ -127,7 +131,7 @@ Diagnosis diagnose(const Request& request) {
   Diagnosis d;
   const Split data = split(request);
   if (std::min(data.fit.rows(), data.heldout.rows()) < kFewestRows) {
-    explain_lack_of_rows(request, d.findings);
+    explain_lack_of_rows(request, data, d.findings);
     return d;
   }
   d.context = make_context(request.model, data.fit);

@@ -104,13 +104,10 @@ Json heldout(const Diagnosis& d) {
   };
   Json total = interval(gain.ci95, 100, "ci95");
   total["ci99"] = {100 * gain.ci99.low, 100 * gain.ci99.high};
-  return {
-      {"baseline", side(gain.before_rms_N)},
-      {"extended", side(gain.after_rms_N)},
-      {"gain_pct", total},
-      {"same_session", d.heldout_same_session},
-      // The gate of each cause looked at this data; a run kept back altogether is the last word.
-      {"used_as_gate", true}};
+  return {{"baseline", side(gain.before_rms_N)},
+          {"extended", side(gain.after_rms_N)},
+          {"gain_pct", total},
+          {"same_session", d.heldout_same_session}};
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "harness/diagnose/position_jump.h"
+
 namespace towbench::harness::diagnose {
 namespace {
 
@@ -210,6 +212,7 @@ Run make_run(const Table& table, const ColumnMap& map, std::string name, Finding
          fmt::format("{}: '{}' never changes: dead channel or wrong column", run.name, map.input));
     return run;
   }
+  join_position_jumps(run, findings);
   run.resolution_m = uniform ? step_of(run.position_m) : 0;
   if (run.resolution_m == 0 && map.position_is_count) {
     run.resolution_m = map.position_scale_m;

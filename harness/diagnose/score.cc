@@ -16,6 +16,15 @@ std::vector<Term> without(std::vector<Term> terms, std::size_t which) {
   return terms;
 }
 
+// What looked certain and does not gain where it was not looked for is no cause.
+void withdraw(Selection& selection) {
+  for (const Cause& cause : selection.causes) {
+    selection.rejected.push_back({cause.term.effect->name, cause.p_value, cause.gain.ci99});
+  }
+  selection.causes.clear();
+  selection.after = selection.before;
+}
+
 }  // namespace
 
 void refit_and_score(Selection& selection, const Dataset& fit, const HeldOut& heldout,
@@ -41,6 +50,10 @@ void refit_and_score(Selection& selection, const Dataset& fit, const HeldOut& he
     const Eigen::VectorXd lacking =
         others.empty() ? before : heldout.residual({others, fitted(others).coefficients});
     cause.gain = heldout.gain(lacking, after, seed);
+  }
+  if (!terms.empty() && selection.gain.ci95.low <= 0) {
+    withdraw(selection);
+    selection.gain = heldout.gain(before, before, seed);
   }
 }
 

@@ -1,6 +1,8 @@
 // The accepted causes fitted once more to all data but the held-out, and what they gain there: on
 // data that neither the fit nor the selection has seen, so that the figure promises nothing that
-// choosing among many effects has made.
+// choosing among many effects has made. When the causes together do not gain there (lower 95 %
+// bound not above zero), all of them are withdrawn: the score may take a cause away, never give
+// one.
 #pragma once
 
 #include <cstdint>

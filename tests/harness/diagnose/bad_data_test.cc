@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/diagnose/position_jump.h"
 #include "harness/diagnose/run_reader.h"
 #include "tests/harness/diagnose/hidden_case.h"
 
@@ -116,6 +117,23 @@ Diagnosis with_input(double scale, Eigen::Index shift) {
   }
   request.runs = {run};
   return diagnose(request);
+}
+
+// A bench's log begins before its counter is preset.
+TEST(BadData, AJumpOfThePositionIsJoinedAndTold) {
+  const HiddenAxis axis;
+  const auto clean = run_of(axis, make_hidden_log(axis, 1));
+  auto jumping = clean;
+  jumping.position_m.head(3).array() -= 0.449;
+  Findings findings;
+  join_position_jumps(jumping, findings);
+  EXPECT_TRUE(has(findings, "position_jump"));
+  EXPECT_EQ(jumping.missing[3], 1);
+  EXPECT_LT((jumping.position_m - clean.position_m).cwiseAbs().maxCoeff(), 1e-3);
+  Findings none;
+  auto untouched = clean;
+  join_position_jumps(untouched, none);
+  EXPECT_TRUE(none.empty());
 }
 
 TEST(BadData, AReversedCommandIsNamed) {
