@@ -1,5 +1,5 @@
-// A position that jumps: the counter was preset, or lost its place. No body moves like that, and one
-// such sample would be the fastest motion of the log and hide all the rest.
+// A position that jumps: the counter was preset, or lost its place. No body moves like that, and
+// one such sample would be the fastest motion of the log and hide all the rest.
 #pragma once
 
 #include "harness/diagnose/finding.h"
