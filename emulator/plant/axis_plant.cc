@@ -129,10 +129,15 @@ void AxisPlant::step(const AxisInput& input, MotionSegments& segments) noexcept 
   if (!(input == input_)) {
     take(input);
   }
+  if (plain_.still) {
+    append(segments, 0.0, model_->tick_s, z_, z_);
+    return;
+  }
   StateVector next;
   if (plain_.possible &&
       step_plainly(*model_, plain_, situation_.position_interval, half_change_, z_, next)) {
     append(segments, 0.0, model_->tick_s, z_, next);
+    plain_.still = stands(plain_) && next == z_;
     z_ = next;
     return;
   }

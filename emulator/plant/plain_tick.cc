@@ -47,7 +47,10 @@ PlainTick prepare_plain_tick(const AxisModel& model, const Situation& s) noexcep
 bool renew_plain_tick(const AxisModel& model, const Situation& s, const StateVector& z,
                       PlainTick& tick) noexcept {
   const bool same_force = tick.force_N == s.held.carriage_force_N;
+  const double electrical = tick.electrical;
   take_drive(s, tick);
+  // Of an axis at rest a sagging supply moves the limits alone, and settling found it inside them.
+  tick.still = tick.still && same_force && tick.electrical == electrical;
   return same_force || tick.carriage_direction != 0 ||
          std::fabs(carriage_load_N(model, s, z, 1.0)) <= tick.carriage_breakaway_N;
 }

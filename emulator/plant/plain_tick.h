@@ -13,6 +13,7 @@ namespace towbench::emulator {
 // Prepared whenever the regime changes; what follows from the input alone is renewed with it.
 struct PlainTick {
   bool possible = false;
+  bool still = false;  // the tick before changed nothing, nor will the next with the same input
   const DiscreteMode* mode = nullptr;
   double motor_direction = 0;  // 0: stands
   double carriage_direction = 0;
@@ -26,6 +27,10 @@ struct PlainTick {
   double min_m = 0;
   double max_m = 0;
 };
+
+[[nodiscard]] inline bool stands(const PlainTick& t) noexcept {
+  return t.motor_direction == 0 && t.carriage_direction == 0;
+}
 
 // Half the speed changes of the tick before: what the next tick's middle is predicted from.
 struct HalfChange {

@@ -60,8 +60,8 @@ core::Result<LineLevels> SimLines::read() noexcept {
 
 core::Status SimLines::write(std::uint16_t lines) noexcept {
   for (std::size_t i = 0; i < pulls_.size(); ++i) {
-    const bool active = ((lines >> i) & 1U) != 0;
-    const bool was_active = ((written_ >> i) & 1U) != 0;
+    const bool active = ((unsigned{lines} >> i) & 1U) != 0;
+    const bool was_active = ((unsigned{written_} >> i) & 1U) != 0;
     const std::string_view pull = active ? "pull-up" : "pull-down";
     if ((!is_written_ || active != was_active) &&
         ::pwrite(pulls_[i], pull.data(), pull.size(), 0) != static_cast<ssize_t>(pull.size())) {
