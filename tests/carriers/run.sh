@@ -14,5 +14,5 @@ command -v qemu-system-x86_64 >/dev/null || {
   exit 99
 }
 "$here/fetch_kernel.sh" "$kernel" || exit
-"$here/boot.sh" "$kernel" "$patience" "$here/jobs.sh $root $build machine" | grep -v 'SeaBIOS\|Booting from'
+"$here/boot.sh" "$kernel" "$patience" "$here/jobs.sh $root $build machine" | grep --line-buffered -v 'SeaBIOS\|Booting from'
 exit "${PIPESTATUS[0]}"
