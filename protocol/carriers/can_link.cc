@@ -1,7 +1,5 @@
 #include "protocol/carriers/can_link.h"
 
-#include <type_traits>
-
 namespace towbench::protocol {
 namespace {
 
@@ -36,24 +34,6 @@ void CanLink::Queue::flush() noexcept {
     for (std::size_t i = 0; link.log_ != nullptr && i < turn.size(); ++i) {
       link.log_->on(turn[i]);
     }
-  }
-}
-
-template <typename Message>
-void CanLink::Writer::handle(const Message& message) noexcept {
-  if constexpr (std::is_same_v<Message, Hello>) {
-    Hello ours = message;
-    ours.capabilities &= ~kCapabilityEdges;
-    packer.on(ours);
-  } else if constexpr (std::is_same_v<Message, HelloReply>) {
-    HelloReply ours = message;
-    ours.plant.capabilities &= ~kCapabilityEdges;
-    packer.on(ours);
-  } else {
-    packer.on(message);
-  }
-  if constexpr (kEndsTurn<Message>) {
-    queue.flush();
   }
 }
 

@@ -7,11 +7,13 @@
 
 #include <array>
 #include <cstdint>
+#include <type_traits>
 
 #include "protocol/carriers/can_packer.h"
 #include "protocol/carriers/can_port.h"
 #include "protocol/carriers/can_unpacker.h"
 #include "protocol/carriers/turn_link.h"
+#include "protocol/stream_writer.h"
 
 namespace towbench::protocol {
 
@@ -50,7 +52,22 @@ class CanLink final : public TurnLink {
     Writer(CanLink& owner, CanDirection direction) noexcept
         : queue(owner), packer(direction, queue) {}
     template <typename Message>
-    void handle(const Message& message) noexcept;
+    void handle(const Message& message) noexcept {
+      if constexpr (std::is_same_v<Message, Hello>) {
+        Hello ours = message;
+        ours.capabilities &= ~kCapabilityEdges;
+        packer.on(ours);
+      } else if constexpr (std::is_same_v<Message, HelloReply>) {
+        HelloReply ours = message;
+        ours.plant.capabilities &= ~kCapabilityEdges;
+        packer.on(ours);
+      } else {
+        packer.on(message);
+      }
+      if constexpr (kEndsTurn<Message>) {
+        queue.flush();
+      }
+    }
 
     Queue queue;
     CanPacker packer;

@@ -57,10 +57,11 @@ demo_over() {
 candump_is_played() {
   local log
   log=$(find "$runs/vcan" -name candump.log | head -n 1)
-  candump -n 500 vcan1 >/tmp/seen &
+  candump -n 500 -T 20000 vcan1 >/tmp/seen &
+  local listener=$!
   sleep 1
   head -n 500 "$log" | canplayer -t vcan1=vcan0 || return 1
-  wait
+  wait "$listener"
   [[ $(wc -l </tmp/seen) == 500 ]]
 }
 
