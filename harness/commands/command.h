@@ -21,6 +21,9 @@ void add_report(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_completion(CLI::App& app, int& exit_code);
 void add_diagnose(CLI::App& app, int& exit_code);  // of towbench-diagnose alone
+void add_identify(CLI::App& app, int& exit_code);  // of towbench-study alone
+// Starts towbench-study, which lies beside this program.
+void add_identify_elsewhere(CLI::App& app, int& exit_code);
 
 using AddVerb = void (*)(CLI::App&, int&);
 

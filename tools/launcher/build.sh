@@ -3,6 +3,8 @@
 
 # shellcheck disable=SC2034,SC2154  # used by ./towbench; set by it
 bench_program=$root/build/release/harness/towbench-bench
+# shellcheck disable=SC2034  # used by ./towbench
+study_program=$root/build/release/harness/towbench-study
 
 # What one clone has compiled serves the next one, wherever it lies.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
@@ -43,9 +45,21 @@ build_quietly() {
   fi
 }
 
-# The bench itself. A tree configured with tests keeps them; a fresh one is built without.
+# configured_with OPTION: the release tree as it was configured last.
+configured_with() { grep -qs "$1:BOOL=ON" "$root/build/release/CMakeCache.txt"; }
+
+# The bench itself. A tree configured with tests or the study keeps them; a fresh one is built
+# without.
 build_bench() {
   local preset=user
-  if grep -qs 'TOWBENCH_TESTS:BOOL=ON' "$root/build/release/CMakeCache.txt"; then preset=release; fi
+  if configured_with TOWBENCH_STUDY; then preset=study; fi
+  if configured_with TOWBENCH_TESTS; then preset=release; fi
   build_preset "$preset" release towbench-bench check_includes
+}
+
+# The experiments that estimate, and the bench beside them.
+build_study() {
+  local preset=study
+  if configured_with TOWBENCH_TESTS; then preset=release; fi
+  build_preset "$preset" release towbench-study towbench-bench check_includes
 }

@@ -6,6 +6,8 @@ run_packages=(
   g++ cmake ninja-build ccache git ca-certificates
   libboost-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libexpected-dev libgpiod-dev
 )
+# What the experiments that estimate need besides: `identify` alone.
+study_packages=(libeigen3-dev libceres-dev)
 # To build and test the bench in every way that CI does.
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev libsundials-dev libode-dev
@@ -21,9 +23,10 @@ add_node_if_missing() {
   command -v npm >/dev/null || missing+=(npm)
 }
 
-# install_packages run|test: says what it installs, asks for root only when it has to.
+# install_packages run|study|test: says what it installs, asks for root only when it has to.
 install_packages() {
   local wanted=("${run_packages[@]}") missing=() package
+  [[ $1 == run ]] || wanted+=("${study_packages[@]}")
   [[ $1 == test ]] && wanted+=("${test_packages[@]}")
   if ! command -v dpkg-query >/dev/null; then
     echo "towbench: this is no Debian; it is on you to provide: ${wanted[*]} nodejs npm" >&2

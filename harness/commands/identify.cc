@@ -1,0 +1,212 @@
+// towbench identify: what a machine's parameters are, from experiments on it.
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "harness/commands/command.h"
+#include "harness/commands/fixture_paths.h"
+#include "harness/commands/stop_signal.h"
+#include "harness/judge/check.h"
+#include "harness/judge/recovery.h"
+#include "harness/procedures/chain.h"
+#include "harness/procedures/identified_plant.h"
+#include "harness/procedures/study_page.h"
+#include "harness/record/line_writer.h"
+
+namespace towbench::harness {
+namespace {
+
+using procedures::ChainResult;
+using procedures::ProcedureOutcome;
+
+struct Options {
+  std::string rig;
+  std::string controller;
+  std::string settings;
+  std::string axis = "both";
+  std::vector<std::string> only;
+  std::string out = "identified";
+  std::uint64_t seed = 1;
+  bool resume = false;
+  bool quiet = false;
+  bool json = false;
+  bool blind = false;
+};
+
+void show_progress(const std::string& what, double share, bool wanted) {
+  if (wanted && isatty(STDERR_FILENO) == 1) {
+    std::fprintf(stderr, "\r%s: %.0f %%\033[K", what.c_str(), 100 * share);
+    std::fflush(stderr);
+  }
+}
+
+void clear_progress(bool wanted) {
+  if (wanted && isatty(STDERR_FILENO) == 1) {
+    std::fputs("\r\033[K", stderr);
+  }
+}
+
+std::vector<core::Axis> axes_of(const std::string& axis) {
+  if (axis == "both") {
+    return {core::Axis::kY, core::Axis::kX};
+  }
+  return {axis == "y" ? core::Axis::kY : core::Axis::kX};
+}
+
+void refuse_unknown(const std::vector<std::string>& only,
+                    const std::vector<std::unique_ptr<procedures::Procedure>>& all) {
+  for (const auto& id : only) {
+    std::string ids;
+    bool known = false;
+    for (const auto& each : all) {
+      known = known || each->id() == id;
+      ids += (ids.empty() ? "" : " ") + std::string(each->id());
+    }
+    if (!known) {
+      throw FixtureError({.file = "--only"}, id, ids);
+    }
+  }
+}
+
+void tell_steps(const ChainResult& result) {
+  for (const auto& step : result.steps) {
+    const auto& outcome = step.outcome;
+    const char* word = outcome.status == ProcedureOutcome::Status::kDone      ? "done"
+                       : outcome.status == ProcedureOutcome::Status::kRefused ? "refused"
+                                                                              : "FAILED";
+    fmt::print("{:<9} {} {:<8} {:<34} {}{}\n", step.id, core::name_of(step.axis), word, step.title,
+               outcome.reason,
+               step.from_before ? " (from before)" : fmt::format("{:.1f} s", step.wall_s));
+  }
+}
+
+void tell_estimates(const identify::Estimates& estimates, const std::vector<Recovery>& against) {
+  fmt::print("\n{:<3}{:<31}{:>12}  {:>25}  {}\n", "", "quantity", "value", "95 %",
+             against.empty() ? "unit" : "truth, error");
+  std::size_t next = 0;
+  for (const auto& each : estimates) {
+    const bool judged = next < against.size() && against[next].estimate.quantity == each.quantity &&
+                        against[next].estimate.axis == each.axis &&
+                        against[next].estimate.at == each.at;
+    const auto place = each.at ? fmt::format(" @{:.3g}", *each.at) : "";
+    fmt::print("{:<3}{:<31}{:>12.5g}  {:>12.5g} {:>12.5g}  ", each.axis, each.quantity + place,
+               each.value, each.low, each.high);
+    if (judged) {
+      const auto& r = against[next++];
+      fmt::print("{:.5g}, {:+.2f} % (of {} %){}{}\n", r.truth, r.error_pct, r.tolerance_pct,
+                 r.agrees ? "" : " MISSED", r.covered ? "" : " not covered");
+    } else {
+      fmt::print("{}\n", each.unit);
+    }
+  }
+}
+
+// The emulator itself must take what was written.
+void write_plant(const std::filesystem::path& path, const std::string& text) {
+  (void)read_plant(FixtureFile::parse(text, path));
+  write_atomically(path, text);
+}
+
+int exit_code_of(const ChainResult& result, const std::vector<Recovery>& recoveries) {
+  int code = result.steps.empty() ? kExitInvalid : kExitPass;
+  for (const auto& each : recoveries) {
+    if (!each.agrees || !each.narrow) {
+      code = kExitFail;
+    }
+  }
+  for (const auto& step : result.steps) {
+    if (step.outcome.status == ProcedureOutcome::Status::kFailed) {
+      return kExitInvalid;
+    }
+    if (step.outcome.status == ProcedureOutcome::Status::kRefused) {
+      code = kExitInvalid;
+    }
+  }
+  return code;
+}
+
+int execute(const Options& options) {
+  const auto fixtures = fixtures_directory();
+  const auto named = [&](const std::string& given, const char* folder, const char* standard) {
+    return given.empty() ? fixtures / folder / standard : std::filesystem::path(given);
+  };
+  SourceFiles sources;
+  const auto rig = load_rig(named(options.rig, "rigs", "tow-dry.toml"), sources);
+  const auto controller =
+      load_controller(named(options.controller, "controllers", "bbmc-tuned.toml"), sources);
+  const auto all = procedures::identification_procedures();
+  refuse_unknown(options.only, all);
+  const std::filesystem::path out = options.out;
+  std::filesystem::create_directories(out);
+
+  const LoopWatchers watchers{.stop = &stop_requested(), .progress = {}};
+  const procedures::Machine machine(rig, controller, options.seed, watchers);
+  const procedures::ChainOptions chain{
+      .only = options.only,
+      .axes = axes_of(options.axis),
+      .settings = named(options.settings, "identification", ""),
+      .out = out,
+      .fingerprint = fmt::format("{:016x}-{:016x}-{}", rig.hash, controller.hash, options.seed),
+      .resume = options.resume,
+      .progress = [&](const std::string& what, double share) {
+        show_progress(what, share, !options.quiet);
+      }};
+  const auto result = procedures::run_chain(machine, all, chain);
+  clear_progress(!options.quiet);
+
+  // Only now may anybody look at what the machine is.
+  const auto recoveries =
+      options.blind ? std::vector<Recovery>{} : judge_recovery(rig.parameters, result.estimates);
+  identify::write_estimates(out / "estimates.json", result.estimates);
+  if (const auto plant = procedures::identified_plant(machine, result.estimates); !plant.empty()) {
+    write_plant(out / "identified_plant.toml", plant);
+  }
+  write_atomically(out / "report.html",
+                   procedures::study_page("Identification of " + rig.name, result, recoveries));
+  if (options.json) {
+    fmt::print("{}\n", identify::to_json(result.estimates).dump(2));
+  } else if (!options.quiet) {
+    tell_steps(result);
+    tell_estimates(result.estimates, recoveries);
+  }
+  if (!options.json) {
+    fmt::print("{}\n", (out / "report.html").string());
+  }
+  return exit_code_of(result, recoveries);
+}
+
+}  // namespace
+
+void add_identify(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto* verb = app.add_subcommand("identify", "find a machine's parameters by experiments on it");
+  verb->add_option("rig", options->rig, "rig file; fixtures/rigs/tow-dry.toml if not given")
+      ->check(CLI::ExistingFile);
+  verb->add_option("--only", options->only, "this experiment only (EXP-P-3); may be repeated");
+  verb->add_option("--axis", options->axis, "y, x or both")
+      ->check(CLI::IsMember({"y", "x", "both"}));
+  verb->add_option("--controller", options->controller, "controller file")
+      ->check(CLI::ExistingFile);
+  verb->add_option("--settings", options->settings, "folder of the experiments' own files")
+      ->check(CLI::ExistingDirectory);
+  verb->add_option("--seed", options->seed, "of the sensors' noise and of where things stand");
+  verb->add_option("--out", options->out, "folder to write to");
+  verb->add_flag("--resume", options->resume, "continue what was interrupted in that folder");
+  verb->add_flag("--blind", options->blind, "do not set the rig's own parameters beside");
+  verb->add_flag("--quiet", options->quiet, "no progress, no tables");
+  verb->add_flag("--json", options->json, "print estimates.json");
+  verb->footer(
+      "Example: towbench identify fixtures/rigs/tow-dry.toml --out identified\n"
+      "Writes estimates.json, identified_plant.toml, report.html. Exit: 0 all experiments done,\n"
+      "1 an estimate misses the emulated machine's own value by more than its demand allows,\n"
+      "2 bad arguments, 4 an experiment was refused or its data are no good.");
+  verb->callback([options, &exit_code] { exit_code = execute(*options); });
+}
+
+}  // namespace towbench::harness

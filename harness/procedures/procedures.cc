@@ -1,0 +1,49 @@
+#include "harness/procedures/procedures.h"
+
+#include <algorithm>
+
+namespace towbench::harness::procedures {
+
+std::vector<std::unique_ptr<Procedure>> identification_procedures() {
+  std::vector<std::unique_ptr<Procedure>> all;
+  all.push_back(saturation_speed());
+  return all;
+}
+
+Track track_of(const bbmc::AxisConfiguration& belief) {
+  return {belief.position_m(belief.ends.soft_min_count),
+          belief.position_m(belief.ends.soft_max_count)};
+}
+
+core::PerAxis<double> middle_of_tracks(const Machine& machine) {
+  core::PerAxis<double> middle;
+  for (const auto axis : core::kAxes) {
+    const auto track = track_of(machine.configuration().axes[axis]);
+    middle[axis] = 0.5 * (track.min_m + track.max_m);
+  }
+  return middle;
+}
+
+double value_or(const ProcedureContext& context, std::string_view quantity, double belief) {
+  const auto* known = context.find(quantity);
+  return known == nullptr ? belief : known->value;
+}
+
+Figure speed_figure(const identify::Recording& data, core::Axis axis, std::string title) {
+  constexpr std::size_t kSpan = 10;
+  constexpr std::size_t kPoints = 2000;
+  Curve curve{.name = "speed"};
+  const std::size_t every = std::max<std::size_t>(1, data.rows() / kPoints);
+  for (std::size_t k = kSpan; k < data.rows(); k += every) {
+    curve.x.push_back(data.time_s[k]);
+    curve.y.push_back((data.position_m(axis, k) - data.position_m(axis, k - kSpan)) /
+                      (data.time_s[k] - data.time_s[k - kSpan]));
+  }
+  return {.title = std::move(title),
+          .x_label = "time, s",
+          .y_label = "speed, m/s",
+          .curves = {std::move(curve)},
+          .caption = {}};
+}
+
+}  // namespace towbench::harness::procedures

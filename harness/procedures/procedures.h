@@ -1,0 +1,29 @@
+// The procedures of the identification, each from its own file, and what several of them share.
+#pragma once
+
+#include <memory>
+
+#include "harness/procedures/procedure.h"
+
+namespace towbench::harness::procedures {
+
+[[nodiscard]] std::unique_ptr<Procedure> saturation_speed();  // EXP-P-3
+
+// Where an axis may be sent: between the soft limits that the controller keeps.
+struct Track {
+  double min_m = 0;
+  double max_m = 0;
+  [[nodiscard]] double length_m() const noexcept { return max_m - min_m; }
+};
+[[nodiscard]] Track track_of(const bbmc::AxisConfiguration& belief);
+[[nodiscard]] core::PerAxis<double> middle_of_tracks(const Machine& machine);
+
+// What was estimated, else what the controller believes.
+[[nodiscard]] double value_or(const ProcedureContext& context, std::string_view quantity,
+                              double belief);
+
+// Speed over time by differences of 10 ms, at most about 2000 points.
+[[nodiscard]] Figure speed_figure(const identify::Recording& data, core::Axis axis,
+                                  std::string title);
+
+}  // namespace towbench::harness::procedures
