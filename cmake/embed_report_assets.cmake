@@ -1,7 +1,8 @@
-# cmake -DTEMPLATE=... -DSTYLE=... [-DSCRIPT=...] -DOUTPUT=... -P embed_report_assets.cmake
+# cmake -DHEADER=... -DNAMESPACE=... -DPAGE=... -DPAGE_FUNCTION=... -DSTYLE=... [-DSCRIPT=...] -DOUTPUT=...
+#       -P embed_report_assets.cmake
 #
-# Writes the C++ file that defines the functions of harness/report/assets.h. Bytes, not a string
-# literal: nothing in the files can then end or alter it.
+# Writes the C++ file that defines the functions of HEADER: the page, style_asset and script_asset.
+# Bytes, not a string literal: nothing in the files can then end or alter it.
 
 function(append_asset function file)
   set(bytes "")
@@ -24,13 +25,13 @@ ${bytes}'\\0'};
 endfunction()
 
 file(WRITE ${OUTPUT} "// Generated from reports/ by cmake/embed_report_assets.cmake.
-#include \"harness/report/assets.h\"
+#include \"${HEADER}\"
 
-namespace towbench::harness::report {
+namespace ${NAMESPACE} {
 ")
-append_asset(template_asset "${TEMPLATE}")
+append_asset(${PAGE_FUNCTION} "${PAGE}")
 append_asset(style_asset "${STYLE}")
 append_asset(script_asset "${SCRIPT}")
 file(APPEND ${OUTPUT} "
-}  // namespace towbench::harness::report
+}  // namespace ${NAMESPACE}
 ")

@@ -65,6 +65,13 @@ namespace {
 
 }  // namespace
 
+void EventScript::add(const ScheduledEvent& event) {
+  const auto to_come = events_.begin() + static_cast<std::ptrdiff_t>(next_);
+  events_.insert(std::upper_bound(to_come, events_.end(), event,
+                                  [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; }),
+                 event);
+}
+
 void EventScript::fire_due(Rig& rig, PlantObserver& observer) noexcept {
   const core::Nanoseconds start_ns = rig.now_ns();
   const core::Nanoseconds end_ns = start_ns + core::kPlantTick_ns;

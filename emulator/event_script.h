@@ -18,6 +18,9 @@ class EventScript {
   explicit EventScript(std::span<const ScheduledEvent> events)
       : events_(events.begin(), events.end()) {}
 
+  // One that nobody had planned, behind those of the same time. Not from real-time code.
+  void add(const ScheduledEvent& event);
+
   // Before a tick of the rig: fires what falls into it.
   TOWBENCH_REALTIME void fire_due(Rig& rig, PlantObserver& observer) noexcept;
 

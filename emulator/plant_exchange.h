@@ -40,6 +40,7 @@ class PlantExchange {
   TOWBENCH_REALTIME void drive(const protocol::PwmDuty& duty) noexcept;
   TOWBENCH_REALTIME void set_outputs(const protocol::DigitalOutputs& outputs) noexcept;
   TOWBENCH_REALTIME void advance(const protocol::Advance& advance) noexcept;
+  void add_event(const ScheduledEvent& event) { script_.add(event); }
   void note_fault(const protocol::Fault& fault) noexcept;
   void end(const protocol::Bye& bye) noexcept;
   void peer_lost(core::ErrorCode why) noexcept;

@@ -37,6 +37,9 @@ void PlantNode::on(const protocol::Bye& bye) noexcept {
   implementation_->end(bye);
 }
 
+void PlantNode::add_event(const ScheduledEvent& event) {
+  implementation_->add_event(event);
+}
 void PlantNode::peer_lost(core::ErrorCode why) noexcept {
   implementation_->peer_lost(why);
 }

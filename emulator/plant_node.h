@@ -44,6 +44,9 @@ class PlantNode : public protocol::MessageSink {
   void on(const protocol::Fault& fault) noexcept override;
   void on(const protocol::Bye& bye) noexcept override;
 
+  // An event that nobody had planned, at or after now_ns(). Between two messages.
+  void add_event(const ScheduledEvent& event);
+
   // The carrier calls this when the controller is gone: drive removed, event recorded.
   void peer_lost(core::ErrorCode why) noexcept;
 

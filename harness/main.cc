@@ -5,8 +5,18 @@
 
 int main(int argc, char** argv) {
   using namespace towbench::harness;
-  constexpr std::array kVerbs{add_demo,     add_run,     add_list,       add_validate,
-                              add_emulate,  add_control, add_replay,     add_report,
-                              add_campaign, add_doctor,  add_completion, add_identify_elsewhere};
+  constexpr std::array kVerbs{add_demo,
+                              add_run,
+                              add_list,
+                              add_validate,
+                              add_emulate,
+                              add_control,
+                              add_replay,
+                              add_report,
+                              add_campaign,
+                              add_panel,
+                              add_doctor,
+                              add_completion,
+                              add_identify_elsewhere};
   return run_command_line(kVerbs, argc, argv);
 }

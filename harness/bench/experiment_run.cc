@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/bench/driven_run.h"
 #include "harness/bench/emulator_process.h"
 #include "harness/bench/in_process_plant.h"
 #include "harness/bench/linked_plant.h"
@@ -31,6 +32,9 @@ class Run {
       : faults_(faults_of(fixture, options)),
         fixture_(faults_ ? faults_->fixture() : fixture),
         options_(options) {
+    if (options.hand != nullptr) {
+      given_ = fixture;
+    }
     identity_.carrier = name_of_carrier(options);
     identity_.clock = options.clock == RunClock::kReal ? "real" : "lockstep";
     identity_.fidelity = is_bus(options) ? "digest" : "edges";
@@ -47,6 +51,9 @@ class Run {
     auto outcome = options_.carrier == Carrier::kInProcess ? run_in_process() : run_with_child();
     outcome.control_period_ns = fixture_.controller.configuration.control_period_ns();
     outcome.complete = outcome.complete || (faults_ && faults_->kills_plant());
+    if (options_.hand != nullptr) {
+      take_over_what_was_done();
+    }
     RunResult result;
     result.folder = folder_;
     result.complete = outcome.complete;
@@ -70,6 +77,23 @@ class Run {
   }
 
  private:
+  // From here on the experiment is the one that was driven, with what was broken by hand.
+  void take_over_what_was_done() {
+    auto driven =
+        as_driven(given_, faults_ ? faults_->onsets_ns() : std::vector<core::Nanoseconds>{},
+                  *options_.hand);
+    if (driven.experiment.hand.empty()) {
+      return;
+    }
+    write_atomically(folder_ / identity_.experiment_copy, driven.sources.front().text);
+    if (driven.experiment.faults.empty()) {
+      fixture_ = std::move(driven);
+    } else {
+      faults_ = std::make_unique<FaultedExperiment>(driven, identity_.seed);
+      fixture_ = faults_->fixture();
+    }
+  }
+
   static std::uint64_t seed_of(const ExperimentFixture& fixture, const RunOptions& options) {
     return options.seed.value_or(fixture.experiment.seed);
   }
@@ -97,7 +121,7 @@ class Run {
   }
 
   RunOutcome run_in_process() {
-    PlantRecorder plant_recorder(folder_);
+    PlantRecorder plant_recorder(folder_, options_.tap);
     InProcessPlant plant(fixture_.rig.parameters, identity_.seed, fixture_.experiment.events,
                          plant_recorder);
     auto outcome = play_against(plant);
@@ -180,20 +204,22 @@ class Run {
   }
 
   RunOutcome play_against(PlantEnd& plant) {
-    ControllerRecorder recorder(folder_);
-    if (!faults_) {
+    ControllerRecorder recorder(folder_, options_.tap);
+    if (!faults_ && options_.hand == nullptr) {
       LockstepBench bench(fixture_.controller.configuration, fixture_.rig.hash, plant, &recorder);
       return play(fixture_.experiment, bench, recorder, options_.watchers);
     }
     CaseRecord crossed;  // what it notes is of no use here: the judge makes its own
-    CaseLink link(plant, faults_->injection().link, crossed);
+    const Injection planned = faults_ ? faults_->injection() : Injection{};
+    CaseLink link(plant, planned.link, crossed);
     LockstepBench bench(fixture_.controller.configuration, fixture_.rig.hash, link, &recorder);
-    bench.run_on(faults_->injection().host);
-    return play(fixture_.experiment, bench, recorder, options_.watchers);
+    bench.run_on(planned.host);
+    return play(fixture_.experiment, bench, recorder, options_.watchers, options_.hand);
   }
 
   std::unique_ptr<FaultedExperiment> faults_;  // null: a sound machine
-  const ExperimentFixture& fixture_;
+  ExperimentFixture given_;  // with a hand: before anything was planned or done
+  ExperimentFixture fixture_;
   const RunOptions& options_;
   RunIdentity identity_;
   std::filesystem::path folder_;

@@ -8,10 +8,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/bench/hand.h"
 #include "harness/bench/script_loop.h"
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/judge/check.h"
 #include "harness/judge/judge.h"
+#include "harness/record/run_tap.h"
 #include "protocol/carriers/carrier_address.h"
 
 namespace towbench::harness {
@@ -34,6 +36,10 @@ struct RunOptions {
   RunClock clock = RunClock::kLockstep;              // kReal needs two processes: not kInProcess
   std::filesystem::path program = "/proc/self/exe";  // for the emulator's process
   LoopWatchers watchers;
+  // In process and in lockstep only; both may be null and outlive the run. What the hand did is in
+  // the folder's copy of the experiment.
+  FreeHand* hand = nullptr;
+  RunTap* tap = nullptr;
 };
 
 struct RunResult {

@@ -20,6 +20,10 @@ class InProcessPlant final : public PlantEnd {
   [[nodiscard]] protocol::MessageSink& sink() noexcept override { return node_; }
   void connect(protocol::MessageSink& controller) noexcept override { node_.connect(controller); }
   [[nodiscard]] core::Status wait_for(protocol::Turn /*expected*/) noexcept override { return {}; }
+  [[nodiscard]] bool happen(const emulator::ScheduledEvent& event) override {
+    node_.add_event(event);
+    return true;
+  }
 
  private:
   emulator::PlantNode node_;

@@ -31,7 +31,7 @@ core::Status LockstepBench::start() noexcept {
 }
 
 std::string_view LockstepBench::serve() noexcept {
-  if (host_ == nullptr || host_->serves_at(now_ns_)) {
+  if ((host_ == nullptr || host_->serves_at(now_ns_)) && unplanned_.serves_at(now_ns_)) {
     controller_.serve(now_ns_);
   }
   take_records();
@@ -53,6 +53,19 @@ core::Status LockstepBench::advance() noexcept {
   }
   now_ns_ = until_ns;
   return {};
+}
+
+bool LockstepBench::inject(const Injection& injection) {
+  bool possible = true;
+  for (const auto& event : injection.events) {
+    possible = possible && plant_.happen(event);
+  }
+  for (const auto& fault : injection.link) {
+    possible = possible && plant_.disturb(fault);
+  }
+  const auto& stalls = injection.host.stalls;
+  unplanned_.stalls.insert(unplanned_.stalls.end(), stalls.begin(), stalls.end());
+  return possible;
 }
 
 void LockstepBench::finish() noexcept {

@@ -12,6 +12,7 @@
 #include "harness/bench/duty_watch.h"
 #include "harness/bench/host_schedule.h"
 #include "harness/bench/plant_end.h"
+#include "harness/faults/injection.h"
 #include "protocol/tee_sink.h"
 
 namespace towbench::harness {
@@ -35,6 +36,9 @@ class LockstepBench {
   // then been told and has removed its drive.
   [[nodiscard]] core::Status advance() noexcept;
 
+  // What nobody had planned, from the next exchange on. False when it cannot be done here.
+  [[nodiscard]] bool inject(const Injection& injection);
+
   // Orderly end: drive off, Bye both ways.
   void finish() noexcept;
 
@@ -50,6 +54,7 @@ class LockstepBench {
   DutyWatch duty_watch_;
   protocol::TeeSink to_plant_;
   const HostSchedule* host_ = nullptr;
+  HostSchedule unplanned_;
   core::Nanoseconds now_ns_ = 0;
   std::string console_;
 };

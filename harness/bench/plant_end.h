@@ -3,6 +3,8 @@
 #pragma once
 
 #include "core/result.h"
+#include "emulator/scheduled_event.h"
+#include "harness/faults/link_faults.h"
 #include "protocol/carriers/turn_watch.h"
 #include "protocol/message_sink.h"
 
@@ -21,6 +23,11 @@ class PlantEnd {
   virtual void connect(protocol::MessageSink& controller) noexcept = 0;
   // Returns when the plant has said all of its turn that ends with `expected`, or why it will not.
   [[nodiscard]] virtual core::Status wait_for(protocol::Turn expected) noexcept = 0;
+
+  // What nobody had planned, from now on or later. False where that cannot be done: the machine is
+  // in another process, or no link that could fail lies between.
+  [[nodiscard]] virtual bool happen(const emulator::ScheduledEvent& /*event*/) { return false; }
+  [[nodiscard]] virtual bool disturb(const LinkFault& /*fault*/) { return false; }
 };
 
 }  // namespace towbench::harness

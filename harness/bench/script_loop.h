@@ -5,6 +5,7 @@
 #include <atomic>
 #include <functional>
 
+#include "harness/bench/hand.h"
 #include "harness/bench/lockstep_bench.h"
 #include "harness/bench/run_outcome.h"
 #include "harness/experiment/experiment.h"
@@ -18,7 +19,9 @@ struct LoopWatchers {
   std::function<void(core::Nanoseconds)> progress;
 };
 
+// Without `hand` the experiment's own is repeated, if it has one.
 [[nodiscard]] RunOutcome play(const Experiment& experiment, LockstepBench& bench,
-                              BenchRecorder& recorder, const LoopWatchers& watchers);
+                              BenchRecorder& recorder, const LoopWatchers& watchers,
+                              Hand* hand = nullptr);
 
 }  // namespace towbench::harness

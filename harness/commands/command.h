@@ -19,6 +19,7 @@ void add_replay(CLI::App& app, int& exit_code);
 void add_campaign(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
+void add_panel(CLI::App& app, int& exit_code);
 void add_completion(CLI::App& app, int& exit_code);
 void add_diagnose(CLI::App& app, int& exit_code);  // of towbench-diagnose alone
 void add_identify(CLI::App& app, int& exit_code);  // of towbench-study alone

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "emulator/scheduled_event.h"
+#include "harness/experiment/hand_act.h"
 #include "harness/faults/fault.h"
 
 namespace towbench::harness {
@@ -52,9 +53,10 @@ struct Experiment {
   std::vector<ConsoleStep> console;
   std::vector<emulator::ScheduledEvent> events;  // sorted by time
   FaultPlan faults;
+  std::vector<HandAct> hand;              // sorted by time; empty: nobody interfered
   std::vector<EvaluationWindow> windows;  // the first is "whole"
   std::vector<Budget> budgets;
-  bool budgets_apply = true;  // not to a machine that was broken on the command line
+  bool budgets_apply = true;  // not to a machine that was broken on the command line or by hand
 };
 
 }  // namespace towbench::harness

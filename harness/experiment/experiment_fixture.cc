@@ -58,6 +58,19 @@ emulator::ScheduledEvent read_event(TableReader& reader) {
   return event;
 }
 
+HandAct read_hand_act(TableReader& reader) {
+  HandAct act;
+  reader.value("at_ns", act.time_ns, core::between(0, kLongestRun_s * 1e9), "when it was done");
+  std::size_t kind = 0;
+  reader.choice("did", kind, {std::begin(kHandActNames), std::end(kHandActNames)});
+  act.kind = static_cast<HandAct::Kind>(kind);
+  reader.text("text", act.text, "what was typed, broken, changed or done to the clock");
+  reader.require("at_ns");
+  reader.require("did");
+  reader.finish();
+  return act;
+}
+
 EvaluationWindow read_window(TableReader& reader) {
   EvaluationWindow window;
   reader.text("name", window.name, "how budgets call the window");
@@ -132,6 +145,12 @@ Experiment read_script(TableReader& reader) {
   for (auto& fault : reader.tables("fault")) {
     experiment.faults.push_back(read_fault(fault));
   }
+  for (auto& act : reader.tables("hand")) {
+    experiment.hand.push_back(read_hand_act(act));
+    experiment.budgets_apply = experiment.budgets_apply && !experiment.hand.back().disturbs();
+  }
+  std::stable_sort(experiment.hand.begin(), experiment.hand.end(),
+                   [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; });
   experiment.windows.emplace_back();
   for (auto& window : reader.tables("window")) {
     experiment.windows.push_back(read_window(window));

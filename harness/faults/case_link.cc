@@ -25,6 +25,15 @@ void CaseLink::connect(protocol::MessageSink& controller) noexcept {
   plant_.connect(to_controller_);
 }
 
+bool CaseLink::disturb(const LinkFault& fault) {
+  if (fault.kind == FaultKind::kPeerKilled) {
+    killers_.push_back(fault);
+  }
+  to_plant_.disturber.add(fault);
+  to_controller_.disturber.add(fault);
+  return true;
+}
+
 bool CaseLink::plant_is_dead(core::Nanoseconds time_ns) const noexcept {
   return std::any_of(killers_.begin(), killers_.end(),
                      [&](const LinkFault& fault) { return time_ns >= fault.from_ns; });

@@ -35,6 +35,10 @@ class CaseLink final : public PlantEnd {
   [[nodiscard]] protocol::MessageSink& sink() noexcept override { return to_plant_; }
   void connect(protocol::MessageSink& controller) noexcept override;
   [[nodiscard]] core::Status wait_for(protocol::Turn expected) noexcept override;
+  [[nodiscard]] bool happen(const emulator::ScheduledEvent& event) override {
+    return plant_.happen(event);
+  }
+  [[nodiscard]] bool disturb(const LinkFault& fault) override;
 
  private:
   struct ToPlant final : protocol::EachMessage<ToPlant> {

@@ -13,7 +13,7 @@
 namespace towbench::harness {
 
 // The experiment without expectations: what the console answers is judged afterwards, and a machine
-// that fails may answer anything. Its own events stay.
+// that fails may answer anything. Its own events stay; so does one that was driven by hand.
 [[nodiscard]] ExperimentFixture without_expectations(const ExperimentFixture& fixture);
 
 struct CaseOptions {

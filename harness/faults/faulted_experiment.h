@@ -27,6 +27,10 @@ class FaultedExperiment {
   // What is to be run: without expectations, with the faults' events, on the machine as built.
   [[nodiscard]] const ExperimentFixture& fixture() const noexcept { return faulted_; }
   [[nodiscard]] const Injection& injection() const noexcept { return prepared_.injection; }
+  // When each fault of the plan begins.
+  [[nodiscard]] const std::vector<core::Nanoseconds>& onsets_ns() const noexcept {
+    return prepared_.onsets_ns;
+  }
   // A plant that is killed ends the run as it should.
   [[nodiscard]] bool kills_plant() const noexcept;
 

@@ -26,11 +26,16 @@ bool same_stream(const LinkMessage& a, const LinkMessage& b) {
 
 }  // namespace
 
-LinkDisturber::LinkDisturber(const std::vector<LinkFault>& faults, bool to_plant) {
+LinkDisturber::LinkDisturber(const std::vector<LinkFault>& faults, bool to_plant)
+    : to_plant_(to_plant) {
   for (const auto& fault : faults) {
-    if (fault.to_plant == to_plant) {
-      faults_.push_back({.fault = fault, .random = core::Random(fault.seed)});
-    }
+    add(fault);
+  }
+}
+
+void LinkDisturber::add(const LinkFault& fault) {
+  if (fault.to_plant == to_plant_) {
+    faults_.push_back({.fault = fault, .random = core::Random(fault.seed)});
   }
 }
 

@@ -42,6 +42,8 @@ class LinkDisturber {
   LinkDisturber(const std::vector<LinkFault>& faults, bool to_plant);
 
   void connect(protocol::MessageSink& to) noexcept { to_ = &to; }
+  // Between two messages; one of the other direction is left out.
+  void add(const LinkFault& fault);
 
   // A message on its way at `now_ns`.
   template <typename Message>
@@ -76,6 +78,7 @@ class LinkDisturber {
   void corrupt(Acting& acting, const LinkMessage& message);
   void arrive(const LinkMessage& message);
 
+  bool to_plant_;
   std::vector<Acting> faults_;
   std::deque<Waiting> waiting_;
   protocol::MessageSink* to_ = nullptr;

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/experiment/experiment_toml.h"
 #include "harness/faults/case_run.h"
 #include "harness/faults/fault_case.h"
 #include "harness/faults/fault_text.h"
@@ -203,67 +204,7 @@ class Shrinker {
   std::size_t trials_ = 0;
 };
 
-std::string number(double value) {
-  const auto digits = fmt::format("{}", value);
-  return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
-}
-
-// For a basic string of TOML.
-std::string quoted(const std::string& text) {
-  std::string made = "\"";
-  for (const char letter : text) {
-    made += letter == '"' || letter == '\\' ? std::string("\\") + letter : std::string(1, letter);
-  }
-  return made + '"';
-}
-
-std::string console_toml(const ConsoleStep& step) {
-  std::string text = "\n[[console]]\n";
-  text += step.at_s ? "at_s = " + number(*step.at_s) + '\n' : "";
-  text += step.send.empty() ? "" : "send = " + quoted(step.send) + '\n';
-  text += step.wait_idle ? "wait = \"idle\"\n" : "";
-  text += step.wait_s > 0 ? "wait_s = " + number(step.wait_s) + '\n' : "";
-  return text + "timeout_s = " + number(step.timeout_s) + '\n';
-}
-
-std::string event_toml(const emulator::ScheduledEvent& event) {
-  using Kind = emulator::ScheduledEventKind;
-  auto text = fmt::format("\n[[event]]\nat_s = {}\n", number(core::seconds(event.time_ns)));
-  if (event.kind == Kind::kPushCarriage) {
-    return text + fmt::format("do = \"push_carriage\"\naxis = \"{}\"\nforce_N = {}\n",
-                              core::name_of(event.axis), number(event.value));
-  }
-  const bool press = event.kind == Kind::kPressKillSwitch;
-  return text + fmt::format("do = \"{}_kill_switch\"\n", press ? "press" : "release");
-}
-
 }  // namespace
-
-std::string to_toml(const ExperimentFixture& fixture, const std::string& rig,
-                    const std::string& controller) {
-  const auto& experiment = fixture.experiment;
-  auto text = fmt::format(
-      "schema = 1\nname = {}\ntitle = {}\ndescription = {}\nrig = {}\ncontroller = {}\n"
-      "duration_limit_s = {}\nseed = {}\n\n[start]\n",
-      quoted(experiment.name), quoted(experiment.title), quoted(experiment.description),
-      quoted(rig), quoted(controller), number(experiment.duration_limit_s), experiment.seed);
-  for (const auto axis : core::kAxes) {
-    if (fixture.rig.parameters.axes[axis].exists) {
-      text += fmt::format("{}_m = {}\n", core::name_of(axis),
-                          number(fixture.rig.parameters.axes[axis].start_m));
-    }
-  }
-  for (const auto& step : experiment.console) {
-    text += console_toml(step);
-  }
-  for (const auto& event : experiment.events) {
-    text += event_toml(event);
-  }
-  for (const auto& fault : experiment.faults) {
-    text += to_toml(fault);
-  }
-  return text;
-}
 
 ShrunkCase shrink(const ExperimentFixture& failing, std::uint64_t seed) {
   if (failing.experiment.faults.empty()) {
@@ -292,13 +233,7 @@ ShrunkCase shrink(const ExperimentFixture& failing, std::uint64_t seed) {
   experiment.description =
       fmt::format("From {}, in {} trials.", failing.experiment.name, shrunk.trials);
   experiment.seed = seed;
-  const auto file = FixtureFile::parse(failing.sources.front().text, failing.file);
-  TableReader reader(file, file.table());
-  std::string rig;
-  std::string controller;
-  reader.text("rig", rig, "path of the rig file");
-  reader.text("controller", controller, "path of the controller file");
-  shrunk.fixture.sources.front().text = to_toml(shrunk.fixture, rig, controller);
+  shrunk.fixture.sources.front().text = to_toml(shrunk.fixture);
   CanonicalHash hash;
   hash.add(shrunk.fixture.sources.front().text);
   shrunk.fixture.hash = hash.value();

@@ -22,9 +22,4 @@ struct ShrunkCase {
 // Throws FixtureError when the experiment has no faults, or breaks no requirement.
 [[nodiscard]] ShrunkCase shrink(const ExperimentFixture& failing, std::uint64_t seed);
 
-// An experiment in TOML that reads back as the same: budgets, windows and expectations left out,
-// which do not speak of a broken machine. `rig` and `controller` as the text is to name them.
-[[nodiscard]] std::string to_toml(const ExperimentFixture& fixture, const std::string& rig,
-                                  const std::string& controller);
-
 }  // namespace towbench::harness

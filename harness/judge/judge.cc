@@ -48,6 +48,16 @@ Check no_budget() {
   return check;
 }
 
+// What a person typed besides the script makes budgets of the script say nothing.
+Check driven_by_hand() {
+  Check check;
+  check.name = "driven_by_hand";
+  check.meaning = "the experiment is the one that its budgets speak of";
+  check.verdict = Verdict::kInvalid;
+  check.reason = "typed or changed by hand; the run is recorded and replays, but proves nothing";
+  return check;
+}
+
 }  // namespace
 
 core::PerAxis<AxisLimits> limits_of(const emulator::RigParameters& rig) {
@@ -81,6 +91,9 @@ Judgement judge(const std::filesystem::path& folder, const ExperimentFixture& fi
     // Faults bring their own requirements.
     if (fixture.experiment.budgets.empty() && fixture.experiment.faults.empty()) {
       checks.push_back(no_budget());
+    }
+    if (!fixture.experiment.budgets_apply && fixture.experiment.faults.empty()) {
+      checks.push_back(driven_by_hand());
     }
     checks.push_back(script_check(outcome));
     checks.push_back(check_log_complete(data, expected));

@@ -4,8 +4,9 @@
 
 namespace towbench::harness {
 
-ControllerRecorder::ControllerRecorder(const std::filesystem::path& folder)
-    : log_(folder / "log.csv", log_header()),
+ControllerRecorder::ControllerRecorder(const std::filesystem::path& folder, RunTap* tap)
+    : tap_(tap),
+      log_(folder / "log.csv", log_header()),
       timing_(folder / "timing.csv", "time_s,host_s,exchange_us"),
       events_(folder / kControllerEventsFile),
       console_(folder / "console.txt"),
@@ -25,20 +26,44 @@ void ControllerRecorder::drain(bbmc::ControllerNode& controller) noexcept {
   bbmc::TelemetryRow row;
   while (controller.next_row(row)) {
     log_rows_.add(row);
+    if (tap_ != nullptr) {
+      tap_->row(row);
+    }
   }
-  bbmc::ControllerEvent event;
-  while (controller.next_event(event)) {
-    events_.write(event_line(event));
+  bbmc::ControllerEvent told;
+  while (controller.next_event(told)) {
+    event(event_line(told));
   }
 }
 
+void ControllerRecorder::event(const std::string& line) noexcept {
+  events_.write(line);
+  if (tap_ != nullptr) {
+    tap_->event(line);
+  }
+}
+
+void ControllerRecorder::console(std::string_view text) noexcept {
+  console_.write(text);
+  if (tap_ != nullptr && !text.empty()) {
+    tap_->console(text);
+  }
+}
+
+void ControllerRecorder::hand(const HandAct& act) noexcept {
+  event(hand_line(act));
+}
+
 void ControllerRecorder::wire_event(core::Nanoseconds time_ns, std::string_view kind) noexcept {
-  events_.write(wire_event_line(time_ns, kind));
+  event(wire_event_line(time_ns, kind));
 }
 
 void ControllerRecorder::timing(core::Nanoseconds time_ns, core::Nanoseconds host_ns,
                                 core::Nanoseconds exchange_ns) noexcept {
   timing_rows_.add({time_ns, host_ns, exchange_ns});
+  if (tap_ != nullptr) {
+    tap_->exchange(exchange_ns);
+  }
 }
 
 void ControllerRecorder::flush() noexcept {

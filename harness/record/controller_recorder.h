@@ -10,16 +10,19 @@
 #include "harness/record/line_writer.h"
 #include "harness/record/log_columns.h"
 #include "harness/record/row_block.h"
+#include "harness/record/run_tap.h"
 
 namespace towbench::harness {
 
 class ControllerRecorder final : public BenchRecorder {
  public:
-  explicit ControllerRecorder(const std::filesystem::path& folder);
+  // `tap` may be null; it outlives this.
+  explicit ControllerRecorder(const std::filesystem::path& folder, RunTap* tap = nullptr);
   ~ControllerRecorder() override;
 
   void drain(bbmc::ControllerNode& controller) noexcept override;
-  void console(std::string_view text) noexcept override { console_.write(text); }
+  void console(std::string_view text) noexcept override;
+  void hand(const HandAct& act) noexcept override;
   void wire_event(core::Nanoseconds time_ns, std::string_view kind) noexcept override;
   void timing(core::Nanoseconds time_ns, core::Nanoseconds host_ns,
               core::Nanoseconds exchange_ns) noexcept override;
@@ -43,6 +46,9 @@ class ControllerRecorder final : public BenchRecorder {
     void operator()(const Timing& timing) const noexcept;
   };
 
+  void event(const std::string& line) noexcept;
+
+  RunTap* tap_;
   CsvWriter log_;
   CsvWriter timing_;
   LineWriter events_;

@@ -84,6 +84,14 @@ std::string wire_event_line(core::Nanoseconds time_ns, std::string_view kind) {
   return head(time_ns, "wire", kind) + "}\n";
 }
 
+std::string hand_line(const HandAct& act) {
+  return head(act.time_ns, "hand", name_of(act.kind)) +
+         fmt::format(R"(,"text":{}}})"
+                     "\n",
+                     nlohmann::json(act.text).dump(-1, ' ', true,
+                                                   nlohmann::json::error_handler_t::replace));
+}
+
 void merge_events(const std::filesystem::path& folder) {
   std::vector<TimedLine> lines;
   read_lines(folder / kPlantEventsFile, lines);

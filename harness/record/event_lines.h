@@ -7,6 +7,7 @@
 #include "bbmc/host/controller_node.h"
 #include "core/time.h"
 #include "emulator/truth_row.h"
+#include "harness/experiment/hand_act.h"
 
 namespace towbench::harness {
 
@@ -14,6 +15,9 @@ namespace towbench::harness {
 [[nodiscard]] std::string event_line(const bbmc::ControllerEvent& event);
 // What crossed between the two sides: {"side":"wire"}.
 [[nodiscard]] std::string wire_event_line(core::Nanoseconds time_ns, std::string_view kind);
+
+// What a person did: {"side":"hand"}.
+[[nodiscard]] std::string hand_line(const HandAct& act);
 
 inline constexpr const char* kPlantEventsFile = "plant_events.jsonl";
 inline constexpr const char* kControllerEventsFile = "controller_events.jsonl";

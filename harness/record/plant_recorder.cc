@@ -4,8 +4,9 @@
 
 namespace towbench::harness {
 
-PlantRecorder::PlantRecorder(const std::filesystem::path& folder)
-    : truth_(folder / "truth.csv", truth_header()),
+PlantRecorder::PlantRecorder(const std::filesystem::path& folder, RunTap* tap)
+    : tap_(tap),
+      truth_(folder / "truth.csv", truth_header()),
       events_(folder / kPlantEventsFile),
       rows_(writer_, WriteTruth{&truth_}) {}
 
@@ -15,13 +16,20 @@ PlantRecorder::~PlantRecorder() {
 
 void PlantRecorder::on_truth(const emulator::TruthRow& row) noexcept {
   rows_.add(row);
+  if (tap_ != nullptr) {
+    tap_->truth(row);
+  }
 }
 
 void PlantRecorder::on_event(const emulator::PlantEvent& event) noexcept {
   // One a motor turn: the edges tell where it was, and a line each would drown the rest.
   if (event.kind != emulator::PlantEventKind::kIndexPulse) {
-    events_.write(event_line(event));
+    const auto line = event_line(event);
+    events_.write(line);
     events_.flush();
+    if (tap_ != nullptr) {
+      tap_->event(line);
+    }
   }
 }
 

@@ -9,12 +9,14 @@
 #include "harness/record/line_writer.h"
 #include "harness/record/log_columns.h"
 #include "harness/record/row_block.h"
+#include "harness/record/run_tap.h"
 
 namespace towbench::harness {
 
 class PlantRecorder final : public emulator::PlantObserver {
  public:
-  explicit PlantRecorder(const std::filesystem::path& folder);
+  // `tap` may be null; it outlives this.
+  explicit PlantRecorder(const std::filesystem::path& folder, RunTap* tap = nullptr);
   ~PlantRecorder() override;
 
   void on_truth(const emulator::TruthRow& row) noexcept override;
@@ -31,6 +33,7 @@ class PlantRecorder final : public emulator::PlantObserver {
     void operator()(const emulator::TruthRow& row) const noexcept { write_truth_row(*csv, row); }
   };
 
+  RunTap* tap_;
   CsvWriter truth_;
   LineWriter events_;
   BackgroundWriter writer_;  // ends before what it writes to

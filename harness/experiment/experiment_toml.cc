@@ -1,0 +1,116 @@
+#include "harness/experiment/experiment_toml.h"
+
+#include <limits>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "harness/faults/fault_text.h"
+
+namespace towbench::harness {
+namespace {
+
+std::string number(double value) {
+  const auto digits = fmt::format("{}", value);
+  return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
+}
+
+// A basic string of TOML: JSON escapes the same letters in the same way, but for one.
+std::string quoted(const std::string& text) {
+  auto made =
+      nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  for (auto at = made.find('\x7f'); at != std::string::npos; at = made.find('\x7f')) {
+    made.replace(at, 1, "\\u007F");
+  }
+  return made;
+}
+
+std::string console_toml(const ConsoleStep& step) {
+  std::string text = "\n[[console]]\n";
+  text += step.at_s ? "at_s = " + number(*step.at_s) + '\n' : "";
+  text += step.send.empty() ? "" : "send = " + quoted(step.send) + '\n';
+  text += step.expect.empty() ? "" : "expect = " + quoted(step.expect) + '\n';
+  text += step.wait_idle ? "wait = \"idle\"\n" : "";
+  text += step.wait_s > 0 ? "wait_s = " + number(step.wait_s) + '\n' : "";
+  return text + "timeout_s = " + number(step.timeout_s) + '\n';
+}
+
+std::string event_toml(const emulator::ScheduledEvent& event) {
+  using Kind = emulator::ScheduledEventKind;
+  auto text = fmt::format("\n[[event]]\nat_s = {}\n", number(core::seconds(event.time_ns)));
+  if (event.kind == Kind::kPushCarriage) {
+    return text + fmt::format("do = \"push_carriage\"\naxis = \"{}\"\nforce_N = {}\n",
+                              core::name_of(event.axis), number(event.value));
+  }
+  const bool press = event.kind == Kind::kPressKillSwitch;
+  return text + fmt::format("do = \"{}_kill_switch\"\n", press ? "press" : "release");
+}
+
+std::string hand_toml(const HandAct& act) {
+  return fmt::format("\n[[hand]]\nat_ns = {}\ndid = \"{}\"\ntext = {}\n", act.time_ns,
+                     name_of(act.kind), quoted(act.text));
+}
+
+std::string window_toml(const EvaluationWindow& window) {
+  const bool run = window.origin == EvaluationWindow::Origin::kRun;
+  return fmt::format(
+      "\n[[window]]\nname = {}\nrelative_to = \"{}\"\nfrom_s = {}\nto_s = {}\n",
+      quoted(window.name), run ? "run" : "motion", number(window.from_s), number(window.to_s));
+}
+
+std::string budget_toml(const Budget& budget) {
+  auto text = fmt::format("\n[[budget]]\nmetric = {}\nwindow = {}\n", quoted(budget.metric),
+                          quoted(budget.window));
+  text += budget.min ? "min = " + number(*budget.min) + '\n' : "";
+  text += budget.max ? "max = " + number(*budget.max) + '\n' : "";
+  return text + (budget.source.empty() ? "" : "source = " + quoted(budget.source) + '\n');
+}
+
+std::string start_toml(const emulator::RigParameters& rig) {
+  std::string text = "\n[start]\n";
+  for (const auto axis : core::kAxes) {
+    if (rig.axes[axis].exists) {
+      text += fmt::format("{}_m = {}\n", core::name_of(axis), number(rig.axes[axis].start_m));
+    }
+  }
+  return text;
+}
+
+template <typename Parts, typename Write>
+void append(std::string& text, const Parts& parts, Write write) {
+  for (const auto& part : parts) {
+    text += write(part);
+  }
+}
+
+}  // namespace
+
+std::string to_toml(const ExperimentFixture& fixture, const std::string& rig,
+                    const std::string& controller) {
+  const auto& experiment = fixture.experiment;
+  auto text = fmt::format(
+      "schema = 1\nname = {}\ntitle = {}\ndescription = {}\nrig = {}\ncontroller = {}\n"
+      "duration_limit_s = {}\nseed = {}\n",
+      quoted(experiment.name), quoted(experiment.title), quoted(experiment.description),
+      quoted(rig), quoted(controller), number(experiment.duration_limit_s), experiment.seed);
+  text += start_toml(fixture.rig.parameters);
+  append(text, experiment.console, console_toml);
+  append(text, experiment.events, event_toml);
+  append(text, experiment.faults, [](const Fault& fault) { return to_toml(fault); });
+  append(text, experiment.hand, hand_toml);
+  append(text, std::span(experiment.windows).subspan(1), window_toml);  // "whole" always exists
+  append(text, experiment.budgets, budget_toml);
+  return text;
+}
+
+std::string to_toml(const ExperimentFixture& fixture) {
+  const auto file = FixtureFile::parse(fixture.sources.front().text, fixture.file);
+  TableReader reader(file, file.table());
+  std::string rig;
+  std::string controller;
+  reader.text("rig", rig, "path of the rig file");
+  reader.text("controller", controller, "path of the controller file");
+  return to_toml(fixture, rig, controller);
+}
+
+}  // namespace towbench::harness

@@ -1,0 +1,262 @@
+#include "harness/panel/live_hand.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "harness/faults/case_run.h"
+#include "harness/faults/fault_case.h"
+
+namespace towbench::harness {
+namespace {
+
+bool is_same_place(const Fault& a, const Fault& b) {
+  return a.place == b.place && a.kind == b.kind;
+}
+
+void refuse_unless_possible(const Fault& fault, const ExperimentFixture& fixture) {
+  const auto place = name_of(fault.place) + " " + std::string(fault.row().name);
+  if (!fault.row().refused.empty()) {
+    throw FixtureError({.file = "fault"}, place, std::string(fault.row().refused));
+  }
+  if (fault.row().start == FaultStart::kWholeRun) {
+    throw FixtureError({.file = "fault"}, place,
+                       "before the start: a machine is built like that or not");
+  }
+  if (!fixture.rig.parameters.axes[fault.place.axis].exists) {
+    throw FixtureError({.file = "fault"}, place, "an axis that the rig has");
+  }
+}
+
+}  // namespace
+
+LiveHand::LiveHand(const ExperimentFixture& fixture, std::uint64_t seed, Pace pace, bool holds,
+                   const std::atomic<bool>& stop)
+    : fixture_(fixture),
+      seed_(seed),
+      holds_(holds),
+      stop_(stop),
+      pace_(pace),
+      done_(fixture.experiment.hand) {}
+
+void LiveHand::give(Command command) {
+  {
+    const std::lock_guard lock(mutex_);
+    commands_.push_back(std::move(command));
+  }
+  changed_.notify_all();
+}
+
+void LiveHand::type(std::string bytes) {
+  give({.kind = HandAct::Kind::kTyped, .text = std::move(bytes), .fault = {}});
+}
+
+void LiveHand::break_now(Fault fault) {
+  refuse_unless_possible(fault, fixture_);
+  give({.kind = HandAct::Kind::kFault, .text = {}, .fault = std::move(fault)});
+}
+
+void LiveHand::mend(const FaultPlace& place, FaultKind kind) {
+  Fault fault;
+  fault.place = place;
+  fault.kind = kind;
+  give({.kind = HandAct::Kind::kMended, .text = {}, .fault = std::move(fault)});
+}
+
+void LiveHand::set_speed(double speed) {
+  {
+    const std::lock_guard lock(mutex_);
+    pace_ = {.speed = speed, .paused = false};
+    step_until_ns_ = -1;
+    anchor_ns_ = -1;
+  }
+  give({.text = speed > 0 ? fmt::format("speed {:.4g}", speed) : "full speed", .fault = {}});
+}
+
+void LiveHand::pause(bool paused) {
+  {
+    const std::lock_guard lock(mutex_);
+    pace_.paused = paused;
+    step_until_ns_ = -1;
+    anchor_ns_ = -1;
+  }
+  give({.text = paused ? "pause" : "go on", .fault = {}});
+}
+
+void LiveHand::step(core::Nanoseconds length_ns) {
+  {
+    const std::lock_guard lock(mutex_);
+    pace_.paused = true;
+    step_until_ns_ = now_ns() + length_ns;
+  }
+  give({.text = fmt::format("step {} us", length_ns / 1000), .fault = {}});
+}
+
+void LiveHand::finish() {
+  give({.kind = HandAct::Kind::kFinished, .text = "finish", .fault = {}});
+}
+
+LiveHand::Pace LiveHand::pace() const {
+  const std::lock_guard lock(mutex_);
+  return pace_;
+}
+
+std::vector<std::string> LiveHand::broken() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> words;
+  for (const auto& fault : broke_) {
+    if (!fault.duration_s) {
+      words.push_back(name_of(fault.place) + " " + std::string(fault.row().name));
+    }
+  }
+  return words;
+}
+
+std::string LiveHand::take_trouble() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(trouble_, {});
+}
+
+std::span<const HandAct> LiveHand::at(core::Nanoseconds now_ns, LockstepBench& bench) {
+  now_ns_.store(now_ns, std::memory_order_relaxed);
+  std::unique_lock lock(mutex_);
+  while (true) {
+    while (!commands_.empty()) {
+      const auto command = std::move(commands_.front());
+      commands_.pop_front();
+      carry_out(command, now_ns, bench);
+    }
+    const bool finished = !done_.empty() && done_.back().kind == HandAct::Kind::kFinished;
+    if (finished || stop_.load(std::memory_order_relaxed)) {
+      break;
+    }
+    const auto until = due(now_ns);
+    if (!until) {
+      break;
+    }
+    changed_.wait_until(lock, *until);
+  }
+  const auto fresh = std::span<const HandAct>(done_).subspan(told_);
+  told_ = done_.size();
+  return fresh;
+}
+
+std::optional<LiveHand::HostClock::time_point> LiveHand::due(core::Nanoseconds now_ns) {
+  const auto host = HostClock::now();
+  if (pace_.paused && now_ns >= step_until_ns_) {
+    return host + std::chrono::seconds(1);
+  }
+  if (pace_.paused || pace_.speed <= 0) {
+    return std::nullopt;
+  }
+  // A host that fell behind is not made to hurry: the pace starts anew from here.
+  constexpr auto kForgiven = std::chrono::milliseconds(100);
+  const auto ahead = [&] {
+    const auto passed = static_cast<double>(now_ns - anchor_ns_) / pace_.speed;
+    return anchor_host_ + std::chrono::nanoseconds(static_cast<core::Nanoseconds>(passed));
+  };
+  if (anchor_ns_ < 0 || ahead() < host - kForgiven) {
+    anchor_ns_ = now_ns;
+    anchor_host_ = host;
+  }
+  const auto target = ahead();
+  return target > host ? std::optional(target) : std::nullopt;
+}
+
+void LiveHand::note(HandAct::Kind kind, std::string text) {
+  done_.push_back({.time_ns = now_ns(), .kind = kind, .text = std::move(text)});
+}
+
+void LiveHand::carry_out(const Command& command, core::Nanoseconds /*now_ns*/,
+                         LockstepBench& bench) {
+  std::string refusal;
+  switch (command.kind) {
+    case HandAct::Kind::kFault:
+      refusal = make_broken(*command.fault, bench);
+      break;
+    case HandAct::Kind::kMended:
+      refusal = make_mended(*command.fault, bench);
+      break;
+    case HandAct::Kind::kTyped:
+    case HandAct::Kind::kChanged:
+    case HandAct::Kind::kClock:
+    case HandAct::Kind::kHolds:
+    case HandAct::Kind::kFinished:
+      note(command.kind, command.text);
+      break;
+  }
+  if (!refusal.empty()) {
+    trouble_ = std::move(refusal);
+  }
+}
+
+std::string LiveHand::make_broken(const Fault& fault, LockstepBench& bench) {
+  for (const auto& other : broke_) {
+    if (is_same_place(other, fault) && !other.duration_s) {
+      return fmt::format("{} {} already", name_of(fault.place), fault.row().name);
+    }
+  }
+  Fault now = fault;
+  const auto onset_ns = bench.now_ns() + bench.controller().exchange_ns();
+  now.trigger = {.value = core::seconds(onset_ns)};
+  const auto injection = injection_of(now);
+  if (injection.events.empty() && injection.link.empty() && injection.host.stalls.empty()) {
+    return fmt::format("\"{}\" would take no effect in this run", describe(now));
+  }
+  if (!bench.inject(injection)) {
+    return fmt::format("\"{}\" cannot be made here", describe(now));
+  }
+  broke_.push_back(now);
+  note(HandAct::Kind::kFault, describe(now));
+  return {};
+}
+
+std::string LiveHand::make_mended(const Fault& fault, LockstepBench& bench) {
+  const auto broken = std::find_if(broke_.begin(), broke_.end(), [&](const Fault& other) {
+    return is_same_place(other, fault) && !other.duration_s;
+  });
+  if (broken == broke_.end()) {
+    return fmt::format("{} is not {} by hand", name_of(fault.place), fault.row().name);
+  }
+  Fault over = *broken;
+  const auto until_ns = bench.now_ns() + bench.controller().exchange_ns();
+  over.duration_s = core::seconds(until_ns) - over.trigger.value;
+  const auto before = injection_of(*broken);
+  auto after = injection_of(over);
+  // What has been given to the machine cannot be taken back: only an end can be added.
+  const bool adds = before.link.empty() && before.host.stalls.empty() &&
+                    after.events.size() > before.events.size() &&
+                    std::equal(before.events.begin(), before.events.end(), after.events.begin(),
+                               [](const auto& a, const auto& b) {
+                                 return a.time_ns == b.time_ns && a.kind == b.kind;
+                               });
+  if (!adds) {
+    return fmt::format("\"{}\" lasts to the end of the run", describe(*broken));
+  }
+  after.events.erase(after.events.begin(),
+                     after.events.begin() + static_cast<std::ptrdiff_t>(before.events.size()));
+  if (!bench.inject(after)) {
+    return fmt::format("\"{}\" cannot be mended here", describe(*broken));
+  }
+  *broken = over;
+  note(HandAct::Kind::kMended, describe(over));
+  return {};
+}
+
+Injection LiveHand::injection_of(const Fault& fault) const {
+  const auto end_ns = core::nanoseconds(fixture_.experiment.duration_limit_s);
+  const auto onset_ns = core::nanoseconds(fault.trigger.value);
+  auto so_far = fixture_;
+  so_far.experiment.hand = done_;
+  so_far.experiment.faults = {};
+  // Only these look at what the undisturbed run would do.
+  const bool looks_ahead = fault.kind == FaultKind::kBounce || fault.place.part == FaultPart::kHost;
+  const auto twin = looks_ahead ? run_twin(so_far, seed_) : std::make_unique<CaseRecord>();
+  Injection injection;
+  inject(fault, onset_ns, *twin, end_ns, injection);
+  harness::finish(injection);
+  return injection;
+}
+
+}  // namespace towbench::harness

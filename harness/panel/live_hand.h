@@ -1,0 +1,101 @@
+// The panel's hand on a run: commands come from the server's thread, take effect on the bench's
+// thread between two exchanges, and are written down with the exchange's virtual time.
+//
+// Also holds the run back to a pace: paused, step by step, slow motion, real time, or not at all.
+// That is host time, which the run does not see.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/bench/hand.h"
+#include "harness/bench/lockstep_bench.h"
+#include "harness/experiment/experiment_fixture.h"
+
+namespace towbench::harness {
+
+class LiveHand final : public FreeHand {
+ public:
+  struct Pace {
+    double speed = 1;  // virtual over host time; 0: as fast as it goes
+    bool paused = false;
+  };
+
+  // `fixture` as it is run. `stop`: the run is to be cut short. Both outlive this.
+  LiveHand(const ExperimentFixture& fixture, std::uint64_t seed, Pace pace, bool holds,
+           const std::atomic<bool>& stop);
+
+  // ---- from any thread ----
+  void type(std::string bytes);
+  // Breaks from the next exchange on; the fault's own trigger is not used. Throws FixtureError for
+  // what the machine has not, what is built in from the start, and what is broken so already.
+  void break_now(Fault fault);
+  // Ends what break_now() began. Throws FixtureError when it did not, or cannot be mended.
+  void mend(const FaultPlace& place, FaultKind kind);
+  void set_speed(double speed);
+  void pause(bool paused);
+  void step(core::Nanoseconds length_ns);  // pauses behind it
+  void finish();
+  // The stop flag has changed.
+  void wake() { changed_.notify_all(); }
+
+  [[nodiscard]] Pace pace() const;
+  [[nodiscard]] core::Nanoseconds now_ns() const noexcept {
+    return now_ns_.load(std::memory_order_relaxed);
+  }
+  // What is broken by hand at present, in words, and why the last command came to nothing.
+  [[nodiscard]] std::vector<std::string> broken() const;
+  [[nodiscard]] std::string take_trouble();
+
+  // ---- on the bench's thread ----
+  [[nodiscard]] std::span<const HandAct> at(core::Nanoseconds now_ns,
+                                            LockstepBench& bench) override;
+  [[nodiscard]] bool holds() const override { return holds_; }
+  // Both when the run is over.
+  [[nodiscard]] const std::vector<HandAct>& done() const override { return done_; }
+  [[nodiscard]] const FaultPlan& broke() const override { return broke_; }
+
+ private:
+  using HostClock = std::chrono::steady_clock;
+  struct Command {
+    HandAct::Kind kind = HandAct::Kind::kClock;
+    std::string text;
+    std::optional<Fault> fault;
+  };
+
+  void give(Command command);
+  void carry_out(const Command& command, core::Nanoseconds now_ns, LockstepBench& bench);
+  [[nodiscard]] std::string make_broken(const Fault& fault, LockstepBench& bench);
+  [[nodiscard]] std::string make_mended(const Fault& fault, LockstepBench& bench);
+  [[nodiscard]] Injection injection_of(const Fault& fault) const;
+  void note(HandAct::Kind kind, std::string text);
+  // Until when the pace says to wait; none: not at all.
+  [[nodiscard]] std::optional<HostClock::time_point> due(core::Nanoseconds now_ns);
+
+  const ExperimentFixture& fixture_;
+  std::uint64_t seed_;
+  const bool holds_;
+  const std::atomic<bool>& stop_;
+  std::atomic<core::Nanoseconds> now_ns_{0};
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Command> commands_;
+  Pace pace_;
+  core::Nanoseconds step_until_ns_ = -1;
+  HostClock::time_point anchor_host_{};
+  core::Nanoseconds anchor_ns_ = -1;  // none: to be taken at the next exchange
+  std::string trouble_;
+
+  std::vector<HandAct> done_;
+  std::size_t told_ = 0;  // acts of done_ that the loop has had
+  FaultPlan broke_;
+};
+
+}  // namespace towbench::harness

@@ -1,0 +1,41 @@
+// What the panel's page is told, as JSON: frames of a run under way, what there is to choose from,
+// what runs there are.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "harness/panel/session.h"
+
+namespace towbench::harness {
+
+// Everything that has come since the last call. The rows of a frame are thinned to `kMostRows`, by
+// buckets of time: each bucket's last row and the one with the largest tracking error.
+class FrameMaker {
+ public:
+  static constexpr std::size_t kMostRows = 240;
+
+  explicit FrameMaker(Session& session) : session_(session) {}
+
+  // Empty when nothing has changed.
+  [[nodiscard]] std::string next();
+  // The state of things for somebody who has just come.
+  [[nodiscard]] std::string greeting();
+
+ private:
+  [[nodiscard]] std::string state_text();
+  [[nodiscard]] std::string rows_text();
+  [[nodiscard]] std::string truths_text();
+
+  Session& session_;
+  std::string last_state_;
+};
+
+// Experiments with their console lines, fault kinds with their parameters, BBMC's commands with
+// their ranges.
+[[nodiscard]] std::string catalogue_json();
+
+// Run folders and campaigns below `runs`, the youngest first.
+[[nodiscard]] std::string folders_json(const std::filesystem::path& runs);
+
+}  // namespace towbench::harness

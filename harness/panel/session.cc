@@ -1,0 +1,150 @@
+#include "harness/panel/session.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "harness/commands/fixture_paths.h"
+#include "harness/experiment/experiment_toml.h"
+#include "harness/faults/fault_text.h"
+#include "harness/faults/faulted_experiment.h"
+#include "harness/fixtures/canonical_hash.h"
+#include "harness/report/report.h"
+
+namespace towbench::harness {
+namespace {
+
+constexpr double kLongestRun_s = 86'400.0;
+
+// What the panel changed is the experiment's text from now on: the folder's copy replays it.
+void change(ExperimentFixture& fixture, const SessionStart& wanted) {
+  auto& experiment = fixture.experiment;
+  bool changed = false;
+  for (const auto& [index, line] : wanted.lines) {
+    if (index >= experiment.console.size()) {
+      throw FixtureError({.file = "panel", .key = "lines"}, std::to_string(index),
+                         fmt::format("a line below {}", experiment.console.size()));
+    }
+    changed = changed || experiment.console[index].send != line;
+    experiment.console[index].send = line;
+  }
+  // Budgets are of the experiment as its file has it.
+  experiment.budgets_apply = experiment.budgets_apply && !changed;
+  if (wanted.duration_limit_s) {
+    if (!(*wanted.duration_limit_s > 0 && *wanted.duration_limit_s <= kLongestRun_s)) {
+      throw FixtureError({.file = "panel", .key = "duration_limit_s"},
+                         fmt::format("{}", *wanted.duration_limit_s), "0 < x <= 86400");
+    }
+    experiment.duration_limit_s = *wanted.duration_limit_s;
+  }
+  experiment.hand = {{.text = "by hand"}};
+  if (changed) {
+    experiment.hand.push_back({.kind = HandAct::Kind::kChanged, .text = "lines of the script"});
+  }
+  if (wanted.holds) {
+    experiment.hand.push_back({.kind = HandAct::Kind::kHolds, .text = "goes on after its script"});
+  }
+  fixture.sources.front().text = to_toml(fixture);
+  CanonicalHash hash;
+  hash.add(fixture.sources.front().text);
+  fixture.hash = hash.value();
+}
+
+std::string first_trouble(const Judgement& judgement) {
+  for (const auto& check : judgement.checks) {
+    if (check.verdict != Verdict::kPass) {
+      return check.name + (check.reason.empty() ? "" : ": " + check.reason);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+void Session::start(const SessionStart& wanted) {
+  if (const auto phase = state().phase; phase == Phase::kRunning || phase == Phase::kJudging) {
+    throw FixtureError({.file = "panel"}, "a second run", "one at a time: finish the first");
+  }
+  auto fixture =
+      std::make_unique<ExperimentFixture>(load_experiment(find_experiment(wanted.experiment)));
+  FaultPlan plan;
+  for (const auto& words : wanted.faults) {
+    plan.push_back(parse_fault(words));
+  }
+  add_faults(*fixture, plan);
+  change(*fixture, wanted);
+  const auto seed = wanted.seed.value_or(fixture->experiment.seed);
+  cut_short();  // joins the thread of the last one
+  hand_.reset();
+  fixture_ = std::move(fixture);
+  tap_.clear();
+  stop_ = false;
+  hand_ = std::make_unique<LiveHand>(*fixture_, seed, wanted.pace, wanted.holds, stop_);
+  {
+    const std::lock_guard lock(mutex_);
+    state_ = {.phase = Phase::kRunning,
+              .number = state_.number + 1,
+              .name = fixture_->experiment.name,
+              .title = fixture_->experiment.title};
+  }
+  thread_ = std::thread([this, seed] { run(seed); });
+}
+
+void Session::run(std::uint64_t seed) {
+  State over = state();
+  over.phase = Phase::kOver;
+  try {
+    RunOptions options;
+    options.out = runs_;
+    options.seed = seed;
+    options.hand = hand_.get();
+    options.tap = &tap_;
+    options.watchers.stop = &stop_;
+    const auto result = run_experiment(*fixture_, options);
+    set(Phase::kJudging);
+    const auto written = write_report(result.folder);
+    over.folder = result.folder.filename().string();
+    over.verdict = result.complete ? std::string(name_of(result.judgement.verdict)) : "";
+    over.reason = result.complete ? first_trouble(result.judgement) : result.reason;
+    if (!written) {
+      over.reason += (over.reason.empty() ? "no report: " : "; no report: ") + written.error();
+    }
+  } catch (const std::exception& error) {
+    over.reason = error.what();
+  }
+  const std::lock_guard lock(mutex_);
+  state_ = over;
+}
+
+void Session::set(Phase phase) {
+  const std::lock_guard lock(mutex_);
+  state_.phase = phase;
+}
+
+void Session::cut_short() {
+  stop_ = true;
+  if (hand_ != nullptr) {
+    hand_->wake();
+  }
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+}
+
+Session::State Session::state() const {
+  const std::lock_guard lock(mutex_);
+  return state_;
+}
+
+LiveHand* Session::hand_if_running() noexcept {
+  return state().phase == Phase::kRunning ? hand_.get() : nullptr;
+}
+
+LiveHand& Session::hand() {
+  if (auto* const hand = hand_if_running()) {
+    return *hand;
+  }
+  throw FixtureError({.file = "panel"}, "a command to a run", "a run under way; there is none");
+}
+
+}  // namespace towbench::harness

@@ -1,0 +1,79 @@
+// One run at a time, on a thread of its own, as the panel starts it.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "harness/bench/experiment_run.h"
+#include "harness/panel/live_hand.h"
+#include "harness/panel/live_tap.h"
+
+namespace towbench::harness {
+
+struct SessionStart {
+  std::string experiment;  // name or path, as on the command line
+  std::vector<std::pair<std::size_t, std::string>> lines{};  // instead of the script's, by index
+  std::vector<std::string> faults{};                         // in words
+  std::optional<std::uint64_t> seed{};
+  std::optional<double> duration_limit_s{};
+  LiveHand::Pace pace{};
+  bool holds = false;  // goes on after its script until finished by hand
+};
+
+class Session {
+ public:
+  enum class Phase : std::uint8_t { kIdle, kRunning, kJudging, kOver };
+  struct State {
+    Phase phase = Phase::kIdle;
+    std::uint64_t number = 0;  // of the run since the panel started
+    std::string name{};
+    std::string title{};
+    std::string folder{};   // below the runs' folder; of a run that is over
+    std::string verdict{};  // PASS, FAIL, INVALID, or empty
+    std::string reason{};   // why there is none, or the first check that did not hold
+  };
+
+  // Run folders come below `runs`.
+  explicit Session(std::filesystem::path runs) : runs_(std::move(runs)) {}
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+  ~Session() { cut_short(); }
+
+  // Throws FixtureError when a run is under way or the fixtures will not do.
+  void start(const SessionStart& wanted);
+  // The run ends at once and stays incomplete. Returns when it has.
+  void cut_short();
+
+  [[nodiscard]] State state() const;
+  [[nodiscard]] LiveTap& tap() noexcept { return tap_; }
+  // Of the run under way. Throws FixtureError when there is none.
+  [[nodiscard]] LiveHand& hand();
+  // Null when none is under way.
+  [[nodiscard]] LiveHand* hand_if_running() noexcept;
+  // Of the last run started; null before.
+  [[nodiscard]] const ExperimentFixture* fixture() const noexcept { return fixture_.get(); }
+  [[nodiscard]] const std::filesystem::path& runs() const noexcept { return runs_; }
+
+ private:
+  void run(std::uint64_t seed);
+  void set(Phase phase);
+
+  std::filesystem::path runs_;
+  LiveTap tap_;
+  std::unique_ptr<ExperimentFixture> fixture_;
+  std::unique_ptr<LiveHand> hand_;
+  std::atomic<bool> stop_{false};
+  mutable std::mutex mutex_;
+  State state_;
+  std::thread thread_;
+};
+
+}  // namespace towbench::harness

@@ -1,0 +1,28 @@
+// Somebody who looks on while a run is recorded. Called on the bench's own thread: takes a copy and
+// returns; what it cannot take it loses, the record does not.
+#pragma once
+
+#include <string_view>
+
+#include "bbmc/host/controller_node.h"
+#include "core/time.h"
+#include "emulator/plant_node.h"
+
+namespace towbench::harness {
+
+class RunTap {
+ public:
+  RunTap() = default;
+  RunTap(const RunTap&) = delete;
+  RunTap& operator=(const RunTap&) = delete;
+  virtual ~RunTap() = default;
+
+  virtual void row(const bbmc::TelemetryRow& row) noexcept = 0;
+  virtual void truth(const emulator::TruthRow& row) noexcept = 0;
+  virtual void exchange(core::Nanoseconds took_ns) noexcept = 0;
+  // A line of events.jsonl, and what the console printed.
+  virtual void event(std::string_view line) noexcept = 0;
+  virtual void console(std::string_view text) noexcept = 0;
+};
+
+}  // namespace towbench::harness

@@ -1,0 +1,54 @@
+// The path in the plane: reference and motor side, equal scales.
+import { element } from "../dom";
+import { currentTheme, dashes, type LineRole } from "../theme";
+
+const height = 220;
+
+export class Path {
+  readonly box = element("figure");
+  private readonly canvas = element("canvas");
+
+  constructor() {
+    const caption = element("figcaption");
+    caption.append(element("strong", "", "X-Y path: reference dashed, motor side solid"));
+    this.box.append(caption, this.canvas);
+  }
+
+  show(columns: (number | null)[][], yReference: number, yPosition: number, xReference: number, xPosition: number): void {
+    const width = this.box.clientWidth || 320;
+    const density = devicePixelRatio || 1;
+    this.canvas.width = width * density;
+    this.canvas.height = height * density;
+    this.canvas.style.width = `${width}px`;
+    this.canvas.style.height = `${height}px`;
+    const pen = this.canvas.getContext("2d");
+    if (pen === null) return;
+    pen.scale(density, density);
+    const pairs: [number, number, LineRole][] = [
+      [yReference, xReference, "reference"],
+      [yPosition, xPosition, "measured"],
+    ];
+    const finite = (column: number) => (columns[column] ?? []).filter((v): v is number => v !== null);
+    const ys = [...finite(yReference), ...finite(yPosition)];
+    const xs = [...finite(xReference), ...finite(xPosition)];
+    if (ys.length === 0) return;
+    const [yLow, yHigh, xLow, xHigh] = [least(ys), most(ys), least(xs), most(xs)];
+    const scale = Math.min((width - 24) / (yHigh - yLow || 1e-3), (height - 24) / (xHigh - xLow || 1e-3));
+    const right = (v: number) => width / 2 + (v - (yLow + yHigh) / 2) * scale;
+    const down = (v: number) => height / 2 - (v - (xLow + xHigh) / 2) * scale;
+    for (const [y, x, role] of pairs) {
+      pen.beginPath();
+      pen.strokeStyle = currentTheme().line[role];
+      pen.setLineDash(dashes[role]);
+      pen.lineWidth = 1.5;
+      columns[y]!.forEach((value, i) => {
+        const other = columns[x]![i];
+        if (value !== null && other != null) pen.lineTo(right(value), down(other));
+      });
+      pen.stroke();
+    }
+  }
+}
+
+const least = (values: number[]) => values.reduce((a, b) => Math.min(a, b), Infinity);
+const most = (values: number[]) => values.reduce((a, b) => Math.max(a, b), -Infinity);

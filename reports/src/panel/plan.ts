@@ -1,0 +1,122 @@
+// The tank from above: carriage and end-effector where they truly are, the reference as a ring, the
+// chain's force as an arrow, end-stops and hard ends.
+import type { AxisLimits } from "./wire";
+
+const svgNs = "http://www.w3.org/2000/svg";
+const width = 640;
+const margin = 34;
+const pixelsPerNewton = 0.6;
+
+function shape(tag: string, attributes: Record<string, number | string>): SVGElement {
+  const made = document.createElementNS(svgNs, tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
+  return made;
+}
+
+export interface PlanPose {
+  y_m: number;
+  x_m: number;
+  yReference_m: number;
+  xReference_m: number;
+  yForce_N: number;
+  xForce_N: number;
+  lines: number; // hall Y min, Y max, X min, X max by bit
+}
+
+export class Plan {
+  readonly svg = document.createElementNS(svgNs, "svg");
+  private scale = 1;
+  private height = 100;
+  private limits: { y: AxisLimits; x: AxisLimits } | null = null;
+  private readonly beam = shape("rect", { class: "beam", width: 14 });
+  private readonly effector = shape("circle", { class: "effector", r: 7 });
+  private readonly aim = shape("circle", { class: "aim", r: 11 });
+  private readonly forces = [shape("line", { class: "force" }), shape("line", { class: "force" })];
+  private halls: SVGElement[] = [];
+
+  constructor() {
+    this.svg.setAttribute("class", "plan");
+    this.svg.setAttribute("role", "img");
+    this.svg.setAttribute("aria-label", "Plan view of the tank");
+  }
+
+  setLimits(limits: { y: AxisLimits; x: AxisLimits }): void {
+    const key = JSON.stringify(limits);
+    if (this.limits !== null && JSON.stringify(this.limits) === key) return;
+    this.limits = limits;
+    this.draw(limits);
+  }
+
+  private right(y_m: number): number {
+    return margin + (y_m - this.limits!.y.hard_min_m) * this.scale;
+  }
+
+  private down(x_m: number): number {
+    return this.height - margin - (x_m - this.limits!.x.hard_min_m) * this.scale;
+  }
+
+  private draw(limits: { y: AxisLimits; x: AxisLimits }): void {
+    const long = limits.y.hard_max_m - limits.y.hard_min_m || 1;
+    const across = limits.x.exists ? limits.x.hard_max_m - limits.x.hard_min_m : long / 8;
+    this.scale = (width - 2 * margin) / long;
+    this.height = across * this.scale + 2 * margin;
+    this.svg.setAttribute("viewBox", `0 0 ${width} ${this.height.toFixed(0)}`);
+    const left = this.right(limits.y.hard_min_m);
+    const right = this.right(limits.y.hard_max_m);
+    const top = margin;
+    const bottom = this.height - margin;
+    this.halls = [
+      this.vertical("hall", limits.y.hall_min_m, top, bottom),
+      this.vertical("hall", limits.y.hall_max_m, top, bottom),
+      this.horizontal("hall", limits.x.hall_min_m, left, right),
+      this.horizontal("hall", limits.x.hall_max_m, left, right),
+    ];
+    const caption = shape("text", { x: margin, y: this.height - 8 });
+    caption.textContent = "Y to the right, X up; dashed: end-stops; ring: reference; dot: end-effector; bar: carriage";
+    this.beam.setAttribute("y", String(top));
+    this.beam.setAttribute("height", String(bottom - top));
+    this.svg.replaceChildren(
+      shape("rect", { class: "wall", x: left, y: top, width: right - left, height: bottom - top }),
+      ...this.halls,
+      this.beam,
+      this.aim,
+      ...this.forces,
+      this.effector,
+      caption,
+    );
+  }
+
+  private vertical(name: string, y_m: number, top: number, bottom: number): SVGElement {
+    const x = this.right(y_m);
+    return shape("line", { class: name, x1: x, x2: x, y1: top, y2: bottom });
+  }
+
+  private horizontal(name: string, x_m: number, left: number, right: number): SVGElement {
+    const y = this.down(x_m);
+    return shape("line", { class: name, x1: left, x2: right, y1: y, y2: y });
+  }
+
+  show(pose: PlanPose): void {
+    if (this.limits === null) return;
+    const x = this.right(pose.y_m);
+    const y = this.down(pose.x_m);
+    this.beam.setAttribute("x", String(x - 7));
+    this.effector.setAttribute("cx", String(x));
+    this.effector.setAttribute("cy", String(y));
+    this.aim.setAttribute("cx", String(this.right(pose.yReference_m)));
+    this.aim.setAttribute("cy", String(this.down(pose.xReference_m)));
+    const ends = [
+      [x + pose.yForce_N * pixelsPerNewton, y],
+      [x, y - pose.xForce_N * pixelsPerNewton],
+    ];
+    this.forces.forEach((line, i) => {
+      line.setAttribute("x1", String(x));
+      line.setAttribute("y1", String(y));
+      line.setAttribute("x2", String(ends[i]![0]));
+      line.setAttribute("y2", String(ends[i]![1]));
+    });
+    this.halls.forEach((hall, bit) =>
+      hall.setAttribute("class", (pose.lines >> bit) & 1 ? "hall tripped" : "hall"),
+    );
+  }
+}

@@ -1,0 +1,162 @@
+// The hand on the run: its pace, the kill switch, the end-stops, any fault, its end.
+import { element } from "../dom";
+import type { Catalogue, FaultKind } from "./catalogue";
+import { button, labelled, select, setOptions, textField } from "./form";
+import { speedSelect } from "./start_form";
+import type { State } from "./wire";
+
+type Send = (message: Record<string, unknown>) => void;
+
+const killFault = "kill_switch pressed";
+const endStops = ["y_min", "y_max", "x_min", "x_max"];
+
+export class SteeringBar {
+  readonly box = element("section");
+  private readonly pauseButton = button("Pause", () => this.togglePause());
+  private readonly step = select([
+    ["1", "1 ms"],
+    ["10", "10 ms"],
+    ["100", "100 ms"],
+    ["1000", "1 s"],
+  ]);
+  private readonly speed = speedSelect();
+  private readonly kill = button("KILL (K)", () => this.toggleKill(), "kill");
+  private readonly stops: HTMLButtonElement[];
+  private readonly place = select([]);
+  private readonly kind = select([]);
+  private readonly parameters = textField();
+  private readonly meaning = element("p", "help");
+  private readonly all: (HTMLButtonElement | HTMLSelectElement | HTMLInputElement)[];
+  private catalogue: Catalogue | null = null;
+  private state: State | null = null;
+
+  constructor(private readonly send: Send) {
+    this.kill.id = "kill";
+    this.step.id = "step-length";
+    this.stops = endStops.map((name) => button(`End-stop ${name.replace("_", " ")}`, () => this.toggleStop(name)));
+    this.speed.addEventListener("change", () => send({ do: "speed", speed: Number(this.speed.value) }));
+    const stepButton = button("Step (S)", () => this.stepOnce());
+    const finish = button("Finish", () => send({ do: "finish" }));
+    finish.id = "finish";
+    const cut = button("Cut short", () => send({ do: "cut" }));
+    const breakButton = button("Break it", () => send({ do: "break", fault: this.words() }));
+    const mend = button("Mend", () => send({ do: "mend", fault: `${this.place.value} ${this.kind.value}` }));
+    const first = element("div", "bar-row");
+    first.append(
+      this.kill,
+      this.pauseButton,
+      stepButton,
+      labelled("Step", this.step),
+      labelled("Speed", this.speed),
+      element("span", "gap"),
+      finish,
+      cut,
+    );
+    const second = element("div", "bar-row");
+    second.append(
+      ...this.stops,
+      element("span", "gap"),
+      labelled("Part", this.place),
+      labelled("Fault", this.kind),
+      labelled("Parameters", this.parameters),
+      breakButton,
+      mend,
+    );
+    this.box.append(first, second, this.meaning);
+    this.place.addEventListener("change", () => this.showKinds());
+    this.kind.addEventListener("change", () => this.showParameters());
+    this.all = [this.kill, this.pauseButton, stepButton, finish, cut, breakButton, mend, this.speed, this.step, ...this.stops];
+    document.addEventListener("keydown", (event) => this.onKey(event));
+  }
+
+  setCatalogue(catalogue: Catalogue): void {
+    this.catalogue = catalogue;
+    setOptions(this.place, catalogue.places.map(({ name }) => [name, name]));
+    this.showKinds();
+  }
+
+  show(state: State): void {
+    this.state = state;
+    const running = state.phase === "running";
+    for (const field of this.all) field.disabled = !running;
+    this.pauseButton.textContent = state.paused ? "Go on (space)" : "Pause (space)";
+    const pressed = this.isBroken(killFault);
+    this.kill.setAttribute("aria-pressed", String(pressed));
+    this.kill.textContent = pressed ? "Release kill (K)" : "KILL (K)";
+    this.stops.forEach((one, i) => {
+      const held = this.isBroken(stopFault(endStops[i]!));
+      one.setAttribute("aria-pressed", String(held));
+      one.textContent = `${held ? "Release" : "Trip"} ${endStops[i]!.replace("_", " ")}`;
+    });
+    if (running && state.speed !== undefined && document.activeElement !== this.speed) {
+      this.speed.value = String(state.speed);
+    }
+  }
+
+  private isBroken(words: string): boolean {
+    return this.state?.broken?.includes(words) ?? false;
+  }
+
+  private toggle(words: string): void {
+    this.send({ do: this.isBroken(words) ? "mend" : "break", fault: words });
+  }
+
+  private toggleKill(): void {
+    this.toggle(killFault);
+  }
+
+  private toggleStop(name: string): void {
+    this.toggle(stopFault(name));
+  }
+
+  private togglePause(): void {
+    this.send({ do: this.state?.paused ? "resume" : "pause" });
+  }
+
+  private stepOnce(): void {
+    this.send({ do: "step", ms: Number(this.step.value) });
+  }
+
+  private kinds(): FaultKind[] {
+    const part = this.catalogue?.places.find((one) => one.name === this.place.value)?.part;
+    return this.catalogue?.faults.filter((one) => one.part === part && one.refused === "") ?? [];
+  }
+
+  private showKinds(): void {
+    setOptions(
+      this.kind,
+      this.kinds().map((one) => [one.kind, one.built_in ? `${one.kind} (before the start)` : one.kind]),
+    );
+    this.showParameters();
+  }
+
+  private showParameters(): void {
+    const kind = this.kinds().find((one) => one.kind === this.kind.value);
+    this.parameters.value = (kind?.parameters ?? []).map((one) => `${one.key}=${one.standard}`).join(" ");
+    const ranges = (kind?.parameters ?? []).map((one) => `${one.key} ${one.min} to ${one.max}`).join("; ");
+    this.meaning.textContent = kind === undefined ? "" : `${kind.kind}: ${kind.meaning}${ranges === "" ? "" : `; ${ranges}`}`;
+  }
+
+  private words(): string {
+    return `${this.place.value} ${this.kind.value} ${this.parameters.value}`.trim();
+  }
+
+  private onKey(event: KeyboardEvent): void {
+    const target = event.target as HTMLElement;
+    const typing = ["INPUT", "SELECT", "TEXTAREA"].includes(target.tagName);
+    if (typing || event.ctrlKey || event.metaKey || event.altKey || this.state?.phase !== "running") return;
+    const actions: Record<string, () => void> = {
+      k: () => this.toggleKill(),
+      " ": () => this.togglePause(),
+      s: () => this.stepOnce(),
+    };
+    const action = actions[event.key.toLowerCase()];
+    if (action === undefined) return;
+    event.preventDefault();
+    action();
+  }
+}
+
+function stopFault(name: string): string {
+  return `endstop.${name} stuck_closed`;
+}
