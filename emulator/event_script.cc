@@ -67,9 +67,10 @@ namespace {
 
 void EventScript::add(const ScheduledEvent& event) {
   const auto to_come = events_.begin() + static_cast<std::ptrdiff_t>(next_);
-  events_.insert(std::upper_bound(to_come, events_.end(), event,
-                                  [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; }),
-                 event);
+  events_.insert(
+      std::upper_bound(to_come, events_.end(), event,
+                       [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; }),
+      event);
 }
 
 void EventScript::fire_due(Rig& rig, PlantObserver& observer) noexcept {

@@ -16,8 +16,7 @@ void set_text(ExperimentFixture& fixture) {
 }  // namespace
 
 ExperimentFixture as_driven(const ExperimentFixture& fixture,
-                            const std::vector<core::Nanoseconds>& onsets_ns,
-                            const FreeHand& hand) {
+                            const std::vector<core::Nanoseconds>& onsets_ns, const FreeHand& hand) {
   ExperimentFixture driven = fixture;
   if (hand.done().empty()) {
     return driven;

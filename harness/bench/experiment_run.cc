@@ -79,9 +79,8 @@ class Run {
  private:
   // From here on the experiment is the one that was driven, with what was broken by hand.
   void take_over_what_was_done() {
-    auto driven =
-        as_driven(given_, faults_ ? faults_->onsets_ns() : std::vector<core::Nanoseconds>{},
-                  *options_.hand);
+    auto driven = as_driven(
+        given_, faults_ ? faults_->onsets_ns() : std::vector<core::Nanoseconds>{}, *options_.hand);
     if (driven.experiment.hand.empty()) {
       return;
     }
@@ -218,7 +217,7 @@ class Run {
   }
 
   std::unique_ptr<FaultedExperiment> faults_;  // null: a sound machine
-  ExperimentFixture given_;  // with a hand: before anything was planned or done
+  ExperimentFixture given_;                    // with a hand: before anything was planned or done
   ExperimentFixture fixture_;
   const RunOptions& options_;
   RunIdentity identity_;

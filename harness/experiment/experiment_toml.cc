@@ -17,8 +17,7 @@ std::string number(double value) {
 
 // A basic string of TOML: JSON escapes the same letters in the same way, but for one.
 std::string quoted(const std::string& text) {
-  auto made =
-      nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  auto made = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   for (auto at = made.find('\x7f'); at != std::string::npos; at = made.find('\x7f')) {
     made.replace(at, 1, "\\u007F");
   }
@@ -53,9 +52,9 @@ std::string hand_toml(const HandAct& act) {
 
 std::string window_toml(const EvaluationWindow& window) {
   const bool run = window.origin == EvaluationWindow::Origin::kRun;
-  return fmt::format(
-      "\n[[window]]\nname = {}\nrelative_to = \"{}\"\nfrom_s = {}\nto_s = {}\n",
-      quoted(window.name), run ? "run" : "motion", number(window.from_s), number(window.to_s));
+  return fmt::format("\n[[window]]\nname = {}\nrelative_to = \"{}\"\nfrom_s = {}\nto_s = {}\n",
+                     quoted(window.name), run ? "run" : "motion", number(window.from_s),
+                     number(window.to_s));
 }
 
 std::string budget_toml(const Budget& budget) {

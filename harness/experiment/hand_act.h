@@ -23,7 +23,7 @@ struct HandAct {
   [[nodiscard]] bool disturbs() const noexcept { return kind < Kind::kClock; }
 };
 
-inline constexpr std::string_view kHandActNames[] = {"typed", "fault", "mended", "changed",
+inline constexpr std::string_view kHandActNames[] = {"typed", "fault", "mended",  "changed",
                                                      "clock", "holds", "finished"};
 [[nodiscard]] inline std::string_view name_of(HandAct::Kind kind) noexcept {
   return kHandActNames[static_cast<std::size_t>(kind)];

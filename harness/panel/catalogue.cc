@@ -60,12 +60,9 @@ json commands_json() {
 json faults_json() {
   auto faults = json::array();
   for (const auto& row : fault_catalogue()) {
-    json object = {{"part", name_of(row.part)},
-                   {"kind", row.name},
-                   {"meaning", row.meaning},
-                   {"built_in", row.start == FaultStart::kWholeRun},
-                   {"refused", row.refused},
-                   {"parameters", json::array()}};
+    json object = {{"part", name_of(row.part)}, {"kind", row.name},
+                   {"meaning", row.meaning},    {"built_in", row.start == FaultStart::kWholeRun},
+                   {"refused", row.refused},    {"parameters", json::array()}};
     for (const auto& parameter : row.parameters) {
       if (!parameter.key.empty()) {
         object["parameters"].push_back({{"key", parameter.key},

@@ -141,8 +141,7 @@ std::string FrameMaker::next() {
   const auto events = session_.tap().take_events();
   const auto console = session_.tap().take_console();
   const auto state = state_text();
-  if (rows.empty() && truths.empty() && events.empty() && console.empty() &&
-      state == last_state_) {
+  if (rows.empty() && truths.empty() && events.empty() && console.empty() && state == last_state_) {
     return {};
   }
   last_state_ = state;
@@ -155,8 +154,7 @@ std::string FrameMaker::next() {
   }
   return fmt::format(
       R"({{"kind":"frame","state":{},"rows":[{}],"truth":[{}],"events":[{}],"console":{}}})", state,
-      rows, truths, lines,
-      json(console).dump(-1, ' ', true, json::error_handler_t::replace));
+      rows, truths, lines, json(console).dump(-1, ' ', true, json::error_handler_t::replace));
 }
 
 std::string FrameMaker::greeting() {

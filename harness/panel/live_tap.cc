@@ -27,8 +27,8 @@ void LiveTap::truth(const emulator::TruthRow& row) noexcept {
 }
 
 void LiveTap::exchange(core::Nanoseconds took_ns) noexcept {
-  const auto microseconds = static_cast<std::uint64_t>(std::max<core::Nanoseconds>(took_ns, 0)) /
-                            1000U;
+  const auto microseconds =
+      static_cast<std::uint64_t>(std::max<core::Nanoseconds>(took_ns, 0)) / 1000U;
   const auto bin = static_cast<std::size_t>(std::bit_width(microseconds));
   count(exchange_times_[std::min(bin, kBins - 1)]);
 }

@@ -19,7 +19,7 @@
 namespace towbench::harness {
 
 struct SessionStart {
-  std::string experiment;  // name or path, as on the command line
+  std::string experiment;                                    // name or path, as on the command line
   std::vector<std::pair<std::size_t, std::string>> lines{};  // instead of the script's, by index
   std::vector<std::string> faults{};                         // in words
   std::optional<std::uint64_t> seed{};

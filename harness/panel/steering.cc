@@ -23,8 +23,8 @@ FixtureError bad(const std::string& key, const std::string& given, const std::st
 
 double number(const json& message, const char* key, double min, double max) {
   const auto found = message.find(key);
-  const bool good = found != message.end() && found->is_number() &&
-                    found->get<double>() >= min && found->get<double>() <= max;
+  const bool good = found != message.end() && found->is_number() && found->get<double>() >= min &&
+                    found->get<double>() <= max;
   if (!good) {
     throw bad(key, found == message.end() ? "nothing" : found->dump(),
               fmt::format("{} <= x <= {}", min, max));
@@ -112,8 +112,7 @@ void carry_out(Session& session, const json& message) {
     const auto fault = any_fault_of(message);
     session.hand().mend(fault.place, fault.kind);
   } else {
-    throw bad("do", '"' + what + '"',
-              "start cut finish pause resume step speed type break mend");
+    throw bad("do", '"' + what + '"', "start cut finish pause resume step speed type break mend");
   }
 }
 

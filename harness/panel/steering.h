@@ -11,7 +11,8 @@ namespace towbench::harness {
 // Carries it out. Empty, or a sentence for the person who asked: not understood, out of range, not
 // possible now. Never throws.
 //
-//   start {experiment, lines: [[index, text]...], faults: [words...], seed, duration_limit_s, speed,
+//   start {experiment, lines: [[index, text]...], faults: [words...], seed, duration_limit_s,
+//   speed,
 //          paused, hold} | cut | finish | pause | resume | step {ms} | speed {speed} | type {text}
 //   break {fault: "PART KIND [parameters]"} | mend {fault: "PART KIND"}
 [[nodiscard]] std::string steer(Session& session, std::string_view message) noexcept;

@@ -21,8 +21,8 @@ void WebClient::open(const Request& request, std::string greeting) {
   patience.keep_alive_pings = true;
   socket_.set_option(patience);
   socket_.read_message_max(kLongestMessage);
-  socket_.async_accept(request, [self = shared_from_this(), text = std::move(greeting)](
-                                    beast::error_code error) mutable {
+  socket_.async_accept(request, [self = shared_from_this(),
+                                 text = std::move(greeting)](beast::error_code error) mutable {
     if (error) {
       self->end();
       return;

@@ -29,11 +29,10 @@ std::string_view cookie_in(std::string_view header) {
 // Letters, digits, '.', '_' and '-', not beginning with '.': no way up, none to hidden files, and
 // nothing that would have to be unescaped.
 bool is_plain_name(std::string_view name) {
-  return !name.empty() && name.front() != '.' &&
-         std::all_of(name.begin(), name.end(), [](char c) {
-           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                  c == '.' || c == '_' || c == '-';
-         });
+  return !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+           c == '_' || c == '-';
+  });
 }
 
 std::optional<std::string_view> type_of(const fs::path& file) {
@@ -111,8 +110,7 @@ WebAnswer WebRoutes::answer(const WebRequest& request) {
     return {.type = "application/json", .body = folders_json(runs_)};
   }
   constexpr std::string_view kRuns = "/runs/";
-  return path.starts_with(kRuns) ? file_below_runs(path.substr(kRuns.size()))
-                                 : page_or_asset(path);
+  return path.starts_with(kRuns) ? file_below_runs(path.substr(kRuns.size())) : page_or_asset(path);
 }
 
 WebAnswer WebRoutes::page_or_asset(std::string_view path) const {

@@ -143,8 +143,7 @@ class WebServer::Implementation {
 // One request and its answer.
 class WebServer::Implementation::Exchange : public std::enable_shared_from_this<Exchange> {
  public:
-  Exchange(tcp::socket socket, Implementation& owner)
-      : owner_(owner), stream_(std::move(socket)) {
+  Exchange(tcp::socket socket, Implementation& owner) : owner_(owner), stream_(std::move(socket)) {
     ++owner_.connections_;
   }
   Exchange(const Exchange&) = delete;

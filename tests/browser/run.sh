@@ -10,18 +10,8 @@ work=$1
 shots=$2
 shift 2
 
-browser=
-for candidate in "${CHROMIUM:-}" /usr/bin/chromium /usr/bin/chromium-browser; do
-  if [ -n "$candidate" ] && [ -x "$candidate" ]; then
-    browser=$candidate
-    break
-  fi
-done
-if [ -z "$browser" ]; then
-  echo "no Chromium found (Debian package: chromium; or set CHROMIUM to its path)" >&2
-  [ "${TOWBENCH_ALLOW_NO_BROWSER:-0}" = 1 ] && exit 99
-  exit 1
-fi
+browser=$(sh "$(dirname "$0")/find_browser.sh") || exit $?
+export CHROMIUM="$browser"
 
 report=$("$@" | tail -n 1)
 if [ ! -f "$report" ]; then
