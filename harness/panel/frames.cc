@@ -124,11 +124,16 @@ std::string FrameMaker::state_text() {
     auto& limits = object["limits"];
     const auto ends = limits_of(fixture->rig.parameters);
     for (const auto axis : core::kAxes) {
-      limits[std::string(core::name_of(axis))] = {{"exists", ends[axis].exists},
-                                                  {"hall_min_m", ends[axis].hall_min_m},
-                                                  {"hall_max_m", ends[axis].hall_max_m},
-                                                  {"hard_min_m", ends[axis].hard_min_m},
-                                                  {"hard_max_m", ends[axis].hard_max_m}};
+      const auto& believed = fixture->controller.configuration.axes[axis];
+      const double m_per_count = believed.m_per_count();
+      limits[std::string(core::name_of(axis))] = {
+          {"soft_min_m", static_cast<double>(believed.ends.soft_min_count) * m_per_count},
+          {"soft_max_m", static_cast<double>(believed.ends.soft_max_count) * m_per_count},
+          {"exists", ends[axis].exists},
+          {"hall_min_m", ends[axis].hall_min_m},
+          {"hall_max_m", ends[axis].hall_max_m},
+          {"hard_min_m", ends[axis].hard_min_m},
+          {"hard_max_m", ends[axis].hard_max_m}};
     }
     object["exchange_us_bins"] = session_.tap().exchange_times();
   }

@@ -4,10 +4,10 @@
 // those who must not get in.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
-import { mkdirSync, readFileSync, rmSync } from "node:fs";
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { request } from "node:http";
 import { connect } from "node:net";
-import { join } from "node:path";
+import { join, relative } from "node:path";
 
 import { withBrowser } from "./browser.mjs";
 
@@ -74,13 +74,19 @@ async function type(page, line) {
   await page.fill("#console-line", line);
   await page.press("#console-line", "Enter");
 }
+let runsSeen = "";  // number of the run whose result the page shows
 const start = async (page, experiment, speed, options = {}) => {
+  runsSeen = (await page.getAttribute("#result", "data-of")) ?? "";
   await page.selectOption("#experiment", experiment);
   await page.selectOption("#start-speed", speed);
   await page.getByLabel("go on after the script").setChecked(options.hold ?? false);
   await page.click("#start");
 };
-const over = (page) => page.waitForFunction(() => /PASS|FAIL|INVALID|no verdict/.test(document.getElementById("result").textContent));
+const over = (page) =>
+  page.waitForFunction((before) => {
+    const result = document.getElementById("result");
+    return (result.dataset.of ?? "") !== before && /PASS|FAIL|INVALID|no verdict/.test(result.textContent);
+  }, runsSeen);
 const statusOf = (options, socketHeaders = false) =>
   new Promise((done, fail) => {
     const asked = request({ ...options, method: options.method ?? "GET" }, (answer) => {
@@ -233,6 +239,20 @@ await withBrowser(async (context) => {
     await page.locator(".folder-list a").first().click();
     const frame = page.frameLocator("iframe.viewer");
     await frame.locator(".verdict").first().waitFor();
+  });
+
+  await check("a campaign's matrix is shown, and its worst case is one click away", async () => {
+    const file = join(work, "one.toml");
+    const motion = relative(work, join(root, "fixtures", "motions", "trapezoid-y.toml"));
+    const inject = '[[inject]]\nparts = ["kill_switch"]\nkinds = ["pressed"]\nphases = ["cruise"]\nseeds = 2\n';
+    writeFileSync(file, `schema = 1\nname = "one"\ntitle = "One"\nseeds = 1\nmotions = ["${motion}"]\n${inject}`);
+    execFileSync(bench, ["campaign", file, "--out", join(runs, "campaign"), "--quiet"], { cwd: root });
+    await page.getByRole("button", { name: "Look again" }).click();
+    await page.getByRole("link", { name: "campaign", exact: true }).click();
+    await page.locator("article table").first().waitFor();
+    const [report] = await Promise.all([context.waitForEvent("page"), page.locator("article a").first().click({ modifiers: ["Control"] })]);
+    await report.locator(".verdict").first().waitFor();
+    await report.close();
   });
 
   await check("a small window and the dark hold the page", async () => {

@@ -5,6 +5,13 @@ import { compare } from "./compare";
 import { button } from "./form";
 import { rendered } from "./markdown";
 
+// A link of a campaign's matrix: to a kept run's folder, or to a file.
+function addressIn(folder: string, target: string): string | null {
+  if (!/^[\w./-]+$/.test(target) || target.includes("..")) return null;
+  const path = target.replace(/\/$/, "");
+  return `/runs/${folder}/${path}${/\.\w+$/.test(path) ? "" : "/report.html"}`;
+}
+
 export class FoldersView {
   private readonly list = element("section", "folder-list");
   private readonly shown = element("section");
@@ -79,7 +86,7 @@ export class FoldersView {
     if (folder.kind === "campaign") {
       const text = await loadText(`/runs/${folder.name}/matrix.md`);
       this.shown.append(
-        rendered(text, (target) => (/^[\w./-]+$/.test(target) ? `/runs/${folder.name}/${target.replace(/\/$/, "/report.html")}` : null)),
+        rendered(text, (target) => addressIn(folder.name, target)),
       );
       return;
     }

@@ -72,11 +72,19 @@ export class Plan {
       this.horizontal("hall", limits.x.hall_max_m, left, right),
     ];
     const caption = shape("text", { x: margin, y: this.height - 8 });
-    caption.textContent = "Y to the right, X up; dashed: end-stops; ring: reference; dot: end-effector; bar: carriage";
+    caption.textContent = "Y right, X up; dashed: end-stops; shaded: soft limits; ring: reference; dot: end-effector; bar: carriage";
+    const soft = shape("rect", {
+      class: "soft",
+      x: this.right(limits.y.soft_min_m),
+      y: this.down(limits.x.soft_max_m),
+      width: Math.max(0, (limits.y.soft_max_m - limits.y.soft_min_m) * this.scale),
+      height: Math.max(0, (limits.x.soft_max_m - limits.x.soft_min_m) * this.scale),
+    });
     this.beam.setAttribute("y", String(top));
     this.beam.setAttribute("height", String(bottom - top));
     this.svg.replaceChildren(
       shape("rect", { class: "wall", x: left, y: top, width: right - left, height: bottom - top }),
+      soft,
       ...this.halls,
       this.beam,
       this.aim,

@@ -50,6 +50,7 @@ function logSpecs(first: number): ScopeSpec[] {
 
 function truthSpecs(first: number): ScopeSpec[] {
   return [
+    { title: "Carriage speed (truth)", unit: "m/s", lines: [{ label: "speed", role: "truth", of: (c) => c[first + 1]! }] },
     { title: "Motor current (truth)", unit: "A", lines: [{ label: "current", role: "truth", of: (c) => c[first + 2]! }] },
     { title: "Chain force (truth)", unit: "N", lines: [{ label: "force", role: "truth", of: (c) => c[first + 3]! }] },
   ];
@@ -179,9 +180,9 @@ export class RunView {
       this.result.textContent = state.phase === "judging" ? "judging and writing the report" : "";
       return;
     }
+    if (this.result.dataset.of === `${state.number}`) return;
     const verdict = state.verdict === "" ? "no verdict" : state.verdict;
     const words = `${state.name}: ${verdict}${state.reason === "" ? "" : ` (${state.reason})`} `;
-    if (this.result.dataset.of === `${state.number}`) return;
     this.result.dataset.of = `${state.number}`;
     const link = element("a", "", "open the report");
     link.href = `#folders/${state.folder}`;

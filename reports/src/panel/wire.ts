@@ -6,6 +6,8 @@ export interface AxisLimits {
   hall_max_m: number;
   hard_min_m: number;
   hard_max_m: number;
+  soft_min_m: number; // as the controller believes
+  soft_max_m: number;
 }
 
 export interface State {
