@@ -1,0 +1,344 @@
+#include "board/board.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "board/clock_control.h"
+#include "board/control_module.h"
+
+namespace towbench::board {
+namespace {
+
+constexpr std::uint32_t kSelectSlowClock = 2;
+constexpr core::Nanoseconds kLookEvery_ns = core::kNanosecondsPerMillisecond;
+
+struct NamedPlace {
+  const char* name;
+  std::uint32_t address;
+  std::uint32_t size;
+};
+// Known blocks whose registers are kept and do nothing here: what start-up code of a board sets.
+constexpr std::array kKept{
+    NamedPlace{"watchdog", kWatchdogAddress, 0x1000},
+    NamedPlace{"i2c0", 0x44E0'B000, 0x1000},
+    NamedPlace{"rtc", 0x44E3'E000, 0x1000},
+    NamedPlace{"l3 interconnect", 0x4400'0000, 0x1000},
+    NamedPlace{"emif0", 0x4C00'0000, 0x1000},
+};
+
+bool lies_in(const Place& place, std::uint32_t address, std::uint32_t size) noexcept {
+  return address >= place.address && size <= place.size &&
+         address - place.address <= place.size - size;
+}
+
+}  // namespace
+
+Board::Board() {
+  make_peripherals();
+  processor_ =
+      std::make_unique<Processor>(bus_, *aintc_, static_cast<PeripheralBus&>(*this), profile_);
+  for (const Place& place : {kSram, kOcmc, kDdr}) {
+    // Zero pages until they are touched.
+    auto* bytes = static_cast<std::uint8_t*>(std::calloc(place.size, 1));
+    if (bytes == nullptr) {
+      throw std::bad_alloc();
+    }
+    rams_.push_back({place, {bytes, &std::free}});
+    processor_->map_memory(place.address, {bytes, place.size});
+  }
+  for (const Mapped& mapped : mapped_) {
+    processor_->map_peripherals(mapped.address, mapped.block->size());
+  }
+}
+
+Board::~Board() = default;
+
+void Board::map(std::uint32_t address, RegisterBlock& block) {
+  mapped_.push_back({address, &block});
+}
+
+void Board::make_peripherals() {
+  const auto own = [this](auto block) {
+    auto* raw = block.get();
+    owned_.push_back(std::move(block));
+    return raw;
+  };
+  aintc_ = own(std::make_unique<Aintc>(bus_));
+  map(kAintcAddress, *aintc_);
+  const auto wire = [this](unsigned n) {
+    return [this, n](bool raised) { aintc_->set_input(n, raised); };
+  };
+  for (const TimerPlace& place : kTimers) {
+    auto* timer = own(std::make_unique<Dmtimer>(fmt::format("dmtimer{}", place.number), bus_,
+                                                wire(place.interrupt)));
+    timers_[place.number] = timer;
+    map(place.address, *timer);
+  }
+  timers_[0]->set_clock(kSlowOscillator);
+  for (const GpioPlace& place : kGpios) {
+    auto* gpio = own(std::make_unique<Gpio>(fmt::format("gpio{}", place.number), bus_,
+                                            [this, place](unsigned line, bool raised) {
+                                              aintc_->set_input(place.interrupts[line], raised);
+                                            }));
+    gpios_[place.number] = gpio;
+    map(place.address, *gpio);
+  }
+  for (const PwmPlace& place : kPwmSubsystems) {
+    pwm_[place.number] = own(std::make_unique<PwmSubsystem>(
+        place.number, bus_, wire(place.encoder_interrupt), wire(place.pwm_interrupt)));
+    map(place.address, *pwm_[place.number]);
+  }
+  uart_ = own(std::make_unique<Uart>("uart0", bus_, wire(kUart0Interrupt)));
+  map(kUart0Address, *uart_);
+  map(kClockControlAddress,
+      *own(std::make_unique<ClockControl>(bus_, [this](unsigned timer, std::uint32_t select) {
+        timers_[timer]->set_clock(select == kSelectSlowClock ? kSlowOscillator : kMasterOscillator);
+      })));
+  map(kControlModuleAddress,
+      *own(std::make_unique<ControlModule>(bus_, [this](std::uint32_t gates) {
+        for (unsigned n = 0; n < pwm_.size(); ++n) {
+          pwm_[n]->set_gate((gates >> n & 1U) != 0);
+        }
+      })));
+  for (const NamedPlace& place : kKept) {
+    map(place.address, *own(std::make_unique<PlainBlock>(place.name, place.size, bus_)));
+  }
+}
+
+std::string Board::load(ElfImage image) {
+  for (const ElfSegment& segment : image.segments()) {
+    const bool fits = std::any_of(rams_.begin(), rams_.end(), [&](const Ram& ram) {
+      return lies_in(ram.place, segment.address, segment.memory_size);
+    });
+    if (!fits) {
+      return fmt::format(
+          "a segment of {} bytes at 0x{:08x} lies outside the board's memory (0x{:08x} to "
+          "0x{:08x}, and 128 KiB at 0x{:08x})",
+          segment.memory_size, segment.address, kDdr.address, kDdr.address + kDdr.size - 1,
+          kSram.address);
+    }
+  }
+  if (memory(image.entry() & ~1U, 4).empty()) {
+    return fmt::format("its entry point 0x{:08x} is not in memory", image.entry());
+  }
+  image_ = std::move(image);
+  profile_.observe(image_);
+  reset();
+  return {};
+}
+
+std::span<std::uint8_t> Board::memory(std::uint32_t address, std::uint32_t size) {
+  for (Ram& ram : rams_) {
+    if (lies_in(ram.place, address, size)) {
+      return {ram.bytes.get() + (address - ram.place.address), size};
+    }
+  }
+  return {};
+}
+
+void Board::copy_segments() {
+  std::vector<std::span<const std::uint8_t>> changing;
+  for (const ElfSegment& segment : image_.segments()) {
+    const auto target = memory(segment.address, segment.memory_size);
+    std::copy(segment.bytes.begin(), segment.bytes.end(), target.begin());
+    std::fill(target.begin() + static_cast<std::ptrdiff_t>(segment.bytes.size()), target.end(),
+              std::uint8_t{0});
+    changing.emplace_back(target);
+    if (started_) {
+      processor_->forget_code(segment.address, segment.memory_size);
+    }
+  }
+  processor_->watch_memory(std::move(changing));
+}
+
+void Board::reset() {
+  bus_.now_ns = time_ns_;
+  for (auto& block : owned_) {
+    block->reset();
+  }
+  timers_[0]->set_clock(kSlowOscillator);
+  copy_segments();
+  processor_->start(image_.entry());
+  started_ = true;
+  verdict_.reset();
+  on_ = true;
+  waiting_ = false;
+  last_access_ns_ = last_unmasked_ns_ = next_look_ns_ = time_ns_;
+}
+
+void Board::power_off() {
+  on_ = false;
+  for (auto& block : owned_) {
+    block->reset();
+  }
+}
+
+RegisterBlock* Board::block_at(std::uint32_t address, std::uint32_t& offset) const {
+  for (const Mapped& mapped : mapped_) {
+    if (address >= mapped.address && address - mapped.address < mapped.block->size()) {
+      offset = address - mapped.address;
+      return mapped.block;
+    }
+  }
+  return nullptr;
+}
+
+std::uint32_t Board::load(std::uint32_t address, unsigned bytes) {
+  std::uint32_t offset = 0;
+  RegisterBlock* const block = block_at(address, offset);
+  if (block == nullptr) {
+    return 0;
+  }
+  block->advance(bus_.now_ns);
+  std::uint32_t value = block->load(offset, bytes);
+  for (const StuckBit& stuck : stuck_) {
+    const std::uint32_t first = stuck.address + stuck.bit / 8;
+    if (first >= address && first < address + bytes) {
+      const std::uint32_t bit = 1U << (8 * (first - address) + stuck.bit % 8);
+      value = stuck.high ? value | bit : value & ~bit;
+    }
+  }
+  return value;
+}
+
+void Board::store(std::uint32_t address, unsigned bytes, std::uint32_t value) {
+  std::uint32_t offset = 0;
+  RegisterBlock* const block = block_at(address, offset);
+  if (block == nullptr) {
+    return;
+  }
+  block->advance(bus_.now_ns);
+  block->store(offset, bytes, value);
+  processor_->hasten(next_event_ns());
+}
+
+core::Nanoseconds Board::next_event_ns() const {
+  core::Nanoseconds next_ns = kNever;
+  for (const auto& block : owned_) {
+    next_ns = std::min(next_ns, block->next_event_ns());
+  }
+  return next_ns;
+}
+
+void Board::advance_all() {
+  for (auto& block : owned_) {
+    block->advance(bus_.now_ns);
+  }
+}
+
+void Board::skip_to(core::Nanoseconds time_ns) {
+  if (time_ns > bus_.now_ns) {
+    idle_ns_ += time_ns - bus_.now_ns;
+    bus_.now_ns = time_ns;
+  }
+}
+
+void Board::run_until(core::Nanoseconds until_ns) {
+  while (on_ && !verdict_ && bus_.now_ns < until_ns) {
+    advance_all();
+    const core::Nanoseconds deadline_ns = std::min(until_ns, next_event_ns());
+    if (waiting_ && !aintc_->offers()) {
+      skip_to(std::max(deadline_ns, bus_.now_ns + 1));
+      continue;
+    }
+    waiting_ = false;
+    if (aintc_->offers() && !processor_->interrupts_masked()) {
+      processor_->take_interrupt();
+    }
+    switch (processor_->run(deadline_ns)) {
+      case Processor::Pause::kTime:
+      case Processor::Pause::kInterrupt:
+        break;
+      case Processor::Pause::kWaiting:
+        waiting_ = true;
+        break;
+      case Processor::Pause::kIdle:
+        skip_to(std::min(until_ns, next_event_ns()));
+        break;
+      case Processor::Pause::kCrashed:
+        fail_with_crash();
+        break;
+    }
+  }
+  // The last block may have run a little past the end: the next call begins there.
+  bus_.now_ns = std::max(bus_.now_ns, until_ns);
+  time_ns_ = until_ns;
+  advance_all();
+  if (on_ && !verdict_ && until_ns >= next_look_ns_) {
+    next_look_ns_ = until_ns + kLookEvery_ns;
+    watch_for_life();
+  }
+}
+
+void Board::watch_for_life() {
+  const bool masked = processor_->interrupts_masked();
+  if (bus_.accesses != accesses_seen_) {
+    accesses_seen_ = bus_.accesses;
+    last_access_ns_ = time_ns_;
+  }
+  if (!masked) {
+    last_unmasked_ns_ = time_ns_;
+  }
+  if (time_ns_ - last_access_ns_ < kSilence_ns) {
+    return;
+  }
+  const std::uint32_t pc = processor_->pc();
+  if (time_ns_ - last_unmasked_ns_ >= kSilence_ns && !waiting_) {
+    fail(BoardFailure::kSpinsMasked, pc,
+         fmt::format("the image hangs: it spins at {} with interrupts masked, and has touched no "
+                     "peripheral for {} s",
+                     at(pc), core::seconds(kSilence_ns)));
+  } else if (!aintc_->anything_enabled()) {
+    fail(BoardFailure::kWaitsForNothing, pc,
+         fmt::format("the image hangs: at {} it has touched no peripheral for {} s, and no "
+                     "interrupt is enabled that could wake it",
+                     at(pc), core::seconds(kSilence_ns)));
+  }
+}
+
+std::string Board::at(std::uint32_t pc) const {
+  return fmt::format("0x{:08x} ({})", pc, image_.describe(pc));
+}
+
+void Board::fail(BoardFailure failure, std::uint32_t pc, std::string sentence) {
+  verdict_ = BoardVerdict{failure, bus_.now_ns, pc, std::move(sentence)};
+  for (PwmSubsystem* subsystem : pwm_) {
+    subsystem->advance(bus_.now_ns);
+  }
+}
+
+void Board::fail_with_crash() {
+  const Crash& crash = processor_->crash();
+  const auto told = [&](BoardFailure failure, const std::string& what) {
+    fail(failure, crash.pc, fmt::format("the image stopped at {}: {}", at(crash.pc), what));
+  };
+  switch (crash.kind) {
+    case CrashKind::kUnmappedRead:
+    case CrashKind::kUnmappedWrite:
+      told(BoardFailure::kUnmappedAccess,
+           fmt::format("it {} 0x{:08x}, where the board has nothing",
+                       crash.kind == CrashKind::kUnmappedRead ? "reads" : "writes", crash.address));
+      break;
+    case CrashKind::kUnmappedFetch:
+      told(BoardFailure::kUnmappedAccess, "it jumped there, and the board has no memory there");
+      break;
+    case CrashKind::kUndefinedInstruction:
+      told(BoardFailure::kUndefinedInstruction, "undefined instruction");
+      break;
+    case CrashKind::kBreakpoint:
+      told(BoardFailure::kUndefinedInstruction, "breakpoint, and no debugger is there");
+      break;
+    case CrashKind::kAbort:
+      told(BoardFailure::kUndefinedInstruction, "data or prefetch abort");
+      break;
+    case CrashKind::kEmulator:
+      told(BoardFailure::kEmulator, fmt::format("the CPU emulator gave up ({})", crash.address));
+      break;
+  }
+}
+
+}  // namespace towbench::board

@@ -1,0 +1,365 @@
+#include "board/processor.h"
+
+#include <stdexcept>
+#include <unordered_map>
+
+#include <fmt/format.h>
+#include <unicorn/unicorn.h>
+
+#include "board/thumb_length.h"
+
+namespace towbench::board {
+namespace {
+
+constexpr std::uint32_t kModeSupervisor = 0x13;
+constexpr std::uint32_t kModeInterrupt = 0x12;
+constexpr std::uint32_t kModeMask = 0x1F;
+constexpr std::uint32_t kThumb = 1U << 5U;
+constexpr std::uint32_t kInterruptsOff = 1U << 7U;
+constexpr std::uint32_t kFastInterruptsOff = 1U << 6U;
+constexpr std::uint32_t kAbortsOff = 1U << 8U;
+constexpr std::uint32_t kIfThenState = 0x0600'FC00U;
+constexpr std::uint32_t kInterruptVector = 0x18;
+constexpr std::uint32_t kSupervisorVector = 0x08;
+constexpr std::uint32_t kNowhere = 0xFFFF'FFF0U;  // where uc_emu_start would end by itself
+// QEMU's numbers of exceptions, as UC_HOOK_INTR passes them on.
+constexpr std::uint32_t kUndefined = 1;
+constexpr std::uint32_t kSupervisorCall = 2;
+constexpr std::uint32_t kPrefetchAbort = 3;
+constexpr std::uint32_t kDataAbort = 4;
+constexpr std::uint32_t kBreakpointException = 7;
+
+void must(uc_err error, const char* what) {
+  if (error != UC_ERR_OK) {
+    throw std::runtime_error(fmt::format("unicorn: {}: {}", what, uc_strerror(error)));
+  }
+}
+
+// What a basic block is, found out when it first runs.
+struct Block {
+  std::uint32_t address = 0;
+  std::uint32_t size = 0;
+  std::uint32_t instructions = 0;
+  int function = -1;
+};
+constexpr std::size_t kBlocks = 1U << 16U;
+
+}  // namespace
+
+struct Processor::Unicorn {
+  uc_engine* engine = nullptr;
+  Processor* owner = nullptr;
+  std::vector<uc_hook> hooks;
+  struct Region {
+    Processor* owner;
+    std::uint32_t base;
+  };
+  std::vector<std::unique_ptr<Region>> regions;
+  struct Memory {
+    std::uint32_t base;
+    std::span<std::uint8_t> bytes;
+  };
+  std::vector<Memory> memories;
+  std::vector<Block> blocks = std::vector<Block>(kBlocks);
+
+  ~Unicorn() { uc_close(engine); }
+
+  static void block(uc_engine* /*uc*/, std::uint64_t address, std::uint32_t size, void* owner) {
+    static_cast<Processor*>(owner)->on_block(static_cast<std::uint32_t>(address), size);
+  }
+  static void exception(uc_engine* /*uc*/, std::uint32_t number, void* owner) {
+    static_cast<Processor*>(owner)->on_exception(number);
+  }
+  static bool invalid(uc_engine* /*uc*/, void* owner) {
+    auto* self = static_cast<Processor*>(owner);
+    self->fail(CrashKind::kUndefinedInstruction, 0, self->reg(UC_ARM_REG_PC));
+    return false;
+  }
+  static bool unmapped(uc_engine* /*uc*/, uc_mem_type type, std::uint64_t address, int /*size*/,
+                       std::int64_t /*value*/, void* owner) {
+    auto* self = static_cast<Processor*>(owner);
+    const auto where = static_cast<std::uint32_t>(address);
+    if (type == UC_MEM_FETCH_UNMAPPED) {
+      self->fail(CrashKind::kUnmappedFetch, where, where);
+    } else {
+      self->fail(
+          type == UC_MEM_READ_UNMAPPED ? CrashKind::kUnmappedRead : CrashKind::kUnmappedWrite,
+          where, self->faulting_instruction(where));
+    }
+    return false;
+  }
+  static std::uint64_t load(uc_engine* /*uc*/, std::uint64_t offset, unsigned size, void* user) {
+    const auto* region = static_cast<Region*>(user);
+    Processor& self = *region->owner;
+    self.bus_.now_ns += kPeripheralAccess_ns;
+    ++self.bus_.accesses;
+    return self.peripherals_.load(region->base + static_cast<std::uint32_t>(offset), size);
+  }
+  static void store(uc_engine* /*uc*/, std::uint64_t offset, unsigned size, std::uint64_t value,
+                    void* user) {
+    const auto* region = static_cast<Region*>(user);
+    Processor& self = *region->owner;
+    self.bus_.now_ns += kPeripheralAccess_ns;
+    ++self.bus_.accesses;
+    self.peripherals_.store(region->base + static_cast<std::uint32_t>(offset), size,
+                            static_cast<std::uint32_t>(value));
+  }
+
+  template <typename Function>
+  void add_hook(int type, Function function) {
+    uc_hook hook{};
+    // Unicorn takes every kind of hook as an untyped pointer.
+    must(uc_hook_add(engine, &hook, type, reinterpret_cast<void*>(function), owner, 1, 0), "hook");
+    hooks.push_back(hook);
+  }
+};
+
+Processor::Processor(Bus& bus, Aintc& interrupts, PeripheralBus& peripherals,
+                     ExecutionProfile& profile)
+    : bus_(bus),
+      interrupts_(interrupts),
+      peripherals_(peripherals),
+      profile_(profile),
+      unicorn_(std::make_unique<Unicorn>()) {
+  unicorn_->owner = this;
+  must(uc_open(UC_ARCH_ARM, UC_MODE_ARM, &unicorn_->engine), "open");
+  must(uc_ctl_set_cpu_model(unicorn_->engine, UC_CPU_ARM_CORTEX_A8), "Cortex-A8");
+  unicorn_->add_hook(UC_HOOK_BLOCK, &Unicorn::block);
+  unicorn_->add_hook(UC_HOOK_INTR, &Unicorn::exception);
+  unicorn_->add_hook(UC_HOOK_INSN_INVALID, &Unicorn::invalid);
+  unicorn_->add_hook(UC_HOOK_MEM_UNMAPPED, &Unicorn::unmapped);
+}
+
+Processor::~Processor() = default;
+
+std::uint32_t Processor::reg(int id) const {
+  std::uint32_t value = 0;
+  uc_reg_read(unicorn_->engine, id, &value);
+  return value;
+}
+
+void Processor::set_reg(int id, std::uint32_t value) {
+  uc_reg_write(unicorn_->engine, id, &value);
+}
+
+void Processor::map_memory(std::uint32_t address, std::span<std::uint8_t> bytes) {
+  must(uc_mem_map_ptr(unicorn_->engine, address, bytes.size(), UC_PROT_ALL, bytes.data()),
+       "memory");
+  unicorn_->memories.push_back({address, bytes});
+}
+
+// Flushing everything would clear Unicorn's whole code buffer, which is a gigabyte.
+void Processor::forget_code(std::uint32_t address, std::uint32_t size) {
+  uc_ctl_remove_cache(unicorn_->engine, address, static_cast<std::uint64_t>(address) + size);
+}
+
+void Processor::map_peripherals(std::uint32_t address, std::uint32_t size) {
+  unicorn_->regions.push_back(std::make_unique<Unicorn::Region>(Unicorn::Region{this, address}));
+  void* region = unicorn_->regions.back().get();
+  must(
+      uc_mmio_map(unicorn_->engine, address, size, &Unicorn::load, region, &Unicorn::store, region),
+      "peripherals");
+}
+
+void Processor::start(std::uint32_t entry) {
+  constexpr std::array kGeneral{UC_ARM_REG_R0, UC_ARM_REG_R1, UC_ARM_REG_R2,  UC_ARM_REG_R3,
+                                UC_ARM_REG_R4, UC_ARM_REG_R5, UC_ARM_REG_R6,  UC_ARM_REG_R7,
+                                UC_ARM_REG_R8, UC_ARM_REG_R9, UC_ARM_REG_R10, UC_ARM_REG_R11,
+                                UC_ARM_REG_R12};
+  set_reg(UC_ARM_REG_CPSR, kModeSupervisor | kInterruptsOff | kFastInterruptsOff | kAbortsOff);
+  for (const int id : kGeneral) {
+    set_reg(id, 0);
+  }
+  const auto write_coprocessor = [this](std::uint32_t crn, std::uint32_t op2, std::uint64_t value) {
+    uc_arm_cp_reg cp{};
+    cp.cp = 15;
+    cp.crn = crn;
+    cp.opc2 = op2;
+    cp.val = value;
+    uc_reg_write(unicorn_->engine, UC_ARM_REG_CP_REG, &cp);
+  };
+  write_coprocessor(12, 0, 0);           // VBAR
+  write_coprocessor(1, 0, 0x00C5'0078);  // SCTLR of the Cortex-A8 after reset
+  set_reg(UC_ARM_REG_FPEXC, 0);
+  std::fill(unicorn_->blocks.begin(), unicorn_->blocks.end(), Block{});
+  pc_ = entry;
+  crash_ = {};
+  idle_.restart();
+}
+
+bool Processor::interrupts_masked() const {
+  return (reg(UC_ARM_REG_CPSR) & kInterruptsOff) != 0;
+}
+
+std::uint32_t Processor::stack_pointer() const {
+  return reg(UC_ARM_REG_SP);
+}
+
+void Processor::pause(Pause why) {
+  paused_ = why;
+  uc_emu_stop(unicorn_->engine);
+}
+
+void Processor::fail(CrashKind kind, std::uint32_t address, std::uint32_t pc) {
+  if (paused_ != Pause::kCrashed) {
+    crash_ = {kind, address, pc};
+    paused_ = Pause::kCrashed;
+  }
+}
+
+void Processor::on_block(std::uint32_t address, std::uint32_t size) {
+  if (paused_) {
+    return;
+  }
+  if (bus_.now_ns >= deadline_ns_) {
+    pause(Pause::kTime);
+    return;
+  }
+  if (interrupts_.offers() && !interrupts_masked()) {
+    pause(Pause::kInterrupt);
+    return;
+  }
+  if (profile_.may_leave(address)) {
+    profile_.left(stack_pointer());
+  }
+  if (idle_.at_block(address, bus_.disturbances, *this)) {
+    pause(Pause::kIdle);
+    return;
+  }
+  Block& block = unicorn_->blocks[(address >> 1U) % kBlocks];
+  if (block.address != address || block.size != size) {
+    const bool thumb = (reg(UC_ARM_REG_CPSR) & kThumb) != 0;
+    const auto read = [this](std::uint32_t at) { return code_word(at); };
+    block = {address, size, thumb ? thumb_instructions(address, size, read) : size / 4,
+             profile_.function_at(address)};
+  }
+  block_ = address;
+  block_size_ = size;
+  profile_.block(block.function, block.instructions);
+  bus_.now_ns += kInstruction_ns * block.instructions;
+}
+
+void Processor::on_exception(std::uint32_t number) {
+  const std::uint32_t pc = reg(UC_ARM_REG_PC);
+  switch (number) {
+    case kSupervisorCall:
+      supervisor_call_ = true;
+      supervisor_return_ = pc;
+      break;
+    case kUndefined:
+      fail(CrashKind::kUndefinedInstruction, 0, pc);
+      break;
+    case kBreakpointException:
+      fail(CrashKind::kBreakpoint, 0, pc);
+      break;
+    case kPrefetchAbort:
+    case kDataAbort:
+      fail(CrashKind::kAbort, 0, pc);
+      break;
+    default:
+      fail(CrashKind::kEmulator, number, pc);
+  }
+  uc_emu_stop(unicorn_->engine);
+}
+
+Processor::Pause Processor::run(core::Nanoseconds deadline_ns) {
+  deadline_ns_ = deadline_ns;
+  while (true) {
+    paused_.reset();
+    supervisor_call_ = false;
+    const std::uint32_t thumb = (reg(UC_ARM_REG_CPSR) & kThumb) != 0 ? 1U : 0U;
+    const uc_err error = uc_emu_start(unicorn_->engine, pc_ | thumb, kNowhere, 0, 0);
+    pc_ = reg(UC_ARM_REG_PC);
+    if (error != UC_ERR_OK && paused_ != Pause::kCrashed) {
+      fail(error == UC_ERR_INSN_INVALID ? CrashKind::kUndefinedInstruction : CrashKind::kEmulator,
+           static_cast<std::uint32_t>(error), pc_);
+    }
+    if (paused_ == Pause::kCrashed) {
+      return Pause::kCrashed;
+    }
+    if (supervisor_call_) {
+      enter(kModeSupervisor, kSupervisorVector, supervisor_return_);
+      continue;
+    }
+    // Unicorn leaves by itself at WFI only.
+    return paused_.value_or(Pause::kWaiting);
+  }
+}
+
+void Processor::enter(std::uint32_t mode, std::uint32_t vector, std::uint32_t return_address) {
+  uc_arm_cp_reg base{};
+  base.cp = 15;
+  base.crn = 12;
+  uc_reg_read(unicorn_->engine, UC_ARM_REG_CP_REG, &base);
+  const std::uint32_t status = reg(UC_ARM_REG_CPSR);
+  set_reg(UC_ARM_REG_CPSR, (status & ~(kModeMask | kThumb | kIfThenState)) | mode | kInterruptsOff);
+  set_reg(UC_ARM_REG_LR, return_address);
+  set_reg(UC_ARM_REG_SPSR, status);
+  pc_ = static_cast<std::uint32_t>(base.val) + vector;
+}
+
+void Processor::take_interrupt() {
+  interrupts_.accept();
+  idle_.restart();
+  profile_.enter(interrupts_.number(), pc_, stack_pointer(), bus_.now_ns);
+  enter(kModeInterrupt, kInterruptVector, pc_ + 4);
+}
+
+RegisterSet Processor::registers() const {
+  constexpr std::array kIds{UC_ARM_REG_R0,  UC_ARM_REG_R1,  UC_ARM_REG_R2,  UC_ARM_REG_R3,
+                            UC_ARM_REG_R4,  UC_ARM_REG_R5,  UC_ARM_REG_R6,  UC_ARM_REG_R7,
+                            UC_ARM_REG_R8,  UC_ARM_REG_R9,  UC_ARM_REG_R10, UC_ARM_REG_R11,
+                            UC_ARM_REG_R12, UC_ARM_REG_R13, UC_ARM_REG_R14, UC_ARM_REG_CPSR};
+  RegisterSet set{};
+  for (std::size_t i = 0; i < kIds.size(); ++i) {
+    set[i] = reg(kIds[i]);
+  }
+  return set;
+}
+
+FloatRegisters Processor::float_registers() const {
+  FloatRegisters set{};
+  for (int i = 0; i < 32; ++i) {
+    uc_reg_read(unicorn_->engine, UC_ARM_REG_D0 + i, &set[static_cast<std::size_t>(i)]);
+  }
+  set[32] = reg(UC_ARM_REG_FPSCR);
+  return set;
+}
+
+std::uint32_t Processor::code_word(std::uint32_t address) const {
+  std::uint32_t word = 0;
+  uc_mem_read(unicorn_->engine, address, &word, sizeof word);
+  return word;
+}
+
+// Unicorn knows the block only. Registers stand as they were before the instruction, so it is the
+// first one of the block whose base and offset make the address; the block's start when none does.
+std::uint32_t Processor::faulting_instruction(std::uint32_t address) const {
+  if ((reg(UC_ARM_REG_CPSR) & kThumb) != 0) {
+    return block_;
+  }
+  const RegisterSet set = registers();
+  for (std::uint32_t at = block_; at < block_ + block_size_; at += 4) {
+    const std::uint32_t code = code_word(at);
+    const bool is_word_transfer = (code & 0x0E00'0000U) == 0x0400'0000U;
+    const bool is_half_transfer = (code & 0x0E40'0090U) == 0x0040'0090U;
+    const bool is_multiple = (code & 0x0E00'0000U) == 0x0800'0000U;
+    const std::uint32_t base_register = (code >> 16U) & 0xFU;
+    if (base_register == 15 || !(is_word_transfer || is_half_transfer || is_multiple)) {
+      continue;
+    }
+    const std::uint32_t base = set[base_register];
+    std::uint32_t offset = is_word_transfer   ? code & 0xFFFU
+                           : is_half_transfer ? (code >> 4U & 0xF0U) | (code & 0xFU)
+                                              : 0;
+    const bool before = (code & 1U << 24U) != 0;
+    const bool up = (code & 1U << 23U) != 0;
+    const std::uint32_t effective = !before ? base : up ? base + offset : base - offset;
+    if (effective == address || (is_multiple && address - base < 64)) {
+      return at;
+    }
+  }
+  return block_;
+}
+
+}  // namespace towbench::board
