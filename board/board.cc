@@ -41,7 +41,7 @@ Board::Board() {
   make_peripherals();
   processor_ =
       std::make_unique<Processor>(bus_, *aintc_, static_cast<PeripheralBus&>(*this), profile_);
-  for (const Place& place : {kSram, kOcmc, kDdr}) {
+  for (const Place& place : {kDdr, kOcmc, kSram}) {
     // Zero pages until they are touched.
     auto* bytes = static_cast<std::uint8_t*>(std::calloc(place.size, 1));
     if (bytes == nullptr) {

@@ -139,6 +139,7 @@ void Eqep::take_channel(unsigned line, core::Nanoseconds time_ns) {
   if (!counts()) {
     return;
   }
+  ++edges_decoded_;
   watchdog_base_ns_ = time_ns;
   watchdog_told_ = false;
   const std::uint16_t control = half(kDecoderControl);
@@ -152,6 +153,7 @@ void Eqep::take_channel(unsigned line, core::Nanoseconds time_ns) {
   if (both_at_once) {
     // The first of the pair was counted before the second made it illegal: take it back.
     position_ = static_cast<std::uint32_t>(position_ - static_cast<std::uint32_t>(last_step_));
+    steps_ -= last_step_;
     last_step_ = 0;
     flag(kPhaseError);
     return;
@@ -161,6 +163,7 @@ void Eqep::take_channel(unsigned line, core::Nanoseconds time_ns) {
 }
 
 void Eqep::step(int direction, core::Nanoseconds time_ns) {
+  steps_ += direction;
   const std::uint32_t maximum = stored(kMaximum);
   if (direction > 0) {
     const bool wraps = position_ == maximum;

@@ -33,6 +33,11 @@ class Eqep final : public HalfwordBlock {
   // A line toggles at `time_ns`; times do not decrease.
   void push_edge(EncoderLine line, core::Nanoseconds time_ns) { edges_.push_back({time_ns, line}); }
 
+  // A and B edges that were decoded since power came on.
+  [[nodiscard]] std::uint64_t edges_decoded() const noexcept { return edges_decoded_; }
+  // Their sum with direction, whatever the image loads into QPOSCNT.
+  [[nodiscard]] std::int64_t steps() const noexcept { return steps_; }
+
   void advance(core::Nanoseconds now_ns) override;
   [[nodiscard]] core::Nanoseconds next_event_ns() const override;
   void reset() override;
@@ -67,6 +72,8 @@ class Eqep final : public HalfwordBlock {
   Interrupt interrupt_;
   std::deque<Edge> edges_;
   std::uint8_t levels_ = 0;
+  std::uint64_t edges_decoded_ = 0;
+  std::int64_t steps_ = 0;
   core::Nanoseconds last_edge_ns_ = -kNever;
   unsigned last_line_ = 2;
   int last_step_ = 0;

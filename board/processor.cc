@@ -7,6 +7,7 @@
 #include <unicorn/unicorn.h>
 
 #include "board/thumb_length.h"
+#include "board/unicorn_store_path.h"
 
 namespace towbench::board {
 namespace {
@@ -42,7 +43,7 @@ struct Block {
   std::uint32_t instructions = 0;
   int function = -1;
 };
-constexpr std::size_t kBlocks = 1U << 16U;
+constexpr std::size_t kBlocks = 1U << 13U;
 
 }  // namespace
 
@@ -55,11 +56,7 @@ struct Processor::Unicorn {
     std::uint32_t base;
   };
   std::vector<std::unique_ptr<Region>> regions;
-  struct Memory {
-    std::uint32_t base;
-    std::span<std::uint8_t> bytes;
-  };
-  std::vector<Memory> memories;
+  std::unique_ptr<StorePath> stores;
   std::vector<Block> blocks = std::vector<Block>(kBlocks);
 
   ~Unicorn() { uc_close(engine); }
@@ -145,7 +142,10 @@ void Processor::set_reg(int id, std::uint32_t value) {
 void Processor::map_memory(std::uint32_t address, std::span<std::uint8_t> bytes) {
   must(uc_mem_map_ptr(unicorn_->engine, address, bytes.size(), UC_PROT_ALL, bytes.data()),
        "memory");
-  unicorn_->memories.push_back({address, bytes});
+  if (unicorn_->stores == nullptr) {
+    unicorn_->stores =
+        std::make_unique<StorePath>(address, static_cast<std::uint32_t>(bytes.size()));
+  }
 }
 
 // Flushing everything would clear Unicorn's whole code buffer, which is a gigabyte.
@@ -232,6 +232,7 @@ void Processor::on_block(std::uint32_t address, std::uint32_t size) {
     const auto read = [this](std::uint32_t at) { return code_word(at); };
     block = {address, size, thumb ? thumb_instructions(address, size, read) : size / 4,
              profile_.function_at(address)};
+    unicorn_->stores->code_at(address, size);
   }
   block_ = address;
   block_size_ = size;
@@ -264,11 +265,14 @@ void Processor::on_exception(std::uint32_t number) {
 
 Processor::Pause Processor::run(core::Nanoseconds deadline_ns) {
   deadline_ns_ = deadline_ns;
+  idle_.restart();  // what was waited for may have come
   while (true) {
     paused_.reset();
     supervisor_call_ = false;
     const std::uint32_t thumb = (reg(UC_ARM_REG_CPSR) & kThumb) != 0 ? 1U : 0U;
+    unicorn_->stores->begin();
     const uc_err error = uc_emu_start(unicorn_->engine, pc_ | thumb, kNowhere, 0, 0);
+    unicorn_->stores->end();
     pc_ = reg(UC_ARM_REG_PC);
     if (error != UC_ERR_OK && paused_ != Pause::kCrashed) {
       fail(error == UC_ERR_INSN_INVALID ? CrashKind::kUndefinedInstruction : CrashKind::kEmulator,

@@ -70,7 +70,7 @@ class Processor final : private RegisterReader {
   Processor(Bus& bus, Aintc& interrupts, PeripheralBus& peripherals, ExecutionProfile& profile);
   ~Processor() override;
 
-  // Whole pages of 4 KiB.
+  // Whole pages of 4 KiB; the largest memory first.
   void map_memory(std::uint32_t address, std::span<std::uint8_t> bytes);
   void map_peripherals(std::uint32_t address, std::uint32_t size);
   // The bytes there have changed under the processor.

@@ -65,11 +65,18 @@ constexpr std::uint32_t kClock_Hz = 48'000'000;
 // ---- the pace timer ----
 
 void PaceClock::start() noexcept {
+  const bool first = !started_;
+  if (first) {
+    started_ = true;
+    service_ns_ = -exchange_ns_;
+  }
   running_exchange_ns_ = exchange_ns_;
   const auto ticks = static_cast<std::uint32_t>(exchange_ns_ * kTimerTicks / kTimerSpan_ns);
   word(am335x::kPaceTimer + am335x::kTimerControl) = 0;
   word(am335x::kPaceTimer + am335x::kTimerReload) = 0U - ticks;
-  word(am335x::kPaceTimer + am335x::kTimerCounter) = 0U - ticks;
+  // The first exchange begins at once, the second one period later.
+  constexpr std::uint32_t kAtOnce_ticks = 10;
+  word(am335x::kPaceTimer + am335x::kTimerCounter) = 0U - (first ? kAtOnce_ticks : ticks);
   word(am335x::kPaceTimer + am335x::kTimerEnableSet) = 2;
   word(am335x::kPaceTimer + am335x::kTimerControl) = 3;  // start, auto-reload
 }
@@ -102,7 +109,7 @@ Status RegisterTimer::write(const Dmtimer::Command& command) noexcept {
     case Dmtimer::Action::kStart:
       running_ = true;
       next_due_ns_ = clock_->service_ns();
-      clock_->start();
+      clock_->start();  // whose first service is at 0, or one exchange from the last one
       break;
     case Dmtimer::Action::kStop:
       running_ = false;

@@ -29,6 +29,7 @@ class PaceClock {
   core::Nanoseconds exchange_ns_ = core::kNanosecondsPerMillisecond;
   core::Nanoseconds running_exchange_ns_ = core::kNanosecondsPerMillisecond;
   core::Nanoseconds service_ns_ = 0;
+  bool started_ = false;
 };
 
 class RegisterPwm final : public EhrpwmPort {

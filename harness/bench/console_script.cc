@@ -8,13 +8,18 @@
 namespace towbench::harness {
 namespace {
 
-// What stands after the terminal's own echo of the command: everything past the first line end.
+// What stands after the terminal's own echo of the command. An echo that is still under way has no
+// answer yet; a console that redraws its line, or does not echo, answers from its second line on.
 std::string_view answer_in(const ConsoleStep& step, std::string_view heard) {
   if (step.send.empty()) {
     return heard;
   }
-  const auto end_of_echo = heard.find('\n');
-  return end_of_echo == std::string_view::npos ? std::string_view{} : heard.substr(end_of_echo + 1);
+  if (const auto echo = heard.find(step.send); echo != std::string_view::npos) {
+    return heard.substr(echo + step.send.size());
+  }
+  const auto end_of_line = heard.find_first_of("\r\n");
+  return end_of_line == std::string_view::npos ? std::string_view{}
+                                               : heard.substr(end_of_line + 1);
 }
 
 // The line that ends a refused command, "error 205: ...", when it is complete.

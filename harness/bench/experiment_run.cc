@@ -6,8 +6,10 @@
 
 #include "harness/bench/driven_run.h"
 #include "harness/bench/emulator_process.h"
+#include "harness/bench/firmware_run.h"
 #include "harness/bench/in_process_plant.h"
 #include "harness/bench/linked_plant.h"
+#include "harness/bench/lockstep_bench.h"
 #include "harness/bench/real_lines.h"
 #include "harness/faults/case_link.h"
 #include "harness/faults/faulted_experiment.h"
@@ -49,7 +51,9 @@ class Run {
 
   RunResult run() {
     auto outcome = options_.carrier == Carrier::kInProcess ? run_in_process() : run_with_child();
-    outcome.control_period_ns = fixture_.controller.configuration.control_period_ns();
+    if (outcome.control_period_ns == 0) {  // a stranger's image has rows of another distance
+      outcome.control_period_ns = fixture_.controller.configuration.control_period_ns();
+    }
     outcome.complete = outcome.complete || (faults_ && faults_->kills_plant());
     if (options_.hand != nullptr) {
       take_over_what_was_done();
@@ -100,7 +104,7 @@ class Run {
     const auto lines = options.lines.controller.empty() ? "" : " and " + options.lines.controller;
     switch (options.carrier) {
       case Carrier::kInProcess:
-        return "in-process";
+        return options.firmware.empty() ? "in-process" : "virtual board";
       case Carrier::kLocal:
         return "local" + lines;
       case Carrier::kWire:
@@ -123,7 +127,7 @@ class Run {
     PlantRecorder plant_recorder(folder_, options_.tap);
     InProcessPlant plant(fixture_.rig.parameters, identity_.seed, fixture_.experiment.events,
                          plant_recorder);
-    auto outcome = play_against(plant);
+    auto outcome = options_.firmware.empty() ? play_against(plant) : play_firmware(plant);
     plant_recorder.flush();
     outcome.writes_succeeded = outcome.writes_succeeded && plant_recorder.good();
     return outcome;
@@ -200,6 +204,10 @@ class Run {
     timing_.emplace(folder_, fixture_.controller.configuration);
     RealtimePlantEnd plant(link, timing_->loop());
     return play_against(plant);
+  }
+
+  RunOutcome play_firmware(PlantEnd& plant) {
+    return run_firmware(fixture_, options_.firmware, folder_, plant, options_.watchers);
   }
 
   RunOutcome play_against(PlantEnd& plant) {

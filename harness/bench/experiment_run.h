@@ -33,6 +33,9 @@ struct RunOptions {
   Carrier carrier = Carrier::kInProcess;
   std::optional<protocol::CarrierEnds> wire;  // of Carrier::kWire
   LineEnds lines;
+  // An ELF image that runs on the virtual board instead of the experiment's controller; empty:
+  // none.
+  std::filesystem::path firmware;
   RunClock clock = RunClock::kLockstep;              // kReal needs two processes: not kInProcess
   std::filesystem::path program = "/proc/self/exe";  // for the emulator's process
   LoopWatchers watchers;

@@ -9,6 +9,7 @@
 #include "harness/commands/experiment_options.h"
 #include "harness/commands/fixture_paths.h"
 #include "harness/commands/verdict_table.h"
+#include "harness/fixtures/fixture_error.h"
 #include "harness/record/run_folder.h"
 #include "harness/report/report.h"
 
@@ -16,6 +17,22 @@ namespace towbench::harness {
 namespace {
 
 constexpr std::array kDemo{"trapezoid-400", "circle", "pulses", "endstop-y-max"};
+
+struct Options {
+  ExperimentOptions shared;
+  bool board = false;
+};
+
+// Built beside the bench by ./towbench when it is asked for.
+std::string bare_metal_image() {
+  const auto program = std::filesystem::canonical("/proc/self/exe");
+  const auto image = program.parent_path().parent_path() / "baremetal" / "bbmc.elf";
+  if (!std::filesystem::exists(image)) {
+    throw FixtureError({"command line", 0, "--board"}, image.string() + " is not there",
+                       "the bare-metal image, which `./towbench demo --board` builds");
+  }
+  return "firmware:" + image.string();
+}
 
 int execute(const ExperimentOptions& options) {
   std::vector<ExperimentFixture> fixtures;
@@ -48,16 +65,24 @@ int execute(const ExperimentOptions& options) {
 }  // namespace
 
 void add_demo(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<ExperimentOptions>();
+  auto chosen = std::make_shared<Options>();
+  auto* options = &chosen->shared;
   auto* verb = app.add_subcommand(
       "demo", "trapezoid, circle, open-loop pulses and an end-stop, judged in one report");
   verb->add_option("--out", options->out, "folder below which the run folders are made")
       ->capture_default_str();
   verb->add_option("--carrier", options->carrier, kCarrierHelp);
   verb->add_option("--lines", options->lines, kLinesHelp);
+  verb->add_flag("--board", chosen->board,
+                 "BBMC as a bare-metal image on the virtual AM335x instead of in this process");
   verb->add_flag("-q,--quiet", options->quiet, "print failures and the report's path only");
   verb->footer("Example: towbench demo");
-  verb->callback([options, &exit_code] { exit_code = execute(*options); });
+  verb->callback([chosen, &exit_code] {
+    if (chosen->board) {
+      chosen->shared.controller = bare_metal_image();
+    }
+    exit_code = execute(chosen->shared);
+  });
 }
 
 }  // namespace towbench::harness

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "harness/bench/firmware_run.h"
 #include "harness/commands/progress_line.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_error.h"
@@ -16,6 +17,7 @@ void add_experiment_options(CLI::App& verb, ExperimentOptions& options) {
   verb.add_option("--seed", options.seed, "instead of the experiment's own seed");
   verb.add_option("--carrier", options.carrier, kCarrierHelp);
   verb.add_option("--lines", options.lines, kLinesHelp);
+  verb.add_option("--controller", options.controller, kControllerHelp);
   verb.add_option("--clock", options.clock,
                   "lockstep: as fast as it goes, repeatable bit for bit; real: by the wall clock")
       ->check(CLI::IsMember({"lockstep", "real"}))
@@ -84,6 +86,21 @@ void choose_lines(const std::string& text, RunOptions& options) {
   }
 }
 
+void choose_controller(const std::string& text, RunOptions& options) {
+  if (text.empty()) {
+    return;
+  }
+  constexpr std::string_view kScheme = "firmware:";
+  const bool alone = options.carrier == Carrier::kInProcess && options.lines.controller.empty() &&
+                     options.clock == RunClock::kLockstep;
+  if (!text.starts_with(kScheme) || text.size() == kScheme.size() || !alone) {
+    throw FixtureError({"command line", 0, "--controller"}, '"' + text + '"',
+                       "firmware:IMAGE.elf, in lockstep and in this process");
+  }
+  options.firmware = text.substr(kScheme.size());
+  check_firmware(options.firmware);
+}
+
 RunResult run_with_options(const ExperimentFixture& fixture, const ExperimentOptions& options) {
   RunOptions run_options;
   run_options.out = options.out;
@@ -91,6 +108,7 @@ RunResult run_with_options(const ExperimentFixture& fixture, const ExperimentOpt
   choose_carrier(options.carrier, run_options);
   choose_clock(options.clock, run_options);
   choose_lines(options.lines, run_options);
+  choose_controller(options.controller, run_options);
   run_options.watchers.stop = &stop_requested();
   ProgressLine progress(fixture.experiment.name, fixture.experiment.duration_limit_s,
                         !options.quiet && !options.json);

@@ -14,8 +14,9 @@ namespace towbench::harness {
 struct ExperimentOptions {
   std::string out = "runs";
   std::optional<std::uint64_t> seed;
-  std::string carrier;  // empty: in-process, or local for the real clock
-  std::string lines;    // "CONTROLLER,PLANT"; empty: lines are messages
+  std::string carrier;     // empty: in-process, or local for the real clock
+  std::string lines;       // "CONTROLLER,PLANT"; empty: lines are messages
+  std::string controller;  // "firmware:IMAGE.elf"; empty: the experiment's own
   std::string clock = "lockstep";
   bool json = false;
   bool quiet = false;
@@ -40,6 +41,13 @@ void choose_carrier(const std::string& text, RunOptions& options);
 inline constexpr const char* kCarrierHelp =
     "in-process; local: the emulator in a process of its own; serial:DEVICE,DEVICE[@BAUD] or "
     "can:INTERFACE[,INTERFACE]: the same over wires";
+
+// "firmware:IMAGE.elf" (the virtual board). Throws FixtureError for another word, for a file that
+// is no such image, and beside another carrier, clock or lines.
+void choose_controller(const std::string& text, RunOptions& options);
+
+inline constexpr const char* kControllerHelp =
+    "firmware:IMAGE.elf: an unmodified bare-metal image on the virtual AM335x";
 
 void add_experiment_options(CLI::App& verb, ExperimentOptions& options);
 

@@ -5,6 +5,7 @@
 run_packages=(
   g++ cmake ninja-build ccache git ca-certificates
   libboost-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libexpected-dev libgpiod-dev
+  libunicorn-dev
 )
 # What the experiments that estimate need besides: `identify` alone.
 study_packages=(libeigen3-dev libceres-dev)
@@ -23,11 +24,12 @@ add_node_if_missing() {
   command -v npm >/dev/null || missing+=(npm)
 }
 
-# install_packages run|study|test: says what it installs, asks for root only when it has to.
+# install_packages run|study|test [PACKAGE...]: says what it installs, asks for root only when it has to.
 install_packages() {
   local wanted=("${run_packages[@]}") missing=() package
   [[ $1 == run ]] || wanted+=("${study_packages[@]}")
   [[ $1 == test ]] && wanted+=("${test_packages[@]}")
+  wanted+=("${@:2}")
   if ! command -v dpkg-query >/dev/null; then
     echo "towbench: this is no Debian; it is on you to provide: ${wanted[*]} nodejs npm" >&2
     return

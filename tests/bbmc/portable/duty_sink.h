@@ -1,6 +1,8 @@
 // Writes every duty that the controller sends, and hands it on to the machine where there is one.
 #pragma once
 
+#include <bit>
+#include <cstdint>
 #include <cstdio>
 
 #include "bbmc/host/emulated_board.h"
@@ -31,8 +33,14 @@ class DutySink final : public protocol::MessageSink {
   void figures(const bbmc::TelemetryRow& row) noexcept {
     for (const core::Axis axis : core::kAxes) {
       const auto& state = row.axes[axis];
-      std::fprintf(file_, "r %a %a %a\n", state.reference_m, state.velocity_m_per_s,
-                   state.duty_pct);
+      std::fputs("r", file_);
+      for (const double figure : {state.reference_m, state.velocity_m_per_s, state.duty_pct}) {
+        // As bits: bare metal's printf knows no %a.
+        const auto bits = std::bit_cast<std::uint64_t>(figure);
+        std::fprintf(file_, " %08x%08x", static_cast<unsigned>(bits >> 32U),
+                     static_cast<unsigned>(bits));
+      }
+      std::fputs("\n", file_);
     }
   }
 

@@ -33,15 +33,15 @@ bool take_until_service(std::FILE* file, bbmc::EmulatedBoard& board, protocol::E
     } else if (kind == 'E') {
       int axis = 0;
       int levels = 0;
-      std::size_t size = 0;
+      unsigned size = 0;
       edges.edges.clear();
-      damaged = std::fscanf(file, "%d %d %lld %lld %u %zu", &axis, &levels, &first, &second,
+      damaged = std::fscanf(file, "%d %d %lld %lld %u %u", &axis, &levels, &first, &second,
                             &edges.sequence, &size) != 6;
       edges.axis = axis == 0 ? core::Axis::kY : core::Axis::kX;
       edges.start_levels = static_cast<protocol::EncoderLevels>(levels);
       edges.start_ns = first;
       edges.end_ns = second;
-      for (std::size_t i = 0; i < size && !damaged; ++i) {
+      for (unsigned i = 0; i < size && !damaged; ++i) {
         unsigned packed = 0;
         damaged = std::fscanf(file, "%u", &packed) != 1 ||
                   !edges.edges.push_back(protocol::EncoderEdge::from_packed(packed));

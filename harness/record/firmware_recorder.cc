@@ -1,0 +1,39 @@
+#include "harness/record/firmware_recorder.h"
+
+#include "harness/record/event_lines.h"
+#include "harness/record/log_columns.h"
+
+namespace towbench::harness {
+
+FirmwareRecorder::FirmwareRecorder(const std::filesystem::path& folder, Log log)
+    : log_(folder / "log.csv", log == Log::kPins ? pin_log_header() : log_header()),
+      timing_(folder / "timing.csv", "time_s,host_s,exchange_us"),
+      events_(folder / kControllerEventsFile),
+      console_(folder / "console.txt") {}
+
+void FirmwareRecorder::row(const bbmc::TelemetryRow& row) noexcept {
+  write_log_row(log_, row);
+}
+
+void FirmwareRecorder::event(const bbmc::SystemEvent& event) noexcept {
+  events_.write(event_line(event));
+}
+
+void FirmwareRecorder::wire_event(core::Nanoseconds time_ns, std::string_view kind) noexcept {
+  events_.write(wire_event_line(time_ns, kind));
+}
+
+void FirmwareRecorder::timing(core::Nanoseconds time_ns, core::Nanoseconds host_ns,
+                              core::Nanoseconds exchange_ns) noexcept {
+  // Microseconds to the nanosecond: "3.25".
+  timing_.time(time_ns).time(host_ns).time(exchange_ns * 1'000'000).end_row();
+}
+
+void FirmwareRecorder::flush() noexcept {
+  log_.flush();
+  timing_.flush();
+  events_.flush();
+  console_.flush();
+}
+
+}  // namespace towbench::harness
