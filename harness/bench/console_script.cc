@@ -18,8 +18,7 @@ std::string_view answer_in(const ConsoleStep& step, std::string_view heard) {
     return heard.substr(echo + step.send.size());
   }
   const auto end_of_line = heard.find_first_of("\r\n");
-  return end_of_line == std::string_view::npos ? std::string_view{}
-                                               : heard.substr(end_of_line + 1);
+  return end_of_line == std::string_view::npos ? std::string_view{} : heard.substr(end_of_line + 1);
 }
 
 // The line that ends a refused command, "error 205: ...", when it is complete.

@@ -19,12 +19,12 @@ constexpr std::uint32_t kTzClr = 0x2E;
 constexpr std::uint32_t kTzFrc = 0x30;
 using Output = Ehrpwm::Output;
 
-struct Fixture : testing::Test {
+struct EhrpwmFixture : testing::Test {
   Bus bus;
   bool raised = false;
   Ehrpwm pwm{"ehrpwm1", bus, [this](bool level) { raised = level; }};
 
-  Fixture() {
+  EhrpwmFixture() {
     pwm.set_clock(true);
     pwm.store(kCmpCtl, 2, 0x50);  // immediate
     pwm.store(kTbPrd, 2, 999);
@@ -39,7 +39,7 @@ struct Fixture : testing::Test {
   }
 };
 
-TEST_F(Fixture, UpCountIsHighForCompareTicksOfPeriodPlusOne) {
+TEST_F(EhrpwmFixture, UpCountIsHighForCompareTicksOfPeriodPlusOne) {
   for (const std::uint32_t compare : {0U, 1U, 250U, 999U, 1000U}) {
     pwm.store(kCmpA, 2, compare);
     pwm.store(kCmpB, 2, 1000 - compare);
@@ -49,7 +49,7 @@ TEST_F(Fixture, UpCountIsHighForCompareTicksOfPeriodPlusOne) {
   }
 }
 
-TEST_F(Fixture, UpDownCountIsSymmetric) {
+TEST_F(EhrpwmFixture, UpDownCountIsSymmetric) {
   pwm.store(kTbCtl, 2, 0x000A);
   pwm.store(kTbPrd, 2, 1000);
   pwm.store(kAqCtlA, 2, 0x60);  // CAU high, CAD low
@@ -60,14 +60,14 @@ TEST_F(Fixture, UpDownCountIsSymmetric) {
   EXPECT_EQ(pwm.output(Output::kA).high_ticks, 800U);
 }
 
-TEST_F(Fixture, DownCountSetsAtThePeriodAndClearsAtCompare) {
+TEST_F(EhrpwmFixture, DownCountSetsAtThePeriodAndClearsAtCompare) {
   pwm.store(kTbCtl, 2, 0x0009);
   pwm.store(kAqCtlA, 2, 0x48);  // PRD high, CAD low
   pwm.store(kCmpA, 2, 300);
   EXPECT_EQ(pwm.output(Output::kA).high_ticks, 699U) << "from 999 to 300";
 }
 
-TEST_F(Fixture, AShadowedCompareActsAtTheNextZero) {
+TEST_F(EhrpwmFixture, AShadowedCompareActsAtTheNextZero) {
   pwm.store(kCmpA, 2, 100);
   pwm.store(kCmpCtl, 2, 0x00);
   at(3'000);  // 300 ticks into the period of 10 us
@@ -82,14 +82,14 @@ TEST_F(Fixture, AShadowedCompareActsAtTheNextZero) {
   EXPECT_EQ(pwm.load(kCmpCtl, 2) & 0x100U, 0U);
 }
 
-TEST_F(Fixture, AnImmediateCompareActsAtOnce) {
+TEST_F(EhrpwmFixture, AnImmediateCompareActsAtOnce) {
   pwm.store(kCmpA, 2, 100);
   at(3'000);
   pwm.store(kCmpA, 2, 700);
   EXPECT_EQ(pwm.output(Output::kA).high_ticks, 700U);
 }
 
-TEST_F(Fixture, AStoppedTimeBaseFreezesThePinWhereItWas) {
+TEST_F(EhrpwmFixture, AStoppedTimeBaseFreezesThePinWhereItWas) {
   pwm.store(kCmpA, 2, 500);
   at(2'000);  // count 200: high
   pwm.set_clock(false);
@@ -106,7 +106,7 @@ TEST_F(Fixture, AStoppedTimeBaseFreezesThePinWhereItWas) {
   EXPECT_EQ(pwm.output(Output::kA).high_ticks, 0U) << "no load without a time base";
 }
 
-TEST_F(Fixture, TheCounterRunsAtTheDividedClock) {
+TEST_F(EhrpwmFixture, TheCounterRunsAtTheDividedClock) {
   pwm.store(kTbCtl, 2, 0x0008 | 2U << 7U | 1U << 10U);  // /4 /2: 12.5 MHz
   const core::Nanoseconds start_ns = bus.now_ns;
   pwm.store(kTbCnt, 2, 0);
@@ -114,7 +114,7 @@ TEST_F(Fixture, TheCounterRunsAtTheDividedClock) {
   EXPECT_EQ(pwm.load(kTbCnt, 2), 100U);
 }
 
-TEST_F(Fixture, ASoftwareTripHoldsThePinsUntilItIsCleared) {
+TEST_F(EhrpwmFixture, ASoftwareTripHoldsThePinsUntilItIsCleared) {
   pwm.store(kCmpA, 2, 500);
   pwm.store(kTzCtl, 2, 0x000A);
   pwm.store(kTzFrc, 2, 0x4);
@@ -123,14 +123,14 @@ TEST_F(Fixture, ASoftwareTripHoldsThePinsUntilItIsCleared) {
   EXPECT_EQ(pwm.output(Output::kA).high_ticks, 500U);
 }
 
-TEST_F(Fixture, AContinuousForceOverridesTheQualifier) {
+TEST_F(EhrpwmFixture, AContinuousForceOverridesTheQualifier) {
   pwm.store(kCmpA, 2, 500);
   pwm.store(0x1C, 2, 0x9);  // A low, B high
   EXPECT_EQ(pwm.output(Output::kA).high_ticks, 0U);
   EXPECT_EQ(pwm.output(Output::kB).high_ticks, 1000U);
 }
 
-TEST_F(Fixture, TheEventInterruptComesEveryThirdZero) {
+TEST_F(EhrpwmFixture, TheEventInterruptComesEveryThirdZero) {
   pwm.store(0x34, 2, 3);
   pwm.store(0x32, 2, 0x9);
   at(20'000);

@@ -44,9 +44,9 @@ TEST(ElfImage, RefusesWhatIsNoImageWithASentence) {
 TEST(ElfImage, NoDamagedFileIsReadBeyondItsEnd) {
   const auto good = small_image({0xE320F003U, 0xEAFFFFFDU});
   for (std::size_t at = 0; at < good.size(); ++at) {
-    for (const std::uint8_t value : {0x00, 0x7F, 0x80, 0xFF}) {
+    for (const unsigned value : {0x00U, 0x7FU, 0x80U, 0xFFU}) {
       auto bytes = good;
-      bytes[at] = value;
+      bytes[at] = static_cast<std::uint8_t>(value);
       if (const auto image = ElfImage::parse(bytes)) {
         for (const ElfSegment& segment : image->segments()) {
           EXPECT_LE(segment.bytes.size(), good.size());

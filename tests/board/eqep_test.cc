@@ -20,13 +20,13 @@ constexpr std::uint32_t kTimer = 0x3A;
 constexpr std::uint32_t kPeriod = 0x3C;
 constexpr std::uint32_t kEnable = 0x30;
 
-struct Fixture : testing::Test {
+struct EqepFixture : testing::Test {
   Bus bus;
   bool raised = false;
   Eqep eqep{"eqep1", bus, [this](bool level) { raised = level; }};
   unsigned phase = 0;
 
-  Fixture() {
+  EqepFixture() {
     eqep.store(kMaximum, 4, 0xFFFF'FFFFU);
     eqep.store(kControl, 2, 0x1018);  // reset at maximum, index latch rising, on
     eqep.store(kCapture, 2, 0x8060);  // 100 MHz / 64, every edge
@@ -43,7 +43,7 @@ struct Fixture : testing::Test {
   }
 };
 
-TEST_F(Fixture, CountsEveryEdgeUpAndDown) {
+TEST_F(EqepFixture, CountsEveryEdgeUpAndDown) {
   core::Nanoseconds time_ns = 0;
   for (int i = 0; i < 1000; ++i) {
     step(1, time_ns += 1000);
@@ -57,7 +57,7 @@ TEST_F(Fixture, CountsEveryEdgeUpAndDown) {
   EXPECT_EQ(eqep.load(kStatus, 2) & 0x20U, 0U) << "QDF: last direction is down";
 }
 
-TEST_F(Fixture, AnEdgeCountsAtItsOwnTimeAndNotBefore) {
+TEST_F(EqepFixture, AnEdgeCountsAtItsOwnTimeAndNotBefore) {
   step(1, 5'000);
   step(1, 6'000);
   at(5'999);
@@ -66,7 +66,7 @@ TEST_F(Fixture, AnEdgeCountsAtItsOwnTimeAndNotBefore) {
   EXPECT_EQ(eqep.load(kPosition, 4), 2U);
 }
 
-TEST_F(Fixture, WrapsAtTheMaximumBothWaysAndSaysSo) {
+TEST_F(EqepFixture, WrapsAtTheMaximumBothWaysAndSaysSo) {
   eqep.store(kMaximum, 4, 9);
   eqep.store(kPosition, 4, 9);
   step(1, 1000);
@@ -82,7 +82,7 @@ TEST_F(Fixture, WrapsAtTheMaximumBothWaysAndSaysSo) {
 }
 
 // v = 1 count of 2.2 um in T: from 0.1 mm/s to 0.6 m/s the period in ticks of 640 ns, to one tick.
-TEST_F(Fixture, CapturePeriodIsTheTimeBetweenEdgesFromCreepToFullSpeed) {
+TEST_F(EqepFixture, CapturePeriodIsTheTimeBetweenEdgesFromCreepToFullSpeed) {
   constexpr double kCount_m = 2.2456e-6;
   core::Nanoseconds time_ns = 1'000'000;
   for (const double speed_m_per_s : {1e-4, 3e-4, 1e-3, 1e-2, 0.1, 0.3, 0.6}) {
@@ -97,7 +97,7 @@ TEST_F(Fixture, CapturePeriodIsTheTimeBetweenEdgesFromCreepToFullSpeed) {
   }
 }
 
-TEST_F(Fixture, TheCaptureTimerSinceTheLastEdgeRunsAndItsOverflowIsToldOnce) {
+TEST_F(EqepFixture, TheCaptureTimerSinceTheLastEdgeRunsAndItsOverflowIsToldOnce) {
   step(1, 640'000);
   at(640'000 + 640 * 1234);
   EXPECT_EQ(eqep.load(kTimer, 2), 1234U);
@@ -109,7 +109,7 @@ TEST_F(Fixture, TheCaptureTimerSinceTheLastEdgeRunsAndItsOverflowIsToldOnce) {
   EXPECT_EQ(eqep.load(kStatus, 2) & 0x8U, 0U) << "write 1 clears";
 }
 
-TEST_F(Fixture, AReversalBetweenTwoLatchesIsADirectionError) {
+TEST_F(EqepFixture, AReversalBetweenTwoLatchesIsADirectionError) {
   step(1, 10'000);
   step(1, 20'000);
   step(-1, 30'000);
@@ -117,7 +117,7 @@ TEST_F(Fixture, AReversalBetweenTwoLatchesIsADirectionError) {
   EXPECT_NE(eqep.load(kStatus, 2) & 0x4U, 0U) << "CDEF";
 }
 
-TEST_F(Fixture, EveryFourthCountMakesTheUnitEvent) {
+TEST_F(EqepFixture, EveryFourthCountMakesTheUnitEvent) {
   eqep.store(kCapture, 2, 0x8002);  // 100 MHz, UPPS = 4 counts
   core::Nanoseconds time_ns = 0;
   for (int i = 0; i < 8; ++i) {
@@ -127,7 +127,7 @@ TEST_F(Fixture, EveryFourthCountMakesTheUnitEvent) {
   EXPECT_EQ(eqep.load(kPeriod, 2), 2'000U) << "four counts of 5 us in ticks of 10 ns";
 }
 
-TEST_F(Fixture, BothChannelsWithinOneClockAreAPhaseErrorAndCountNothing) {
+TEST_F(EqepFixture, BothChannelsWithinOneClockAreAPhaseErrorAndCountNothing) {
   step(1, 1'000);
   step(1, 2'000);
   eqep.push_edge(EncoderLine::kA, 3'000);
@@ -137,7 +137,7 @@ TEST_F(Fixture, BothChannelsWithinOneClockAreAPhaseErrorAndCountNothing) {
   EXPECT_NE(eqep.load(kFlags, 2) & 0x4U, 0U) << "PHE";
 }
 
-TEST_F(Fixture, TheIndexLatchesThePosition) {
+TEST_F(EqepFixture, TheIndexLatchesThePosition) {
   for (int i = 0; i < 5; ++i) {
     step(1, 1'000 * (i + 1));
   }
@@ -150,7 +150,7 @@ TEST_F(Fixture, TheIndexLatchesThePosition) {
   EXPECT_EQ(eqep.load(kPosition, 4), 6U);
 }
 
-TEST_F(Fixture, SwapAndPolarityTurnTheDirection) {
+TEST_F(EqepFixture, SwapAndPolarityTurnTheDirection) {
   for (const std::uint32_t control : {1U << 10U, 1U << 8U, 1U << 7U}) {
     eqep.store(kDecoderControl, 2, control);
     eqep.store(kPosition, 4, 100);
@@ -160,7 +160,7 @@ TEST_F(Fixture, SwapAndPolarityTurnTheDirection) {
   }
 }
 
-TEST_F(Fixture, TheUnitTimerLatchesAndInterrupts) {
+TEST_F(EqepFixture, TheUnitTimerLatchesAndInterrupts) {
   eqep.store(kUnitPeriod, 4, 100'000);  // 1 ms
   eqep.store(kEnable, 2, 0x800);
   eqep.store(kControl, 2, 0x101E);  // QCLM, UTE
@@ -174,7 +174,7 @@ TEST_F(Fixture, TheUnitTimerLatchesAndInterrupts) {
   EXPECT_FALSE(raised);
 }
 
-TEST_F(Fixture, BytesHalfwordsAndWordsReachTheSameRegisters) {
+TEST_F(EqepFixture, BytesHalfwordsAndWordsReachTheSameRegisters) {
   eqep.store(kMaximum, 4, 0x1234'5678);
   EXPECT_EQ(eqep.load(kMaximum, 1), 0x78U);
   EXPECT_EQ(eqep.load(kMaximum + 1, 2), 0x3456U);
@@ -183,7 +183,7 @@ TEST_F(Fixture, BytesHalfwordsAndWordsReachTheSameRegisters) {
   EXPECT_EQ(eqep.load(kMaximum, 4), 0xFF34'5678U);
 }
 
-TEST_F(Fixture, NothingCountsWhileTheCounterIsOff) {
+TEST_F(EqepFixture, NothingCountsWhileTheCounterIsOff) {
   eqep.store(kControl, 2, 0x1010);
   step(1, 1'000);
   at(2'000);

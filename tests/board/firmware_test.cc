@@ -75,7 +75,7 @@ TEST(Firmware, EveryCheckOfTheExerciseHolds) {
     const std::string answer = exercise.take_text();
     const auto at = answer.find("capture 0x");
     ASSERT_NE(at, std::string::npos) << answer;
-    const double period = std::stoul(answer.substr(at + 8), nullptr, 16);
+    const auto period = static_cast<double>(std::stoul(answer.substr(at + 8), nullptr, 16));
     EXPECT_NEAR(period, static_cast<double>(gap_ns) / 640.0, 1.0) << speed_m_per_s;
   }
 
@@ -83,8 +83,8 @@ TEST(Firmware, EveryCheckOfTheExerciseHolds) {
   ASSERT_TRUE(exercise.run_until_said("bounce\r\n"));
   core::Nanoseconds t = exercise.board().now_ns();
   for (const int bounce_us : {100, 150, 90, 200, 100, 50, 120}) {  // none lasts 310 us
-    const bool high = (t += bounce_us * 1000, true);
-    exercise.board().gpio(1).drive(14, high, t);
+    t += bounce_us * core::kNanosecondsPerMicrosecond;
+    exercise.board().gpio(1).drive(14, true, t);
     exercise.board().gpio(1).drive(14, false, t + 40'000);
   }
   exercise.board().gpio(1).drive(14, true, t + 90'000);

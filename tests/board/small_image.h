@@ -28,7 +28,7 @@ inline std::vector<std::uint8_t> small_image(const std::vector<std::uint32_t>& c
   const std::uint32_t symbols = kCode + size;
   const std::uint32_t names = symbols + 32;
   const std::uint32_t sections = names + 8;
-  for (const int b : {0x7F, 'E', 'L', 'F', 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0}) {
+  for (const int b : {0x7F, 0x45, 0x4C, 0x46, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0}) {
     file.push_back(static_cast<std::uint8_t>(b));
   }
   half(2);   // executable

@@ -168,7 +168,7 @@ static void debounce(void) {
   W(GPIO1 + 0x150) = 1u << 14;
   W(GPIO1 + 0x148) = 1u << 14;
   W(GPIO1 + 0x34) = 1u << 14;
-  enable(98, 0);
+  enable(98, 1); /* 0 would come again inside its own handler */
   __asm__ volatile("cpsie i");
   text("bounce\r\n");
   get();

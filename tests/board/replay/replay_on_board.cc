@@ -7,8 +7,8 @@
 #include <iterator>
 #include <vector>
 
-#include "tests/board/replay/files_in_memory.h"
 #include "board/board.h"
+#include "tests/board/replay/files_in_memory.h"
 
 namespace {
 
