@@ -1,9 +1,11 @@
 // One contract, every driver: what the driver model promises (bbmc/device/driver.h) is tested once
-// and applied to each device (OR-BBMC-2c).
+// and applied to each device of each board: the emulated one, and kernel devices (OR-BBMC-2c).
 #include <gtest/gtest.h>
 
 #include "bbmc/device/device_manager.h"
 #include "bbmc/host/emulated_board.h"
+#include "bbmc/host/linux/linux_board.h"
+#include "tests/bbmc/support/fake_board.h"
 
 namespace towbench::bbmc {
 namespace {
@@ -81,9 +83,27 @@ struct Sample<Aintc> {
   static Aintc::Command bad_command() { return {Line::kKillSwitch, Aintc::Action::kMask}; }
 };
 
-template <typename Device>
+// The kernel's devices, in a folder that imitates them.
+class KernelBoard {
+ public:
+  KernelBoard() { EXPECT_TRUE(board_.open(fake_.devices())) << board_.trouble().message(); }
+  BoardPorts ports() noexcept { return board_.ports(); }
+
+ private:
+  tests::FakeBoard fake_;
+  LinuxBoard board_;
+};
+
+template <typename TheDevice, typename TheBoard>
+struct On {
+  using Device = TheDevice;
+  using Board = TheBoard;
+};
+
+template <typename Place>
 class DriverContract : public ::testing::Test {
  protected:
+  using Device = typename Place::Device;
   using Driver = towbench::bbmc::Driver<Device>;
 
   void make_ready() {
@@ -91,22 +111,29 @@ class DriverContract : public ::testing::Test {
     ASSERT_TRUE(driver_.init(Sample<Device>::good()));
   }
 
-  EmulatedBoard board_;
+  typename Place::Board board_;
   DeviceManager devices_{board_.ports()};
   Driver& driver_ = Sample<Device>::driver(devices_);
 };
 
-using Devices = ::testing::Types<Ehrpwm, Eqep, Dmtimer, Gpio, Uart, Aintc>;
-TYPED_TEST_SUITE(DriverContract, Devices);
+using Places =
+    ::testing::Types<On<Ehrpwm, EmulatedBoard>, On<Eqep, EmulatedBoard>, On<Dmtimer, EmulatedBoard>,
+                     On<Gpio, EmulatedBoard>, On<Uart, EmulatedBoard>, On<Aintc, EmulatedBoard>,
+                     On<Ehrpwm, KernelBoard>, On<Eqep, KernelBoard>, On<Dmtimer, KernelBoard>,
+                     On<Gpio, KernelBoard>, On<Uart, KernelBoard>, On<Aintc, KernelBoard>>;
+TYPED_TEST_SUITE(DriverContract, Places);
 
 TYPED_TEST(DriverContract, StartsClosedAndRefusesEverythingButOpen) {
-  typename TypeParam::Reading reading{};
+  typename TypeParam::Device::Reading reading{};
   EXPECT_EQ(this->driver_.state(), DriverState::kClosed);
   EXPECT_EQ(this->driver_.close().error(), ErrorCode::kDeviceNotOpen);
-  EXPECT_EQ(this->driver_.init(Sample<TypeParam>::good()).error(), ErrorCode::kDeviceNotOpen);
-  EXPECT_EQ(this->driver_.config(Sample<TypeParam>::good()).error(), ErrorCode::kDeviceNotOpen);
+  EXPECT_EQ(this->driver_.init(Sample<typename TypeParam::Device>::good()).error(),
+            ErrorCode::kDeviceNotOpen);
+  EXPECT_EQ(this->driver_.config(Sample<typename TypeParam::Device>::good()).error(),
+            ErrorCode::kDeviceNotOpen);
   EXPECT_EQ(this->driver_.read(reading).error(), ErrorCode::kDeviceNotOpen);
-  EXPECT_EQ(this->driver_.write(Sample<TypeParam>::command()).error(), ErrorCode::kDeviceNotOpen);
+  EXPECT_EQ(this->driver_.write(Sample<typename TypeParam::Device>::command()).error(),
+            ErrorCode::kDeviceNotOpen);
   EXPECT_EQ(this->driver_.state(), DriverState::kClosed);
 }
 
@@ -117,45 +144,49 @@ TYPED_TEST(DriverContract, OpensOnce) {
 }
 
 TYPED_TEST(DriverContract, RefusesUseBeforeInit) {
-  typename TypeParam::Reading reading{};
+  typename TypeParam::Device::Reading reading{};
   ASSERT_TRUE(this->driver_.open());
-  EXPECT_EQ(this->driver_.config(Sample<TypeParam>::good()).error(),
+  EXPECT_EQ(this->driver_.config(Sample<typename TypeParam::Device>::good()).error(),
             ErrorCode::kDeviceNotInitialised);
   EXPECT_EQ(this->driver_.read(reading).error(), ErrorCode::kDeviceNotInitialised);
-  EXPECT_EQ(this->driver_.write(Sample<TypeParam>::command()).error(),
+  EXPECT_EQ(this->driver_.write(Sample<typename TypeParam::Device>::command()).error(),
             ErrorCode::kDeviceNotInitialised);
 }
 
 TYPED_TEST(DriverContract, InitialisesOnceWithGoodSettingsOnly) {
   ASSERT_TRUE(this->driver_.open());
-  EXPECT_EQ(this->driver_.init(Sample<TypeParam>::bad()).error(), ErrorCode::kDeviceBadArgument);
+  EXPECT_EQ(this->driver_.init(Sample<typename TypeParam::Device>::bad()).error(),
+            ErrorCode::kDeviceBadArgument);
   EXPECT_EQ(this->driver_.state(), DriverState::kOpened);
-  EXPECT_TRUE(this->driver_.init(Sample<TypeParam>::good()));
+  EXPECT_TRUE(this->driver_.init(Sample<typename TypeParam::Device>::good()));
   EXPECT_EQ(this->driver_.state(), DriverState::kReady);
-  EXPECT_EQ(this->driver_.init(Sample<TypeParam>::good()).error(), ErrorCode::kDeviceBusy);
+  EXPECT_EQ(this->driver_.init(Sample<typename TypeParam::Device>::good()).error(),
+            ErrorCode::kDeviceBusy);
 }
 
 TYPED_TEST(DriverContract, IsReconfiguredWhileInUse) {
   this->make_ready();
-  EXPECT_TRUE(this->driver_.config(Sample<TypeParam>::other()));
-  EXPECT_EQ(this->driver_.settings(), Sample<TypeParam>::other());
+  EXPECT_TRUE(this->driver_.config(Sample<typename TypeParam::Device>::other()));
+  EXPECT_EQ(this->driver_.settings(), Sample<typename TypeParam::Device>::other());
 }
 
 TYPED_TEST(DriverContract, ARefusedConfigurationChangesNothing) {
   this->make_ready();
-  EXPECT_EQ(this->driver_.config(Sample<TypeParam>::bad()).error(), ErrorCode::kDeviceBadArgument);
-  EXPECT_EQ(this->driver_.settings(), Sample<TypeParam>::good());
+  EXPECT_EQ(this->driver_.config(Sample<typename TypeParam::Device>::bad()).error(),
+            ErrorCode::kDeviceBadArgument);
+  EXPECT_EQ(this->driver_.settings(), Sample<typename TypeParam::Device>::good());
   EXPECT_EQ(this->driver_.state(), DriverState::kReady);
 }
 
 TYPED_TEST(DriverContract, WritesWhatIsRightAndRefusesWhatIsNot) {
   this->make_ready();
-  EXPECT_TRUE(this->driver_.write(Sample<TypeParam>::command()));
-  if constexpr (std::is_same_v<TypeParam, Eqep> || std::is_same_v<TypeParam, Gpio>) {
+  EXPECT_TRUE(this->driver_.write(Sample<typename TypeParam::Device>::command()));
+  if constexpr (std::is_same_v<typename TypeParam::Device, Eqep> ||
+                std::is_same_v<typename TypeParam::Device, Gpio>) {
     // Wrong only under other settings: a position beyond the counter, a level on an input.
-    ASSERT_TRUE(this->driver_.config(Sample<TypeParam>::other()));
+    ASSERT_TRUE(this->driver_.config(Sample<typename TypeParam::Device>::other()));
   }
-  EXPECT_EQ(this->driver_.write(Sample<TypeParam>::bad_command()).error(),
+  EXPECT_EQ(this->driver_.write(Sample<typename TypeParam::Device>::bad_command()).error(),
             ErrorCode::kDeviceBadArgument);
 }
 
@@ -165,7 +196,8 @@ TYPED_TEST(DriverContract, ClosesFromEveryOpenStateAndOpensAgain) {
   this->make_ready();
   EXPECT_TRUE(this->driver_.close());
   EXPECT_EQ(this->driver_.state(), DriverState::kClosed);
-  EXPECT_EQ(this->driver_.write(Sample<TypeParam>::command()).error(), ErrorCode::kDeviceNotOpen);
+  EXPECT_EQ(this->driver_.write(Sample<typename TypeParam::Device>::command()).error(),
+            ErrorCode::kDeviceNotOpen);
   this->make_ready();
 }
 
