@@ -14,8 +14,9 @@
 #include "harness/bench/unrecorded_plant.h"
 #include "harness/commands/carrier_option.h"
 #include "harness/commands/command.h"
+#include "harness/commands/linux_session.h"
 #include "harness/commands/stop_signal.h"
-#include "harness/commands/terminal.h"
+#include "harness/commands/typist.h"
 #include "harness/fixtures/controller_fixture.h"
 #include "harness/fixtures/rig_fixture.h"
 #include "harness/judge/check.h"
@@ -32,41 +33,9 @@ struct Options {
   std::string carrier;
   std::string lines;
   std::string rig;
+  std::string devices;
   std::string out;
   bool fast = false;
-};
-
-constexpr char kEndOfTransmission = 4;  // Ctrl-D on a terminal ends the session
-
-// Feeds what a person or a pipe types. A pipe's lines are fed one at a time, each when the one
-// before has been served, so that a file of commands runs as it would by hand.
-class Typist {
- public:
-  void feed(bbmc::ControllerNode& controller) {
-    buffer_ += terminal_.read();
-    if (terminal_.is_terminal()) {
-      const auto end = buffer_.find(kEndOfTransmission);
-      ended_ = ended_ || end != std::string::npos;
-      buffer_.erase(0, controller.type(std::string_view(buffer_).substr(0, end)));
-      return;
-    }
-    if (line_.empty() && controller.idle()) {
-      const auto end = buffer_.find('\n');
-      if (end != std::string::npos) {
-        line_ = buffer_.substr(0, end) + "\r";
-        buffer_.erase(0, end + 1);
-      }
-    }
-    line_.erase(0, controller.type(line_));
-    ended_ = terminal_.at_end() && line_.empty() && buffer_.find('\n') == std::string::npos;
-  }
-  [[nodiscard]] bool ended() const noexcept { return ended_; }
-
- private:
-  Terminal terminal_;
-  std::string buffer_;
-  std::string line_;
-  bool ended_ = false;
 };
 
 class Session {
@@ -140,6 +109,9 @@ std::unique_ptr<protocol::LinePort> open_the_lines(const std::string& address) {
 int execute(const Options& options) {
   SourceFiles sources;
   const auto controller = load_controller(options.controller, sources);
+  if (!options.devices.empty()) {
+    return run_on_devices(options.devices, controller, options.out);
+  }
   UnrecordedPlant unrecorded;
   std::unique_ptr<ControllerRecorder> recorder;
   std::unique_ptr<PlantRecorder> plant_recorder;
@@ -183,17 +155,23 @@ void add_control(CLI::App& app, int& exit_code) {
       std::string("where `towbench emulate` waits: ") + std::string(protocol::kAddressForms));
   auto* rig = verb->add_option("--rig", options->rig, "instead: a rig emulated in this process");
   connect->excludes(rig);
-  verb->add_option("--lines", options->lines, "digital lines on a GPIO chip: CHIP[+FIRST]")
-      ->excludes(rig);
+  auto* lines =
+      verb->add_option("--lines", options->lines, "digital lines on a GPIO chip: CHIP[+FIRST]")
+          ->excludes(rig);
+  auto* devices = verb->add_option("--devices", options->devices,
+                                   "instead: a real machine on this board's devices: linux:FILE "
+                                   "(docs/beaglebone.md)");
+  devices->excludes(connect)->excludes(rig)->excludes(lines);
   verb->add_option("--out", options->out, "folder for log.csv and the other records");
-  verb->add_flag("--fast", options->fast, "as fast as it goes, not at the wall clock's pace");
+  verb->add_flag("--fast", options->fast, "as fast as it goes, not at the wall clock's pace")
+      ->excludes(devices);
   verb->footer(
       "Example: towbench control --controller fixtures/controllers/bbmc-tuned.toml "
       "--rig fixtures/rigs/macs-nominal.toml\n"
       "Type `help`; Ctrl-C stops a motion, Ctrl-D or `quit` ends the session.");
   verb->callback([options, &exit_code] {
-    if (options->carrier.empty() == options->rig.empty()) {
-      throw CLI::RequiredError("--carrier or --rig");
+    if (options->devices.empty() && options->carrier.empty() == options->rig.empty()) {
+      throw CLI::RequiredError("--carrier, --rig or --devices");
     }
     exit_code = execute(*options);
   });

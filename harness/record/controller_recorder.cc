@@ -22,7 +22,8 @@ void ControllerRecorder::WriteTiming::operator()(const Timing& timing) const noe
   csv->time(timing.time_ns).time(timing.host_ns).time(timing.exchange_ns * 1'000'000).end_row();
 }
 
-void ControllerRecorder::drain(bbmc::ControllerNode& controller) noexcept {
+template <typename Controller>
+void ControllerRecorder::take_all(Controller& controller) noexcept {
   bbmc::TelemetryRow row;
   while (controller.next_row(row)) {
     log_rows_.add(row);
@@ -52,6 +53,14 @@ void ControllerRecorder::console(std::string_view text) noexcept {
 
 void ControllerRecorder::hand(const HandAct& act) noexcept {
   event(hand_line(act));
+}
+
+void ControllerRecorder::drain(bbmc::ControllerNode& controller) noexcept {
+  take_all(controller);
+}
+
+void ControllerRecorder::drain(bbmc::LinuxNode& controller) noexcept {
+  take_all(controller);
 }
 
 void ControllerRecorder::wire_event(core::Nanoseconds time_ns, std::string_view kind) noexcept {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "bbmc/host/controller_node.h"
+#include "bbmc/host/linux/linux_node.h"
 #include "harness/bench/bench_recorder.h"
 #include "harness/record/csv_writer.h"
 #include "harness/record/line_writer.h"
@@ -21,6 +22,7 @@ class ControllerRecorder final : public BenchRecorder {
   ~ControllerRecorder() override;
 
   void drain(bbmc::ControllerNode& controller) noexcept override;
+  void drain(bbmc::LinuxNode& controller) noexcept;
   void console(std::string_view text) noexcept override;
   void hand(const HandAct& act) noexcept override;
   void wire_event(core::Nanoseconds time_ns, std::string_view kind) noexcept override;
@@ -32,6 +34,9 @@ class ControllerRecorder final : public BenchRecorder {
   [[nodiscard]] bool good() const noexcept override;
 
  private:
+  template <typename Controller>
+  void take_all(Controller& controller) noexcept;
+
   struct WriteLog {
     CsvWriter* csv;
     void operator()(const bbmc::TelemetryRow& row) const noexcept { write_log_row(*csv, row); }

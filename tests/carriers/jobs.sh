@@ -162,6 +162,8 @@ in_machine() {
   demo_over vcan can:vcan0
   job 'GPIO lines: both sides, edges, debouncing, taken lines' \
     "$build/tests/protocol/test_protocol" --gtest_brief=1 '--gtest_filter=GpioLines*'
+  job "GPIO lines behind BBMC's drivers" \
+    "$build/tests/bbmc/test_bbmc" --gtest_brief=1 '--gtest_filter=ChipLine*'
   make_simulated_chip
   demo_over vcan-and-gpio can:vcan0 "$chip,sim:$chip"
   job 'a bus that goes down in a run leaves both sides safe' bus_goes_down

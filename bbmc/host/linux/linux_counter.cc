@@ -28,7 +28,7 @@ core::Status LinuxCounter::open(const LinuxEncoderPlace& place, const std::strin
 }
 
 core::Status LinuxCounter::apply(const Eqep::Settings& settings) noexcept {
-  if (is_open() && !started_) {
+  if (is_open() && !set_up_) {
     if (const auto done = function_.write_text("quadrature x4"); !done) {
       return done;
     }
@@ -38,6 +38,7 @@ core::Status LinuxCounter::apply(const Eqep::Settings& settings) noexcept {
     if (const auto done = enable_.settle_number(1); !done) {
       return done;
     }
+    set_up_ = true;
   }
   settings_ = settings;
   capture_.set_clock(settings.capture_clock_Hz);

@@ -55,6 +55,7 @@ class LinuxCounter final : public EqepPort {
   std::int64_t offset_ = 0;
   std::uint32_t index_pulses_ = 0;
   std::int64_t index_total_ = 0;
+  bool set_up_ = false;
   bool started_ = false;
 };
 

@@ -66,14 +66,15 @@ LinuxNode::LinuxNode(const Configuration& configuration, core::Nanoseconds origi
 
 LinuxNode::~LinuxNode() = default;
 
-core::Status LinuxNode::start(const LinuxDevices& devices, core::Nanoseconds patience_ns) {
+core::Status LinuxNode::start(const LinuxDevices& devices, core::Nanoseconds now_ns,
+                              core::Nanoseconds patience_ns) {
   Implementation& self = *implementation_;
   auto status = self.board.open(devices);
   if (status) {
-    status = self.board.sample(0);
+    status = self.system.start();
   }
   if (status) {
-    status = self.system.start();
+    status = self.board.sample(now_ns);
   }
   if (status) {
     status = self.board.flush();

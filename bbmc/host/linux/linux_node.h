@@ -32,9 +32,10 @@ class LinuxNode {
   LinuxNode& operator=(const LinuxNode&) = delete;
   ~LinuxNode();  // the board is safe
 
-  // Opens and sets up every device. First of all calls; after a failure nothing else is called.
-  // With a patience above 0 a second process watches this one (drive_guard.h).
-  [[nodiscard]] core::Status start(const LinuxDevices& devices, core::Nanoseconds patience_ns = 0);
+  // Opens and sets up every device as of `now_ns`. First of all calls; after a failure nothing else
+  // is called. With a patience above 0 a second process watches this one (drive_guard.h).
+  [[nodiscard]] core::Status start(const LinuxDevices& devices, core::Nanoseconds now_ns = 0,
+                                   core::Nanoseconds patience_ns = 0);
 
   // Reads the devices, serves interrupts, the control tick if one is due and the console, writes
   // the devices. Called once an exchange, in order of time. False while a device fails.

@@ -6,9 +6,13 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <csignal>
+#include <memory>
 #include <thread>
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "tests/bbmc/support/fake_board.h"
 #include "tests/bbmc/support/fake_board_machine.h"
@@ -119,6 +123,15 @@ TEST_F(LinuxNodeTest, ATrapezoidThroughFilesMovesTheCarriageByItsDistance) {
   EXPECT_TRUE(fake_.is_safe()) << "at rest nothing is put out";
 }
 
+TEST_F(LinuxNodeTest, StartingSetsTheCountersUp) {
+  start();
+  const std::string count = FakeBoard::count_file(Axis::kX);
+  const std::string folder = count.substr(0, count.rfind('/') + 1);
+  EXPECT_EQ(fake_.first_line(folder + "function"), "quadrature x4");
+  EXPECT_EQ(fake_.read(folder + "ceiling"), 4294967295U);
+  EXPECT_EQ(fake_.read(folder + "enable"), 1U);
+}
+
 TEST_F(LinuxNodeTest, TheKillSwitchTakesTheDriveInTheExchangeInWhichItIsSeen) {
   start();
   ASSERT_GT(node_.type("run -trapez y --distance 0.5m --speed 0.2m/s\r"), 0U);
@@ -214,7 +227,7 @@ TEST(LinuxNodeStart, DevicesThatTheControllerCountsOnMustBeNamed) {
 class DriveGuardTest : public ::testing::Test {
  protected:
   void start(core::Nanoseconds patience_ns) {
-    ASSERT_TRUE(node_.start(fake_.devices(), patience_ns)) << node_.trouble();
+    ASSERT_TRUE(node_.start(fake_.devices(), 0, patience_ns)) << node_.trouble();
     fake_.write(FakeBoard::pwm_file(Axis::kX, 0, "duty_cycle"), 5000);
     fake_.write(FakeBoard::pwm_file(Axis::kX, 0, "enable"), 1);
   }
@@ -240,6 +253,23 @@ TEST_F(DriveGuardTest, TakesTheDriveFromAControllerThatIsNotServed) {
   }
   EXPECT_EQ(node_.status().fault, ErrorCode::kFaultLinkLost);
   EXPECT_TRUE(node_.trouble().starts_with("the drive guard took the drive away"));
+}
+
+TEST_F(DriveGuardTest, TakesTheDriveFromAControllerThatIsKilled) {
+  const pid_t controller = ::fork();
+  if (controller == 0) {
+    LinuxNode node(without_index(), 0);
+    if (node.start(fake_.devices(), 0, 3'600'000'000'000)) {
+      fake_.write(FakeBoard::pwm_file(Axis::kX, 0, "duty_cycle"), 5000);
+      fake_.write(FakeBoard::pwm_file(Axis::kX, 0, "enable"), 1);
+      ::kill(::getpid(), SIGKILL);
+    }
+    ::_exit(1);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(controller, &status, 0), controller);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_TRUE(becomes_safe());
 }
 
 TEST_F(DriveGuardTest, LeavesWithAnOrderlyEnd) {
