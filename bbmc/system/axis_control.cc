@@ -32,7 +32,7 @@ void AxisControl::set_drive(const DriveConfiguration& drive) noexcept {
 
 core::ErrorCode AxisControl::judge_encoder() noexcept {
   // What the drive was told until now is what has moved the axis since the exchange before.
-  observer_.change().torque_Nm = static_cast<double>(ticks_) / ticks_per_Nm_;
+  observer_.change().torque_Nm = torque_Nm();
   const auto scope = is_driven(mode_)              ? EncoderPlausibility::Scope::kEverything
                      : mode_ == AxisMode::kBraking ? EncoderPlausibility::Scope::kSignals
                                                    : EncoderPlausibility::Scope::kNothing;
@@ -69,21 +69,24 @@ BrakeState AxisControl::serve_brake(core::Nanoseconds now_ns) noexcept {
 
 void AxisControl::estimate_velocity() noexcept {
   velocity_.update(observer_.reading(), observer_.raw_count());
+  if (std::fabs(velocity_.counts_per_s()) > standstill_count_per_s_) {
+    moved_ns_ = observer_.reading().time_ns;
+  }
 }
 
 void AxisControl::follow(const Reference& reference, AxisMode mode, double step_s,
-                         double across_path_m) noexcept {
+                         double across_path_m, double integral_ratio) noexcept {
   mode_ = mode;
   reference_ = reference;
-  const double torque_Nm =
-      law_.torque_Nm({.reference = reference,
-                      .position_m = position_m(),
-                      .velocity_m_per_s = velocity_m_per_s(),
-                      .across_path_m = across_path_m,
-                      .applied_Nm = static_cast<double>(ticks_) / ticks_per_Nm_,
-                      .limit_Nm = torque_limit_Nm_,
-                      .step_s = step_s});
-  set_ticks(torque_Nm * ticks_per_Nm_);
+  const double wanted_Nm = law_.torque_Nm({.reference = reference,
+                                           .position_m = position_m(),
+                                           .velocity_m_per_s = velocity_m_per_s(),
+                                           .across_path_m = across_path_m,
+                                           .applied_Nm = torque_Nm(),
+                                           .limit_Nm = torque_limit_Nm_,
+                                           .step_s = step_s,
+                                           .integral_ratio = integral_ratio});
+  set_ticks(wanted_Nm * ticks_per_Nm_);
 }
 
 void AxisControl::drive_duty(double duty_pct) noexcept {

@@ -46,13 +46,15 @@ class AxisControl {
   TOWBENCH_REALTIME void estimate_velocity() noexcept;
   // `across_path_m`: this axis's part of the error across a 2-D path, times its gain ratio.
   TOWBENCH_REALTIME void follow(const Reference& reference, AxisMode mode, double step_s,
-                                double across_path_m = 0) noexcept;
+                                double across_path_m = 0, double integral_ratio = 1) noexcept;
   TOWBENCH_REALTIME void drive_duty(double duty_pct) noexcept;
   // Motor torque, within the axis's limit.
   TOWBENCH_REALTIME void drive_torque(double torque_Nm) noexcept;
 
   // ---- changes of mode ----
   void begin(AxisMode mode, core::Nanoseconds now_ns) noexcept;
+  // Of the motion that begins (control_law.h).
+  void allow_moving_reference(bool allowed) noexcept { law_.allow_moving(allowed); }
   void begin_braking(core::Nanoseconds now_ns) noexcept;
   // No power from now on.
   void power_off(AxisMode mode) noexcept;
@@ -73,8 +75,17 @@ class AxisControl {
   [[nodiscard]] double velocity_count_per_s() const noexcept { return velocity_.counts_per_s(); }
   [[nodiscard]] const Reference& reference() const noexcept { return reference_; }
   [[nodiscard]] double duty_pct() const noexcept;
+  // Asked of the motor until now.
+  [[nodiscard]] double torque_Nm() const noexcept {
+    return static_cast<double>(ticks_) / ticks_per_Nm_;
+  }
+  // Since it was last seen moving.
+  [[nodiscard]] core::Nanoseconds stood_ns() const noexcept {
+    return observer_.reading().time_ns - moved_ns_;
+  }
   // Estimated by the law, if it does; + pushes towards max.
   [[nodiscard]] double disturbance_Nm() const noexcept { return law_.disturbance_Nm(); }
+  [[nodiscard]] double lead_m() const noexcept { return law_.lead_m(); }
   [[nodiscard]] double integral_Nm() const noexcept { return law_.integral_Nm(); }
   [[nodiscard]] double motor_rad() const noexcept {
     return (static_cast<double>(observer_.count()) + 0.5) * settings_.rad_per_count();
@@ -114,6 +125,7 @@ class AxisControl {
   Reference reference_;
   AxisMode mode_ = AxisMode::kIdle;
   core::Nanoseconds enabled_ns_ = 0;
+  core::Nanoseconds moved_ns_ = -core::kNanosecondsPerSecond;
   std::int64_t start_count_ = 0;
   std::uint32_t edges_taken_ = 0;
   std::int32_t ticks_ = 0;

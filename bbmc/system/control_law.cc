@@ -46,6 +46,7 @@ void ControlLaw::forget_disturbance() noexcept {
 
 void ControlLaw::reset() noexcept {
   pid_.reset();
+  lead_m_ = 0;
   last_acceleration_m_per_s2_ = 0;
   forget_disturbance();
 }
@@ -55,7 +56,7 @@ Reference ControlLaw::with_stretch(const Reference& reference, double step_s) no
   const double jerk_m_per_s3 =
       (reference.acceleration_m_per_s2 - last_acceleration_m_per_s2_) / step_s;
   last_acceleration_m_per_s2_ = reference.acceleration_m_per_s2;
-  if (!chain_.enabled) {
+  if (!chain_.enabled || !moves_reference_) {
     return moved;
   }
   const double speed_rad_per_s = reference.velocity_m_per_s * rad_per_m_;
@@ -86,7 +87,9 @@ void ControlLaw::observe(const Input& input, double speed_rad_per_s) noexcept {
 }
 
 void ControlLaw::give_way(const Input& input, Reference& reference) noexcept {
-  if (!observer_.enabled) {
+  // At rest on dry friction the observer takes what holds the axis for a disturbance and takes it
+  // off, until the axis moves, and so to and fro.
+  if (!observer_.enabled || !moves_reference_) {
     return;
   }
   observe(input, input.velocity_m_per_s * rad_per_m_);
@@ -116,6 +119,7 @@ void ControlLaw::give_way(const Input& input, Reference& reference) noexcept {
 double ControlLaw::torque_Nm(const Input& input) noexcept {
   Reference wanted = with_stretch(input.reference, input.step_s);
   give_way(input, wanted);
+  lead_m_ = wanted.position_m - input.reference.position_m;
   const double reference_rad_per_s = input.reference.velocity_m_per_s * rad_per_m_;
   const double reference_rad_per_s2 = input.reference.acceleration_m_per_s2 * rad_per_m_;
   const double friction_Nm = friction_torque_Nm(friction_, reference_rad_per_s);
@@ -131,7 +135,8 @@ double ControlLaw::torque_Nm(const Input& input) noexcept {
        .speed_error_rad_per_s = (wanted.velocity_m_per_s - input.velocity_m_per_s) * rad_per_m_,
        .feed_forward_Nm = added_Nm,
        .limit_Nm = input.limit_Nm,
-       .step_s = input.step_s});
+       .step_s = input.step_s,
+       .integral_ratio = input.integral_ratio});
 }
 
 }  // namespace towbench::bbmc

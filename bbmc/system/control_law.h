@@ -15,7 +15,7 @@
 //      carriage swinging on the chain, and the reference gives way to it:
 //      p' = -2 zeta r / (J_l w_h) - c p. A motor that follows to the micrometre is a wall to swing
 //      on.
-// e_n  the part of both axes' errors that is across the path
+// e_n  the part of both axes' errors, against q_c, that is across the path
 //
 // When friction compensation is on, the feed-forward gives J q'' only.
 #pragma once
@@ -35,19 +35,25 @@ class ControlLaw {
     Reference reference;
     double position_m = 0;
     double velocity_m_per_s = 0;
-    double across_path_m = 0;  // error across the path, this axis's part, times its gain ratio
-    double applied_Nm = 0;     // what the drive was told until now
-    double limit_Nm = 0;       // > 0
-    double step_s = 0;         // > 0
+    double across_path_m = 0;   // error across the path, this axis's part, times its gain ratio
+    double applied_Nm = 0;      // what the drive was told until now
+    double limit_Nm = 0;        // > 0
+    double step_s = 0;          // > 0
+    double integral_ratio = 1;  // as of the PID
   };
   TOWBENCH_REALTIME [[nodiscard]] double torque_Nm(const Input& input) noexcept;
 
   // For a new motion: nothing remembered.
   void reset() noexcept;
   void set_gains(const PidGains& gains) noexcept { pid_.set_gains(gains); }
+  // Whether the chain's stretch and the observer have a part: not where the reference's speed
+  // jumps, and not where the motor's own place is what counts (homing, goto).
+  void allow_moving(bool allowed) noexcept { moves_reference_ = allowed; }
   // What is switched here starts from nothing: no part remembers what it did before.
   void set_additions(const AxisConfiguration& axis) noexcept;
   [[nodiscard]] double integral_Nm() const noexcept { return pid_.integral_Nm(); }
+  // By how much the last reference was moved on purpose.
+  [[nodiscard]] double lead_m() const noexcept { return lead_m_; }
   [[nodiscard]] double disturbance_Nm() const noexcept { return disturbance_Nm_; }
 
  private:
@@ -72,7 +78,9 @@ class ControlLaw {
   double carriage_kg_m2_ = 0;
   double held_rad_per_s_ = 0;
   double last_acceleration_m_per_s2_ = 0;
+  double lead_m_ = 0;
   bool observing_ = false;
+  bool moves_reference_ = true;
 };
 
 // (3.26) along a reference, at the motor; 0 when it is off.

@@ -88,6 +88,15 @@ ErrorCode EncoderPlausibility::judge_push(const EncoderChange& change) noexcept 
       sped_up <= -0.5 * push_.model_speed_rad_per_s) {
     return ErrorCode::kFaultEncoderReversed;
   }
+  // A motor that still runs against the push and gets slower obeys it: what it must do from rest is
+  // counted from its turning point on. A dead encoder that dithers by a count or two is none.
+  const double against_counts = -direction * static_cast<double>(change.counts);
+  if (against_counts > static_cast<double>(kStuckExcursion_counts) && sped_up > 0) {
+    push_.model_speed_rad_per_s = 0;
+    push_.window_start_travel_rad = push_.model_travel_rad;
+    push_.lowest_count = change.raw_count;
+    push_.highest_count = change.raw_count;
+  }
   if (push_.model_travel_rad - push_.window_start_travel_rad >=
       kStuckTravel_counts * rad_per_count_) {
     if (push_.highest_count - push_.lowest_count <= kStuckExcursion_counts) {

@@ -10,8 +10,10 @@
 // does not release, is given up: the caller latches the fault of that end-stop.
 //
 // The switch acts on the carriage, the encoder sits on the motor, and between them the chain is
-// stretched by the carriage's friction: at the edge the motor leads by C_l / k, k = J_l w_h^2 (the
-// held motor's chain, chain_observer.h). The lead is taken off; friction is BBMC's own belief.
+// stretched: at the edge the motor leads by tau_l / k, k = J_l w_h^2 (the held motor's chain,
+// chain_observer.h). So slow an approach makes the carriage stick and slip, and the stretch swings
+// with it; but the motor feels it: tau_l = tau - C_m, the torque at the edge less the motor's own
+// friction, which is BBMC's belief (breakaway_Nm less the carriage's share). The lead is taken off.
 #pragma once
 
 #include <cstdint>
@@ -39,6 +41,7 @@ class HomingSequence {
     bool switch_active = false;
     bool switch_found = false;  // EndStopGuard::found()
     bool stands_still = false;
+    double torque_Nm = 0;  // asked of the motor
     double step_s = 0;
   };
 
@@ -53,6 +56,10 @@ class HomingSequence {
 
   [[nodiscard]] const Reference& reference() const noexcept { return reference_; }
   [[nodiscard]] End end() const noexcept { return end_; }
+  // Asked of the motor when the switch of the last approach closed, averaged.
+  [[nodiscard]] double torque_at_switch_Nm() const noexcept {
+    return 2.0 * torque_Nm_ - torque_twice_Nm_;
+  }
   [[nodiscard]] bool done() const noexcept { return phase_ == Phase::kDone; }
 
  private:
@@ -81,11 +88,14 @@ class HomingSequence {
   double travelled_m_ = 0;  // since this phase began
   double released_m_ = 0;   // since the switch is clear
   double rested_s_ = 0;
+  double torque_Nm_ = 0;        // averaged once
+  double torque_twice_Nm_ = 0;  // and again
   bool stopping_ = false;
 };
 
-// How far the motor is ahead of the carriage, in counts, when a slow approach closes a switch.
-[[nodiscard]] double switch_lead_counts(const AxisConfiguration& axis) noexcept;
+// How far the motor is ahead of the carriage, in counts, when a slow approach closes a switch under
+// a torque of this magnitude; between 0 and twice what the believed friction stretches.
+[[nodiscard]] double switch_lead_counts(const AxisConfiguration& axis, double torque_Nm) noexcept;
 
 // How far beyond its edge homing may run into a switch without it being an end-stop: what a stop
 // from the seeking speed takes, and a half more.

@@ -11,6 +11,15 @@ using core::Axis;
 using core::ErrorCode;
 using Kind = SystemEvent::Kind;
 
+namespace {
+
+// Half a swing of the slowest chain, 4 Hz, is shorter: an axis at its turning point does not stand.
+constexpr core::Nanoseconds kAtRest_ns = 250 * core::kNanosecondsPerMillisecond;
+// An axis that stands off its target is driven as if it were so far off.
+constexpr double kSeekAsIfOff_counts = 8;
+
+}  // namespace
+
 MotionControl::MotionControl(const Configuration& configuration, core::Nanoseconds exchange_ns,
                              DataLog& log) noexcept
     : configuration_(configuration),
@@ -90,6 +99,7 @@ void MotionControl::begin_waiting_order(core::Nanoseconds now_ns) noexcept {
   status_.stopped_by_user = false;
   motion_.start_ns = now_ns;
   motion_.settled = false;
+  motion_.has_stood = {};
   motion_.duration_s = 0;
   status_.motion = order.kind;
   motion_ending_ = false;
@@ -108,6 +118,8 @@ void MotionControl::begin_waiting_order(core::Nanoseconds now_ns) noexcept {
     AxisControl& axis = axes_[which];
     const bool open_loop = order.kind == MotionKind::kOpenLoop || order.kind == MotionKind::kTuning;
     axis.begin(open_loop ? AxisMode::kOpenLoop : AxisMode::kPosition, now_ns);
+    axis.allow_moving_reference(order.kind == MotionKind::kReference);
+    motion_.has_stood[which] = axis.stood_ns() >= kAtRest_ns;
     const double duration_s =
         order.kind == MotionKind::kReference  ? order.trajectory[which].duration_s()
         : order.kind == MotionKind::kOpenLoop ? order.program[which].duration_s()
@@ -167,7 +179,9 @@ void MotionControl::find_error_across_path(double time_s) noexcept {
   core::PerAxis<double> error_m;
   for (Axis which : core::kAxes) {
     reference[which] = order.trajectory[which].at(time_s);
-    error_m[which] = reference[which].position_m - axes_[which].position_m();
+    // What an axis leads by on purpose is no error.
+    error_m[which] =
+        reference[which].position_m + axes_[which].lead_m() - axes_[which].position_m();
   }
   const core::PerAxis<double> across_m = error_across_path_m(reference, error_m);
   for (Axis which : core::kAxes) {
@@ -184,7 +198,7 @@ void MotionControl::drive_approach(Axis which, double step_s) noexcept {
   const AxisMode before = axis.mode();
   axis.follow(reference,
               std::fabs(approach.left_m()) > final_m ? AxisMode::kVelocity : AxisMode::kPosition,
-              step_s);
+              step_s, 0.0, approach.arrived() ? settling_ratio(which) : 1.0);
   if (axis.mode() != before) {
     set_mode_event(which);
   }
@@ -229,15 +243,29 @@ bool MotionControl::tuning_is_over(ErrorCode& result) noexcept {
   return over;
 }
 
+bool MotionControl::is_near(Axis which) const noexcept {
+  const double distance_m = axes_[which].reference().position_m - axes_[which].position_m();
+  const double allowed_m = (static_cast<double>(configuration_.go_to.done_within_counts) + 0.5) *
+                           configuration_.axes[which].m_per_count();
+  return std::fabs(distance_m) <= allowed_m;
+}
+
+// A few counts off, dry friction holds an axis until the integral has grown to break-away; and on
+// the target it must not grow on while the other axis still seeks its own.
+double MotionControl::settling_ratio(Axis which) const noexcept {
+  if (is_near(which)) {
+    return 0.0;
+  }
+  const double distance_m = axes_[which].reference().position_m - axes_[which].position_m();
+  const double least_m = kSeekAsIfOff_counts * configuration_.axes[which].m_per_count();
+  return std::max(1.0, least_m / std::fabs(distance_m));
+}
+
 bool MotionControl::settled_long_enough() noexcept {
   bool near = true;
   for (Axis which : core::kAxes) {
     if (is_driven(axes_[which].mode())) {
-      const double distance_m = axes_[which].reference().position_m - axes_[which].position_m();
-      const double allowed_m =
-          (static_cast<double>(configuration_.go_to.done_within_counts) + 0.5) *
-          configuration_.axes[which].m_per_count();
-      near = near && std::fabs(distance_m) <= allowed_m && axes_[which].stands_still();
+      near = near && is_near(which) && axes_[which].stands_still();
     }
   }
   if (!near) {
@@ -259,7 +287,10 @@ bool MotionControl::broke_away() noexcept {
   }
   for (Axis which : core::kAxes) {
     const AxisControl& axis = axes_[which];
-    if (is_driven(axis.mode()) && std::fabs(axis.velocity_count_per_s()) > threshold) {
+    // An axis that still swings from the motion before has not broken away.
+    motion_.has_stood[which] = motion_.has_stood[which] || axis.stood_ns() >= kAtRest_ns;
+    if (is_driven(axis.mode()) && motion_.has_stood[which] &&
+        std::fabs(axis.velocity_count_per_s()) > threshold) {
       status_.axes[which].break_away_count = axis.observer().count();
       status_.axes[which].break_away_duty_pct = axis.duty_pct();
       return true;

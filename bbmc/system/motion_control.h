@@ -77,6 +77,7 @@ class MotionControl {
     core::Nanoseconds settled_since_ns = 0;
     double duration_s = 0;
     bool settled = false;
+    core::PerAxis<bool> has_stood{};  // for long enough to be at rest, since it began
   };
 
   // motion_safety.cc: what stops the machine.
@@ -105,6 +106,10 @@ class MotionControl {
   void declare_at_switch(core::Axis which) noexcept;
 
   [[nodiscard]] bool motion_is_over(double time_s, core::ErrorCode& result) noexcept;
+  // Whether the axis is as near to its reference as a settled motion must be.
+  [[nodiscard]] bool is_near(core::Axis which) const noexcept;
+  // For the integral of an axis whose reference has come to rest.
+  [[nodiscard]] double settling_ratio(core::Axis which) const noexcept;
   [[nodiscard]] bool settled_long_enough() noexcept;
   [[nodiscard]] bool broke_away() noexcept;
   void end_motion(core::ErrorCode result) noexcept;

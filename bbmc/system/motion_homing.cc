@@ -31,6 +31,7 @@ void MotionControl::drive_homing(Axis which, double step_s) noexcept {
                                      .switch_active = axis.end_stops().active(homing.end()),
                                      .switch_found = axis.end_stops().found(),
                                      .stands_still = axis.stands_still(),
+                                     .torque_Nm = axis.torque_Nm(),
                                      .step_s = step_s});
   switch (action) {
     case Action::kNone:
@@ -62,7 +63,9 @@ void MotionControl::declare_at_switch(Axis which) noexcept {
   const bool at_max = homing.end() == End::kMax;
   const std::int64_t switch_count =
       at_max ? settings.ends.hall_max_count : settings.ends.hall_min_count;
-  const double lead = at_max ? switch_lead_counts(settings) : -switch_lead_counts(settings);
+  const double outward = at_max ? 1.0 : -1.0;
+  const double lead =
+      outward * switch_lead_counts(settings, outward * homing.torque_at_switch_Nm());
   const std::int64_t ran_on = axis.observer().raw_count() - axis.end_stops().found_count();
   const std::int64_t count =
       switch_count + ran_on + static_cast<std::int64_t>(lead + (lead < 0 ? -0.5 : 0.5));

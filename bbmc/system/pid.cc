@@ -5,7 +5,8 @@ namespace towbench::bbmc {
 double Pid::update(const Input& input) noexcept {
   const double proportional = gains_.proportional_Nm_per_rad * input.error_rad;
   const double derivative = gains_.derivative_Nm_s_per_rad * input.speed_error_rad_per_s;
-  const double increment = gains_.integral_Nm_per_rad_s * input.error_rad * input.step_s;
+  const double increment =
+      gains_.integral_Nm_per_rad_s * input.error_rad * input.step_s * input.integral_ratio;
   const double others = proportional + derivative + input.feed_forward_Nm;
 
   double torque = others + integral_Nm_ + increment;

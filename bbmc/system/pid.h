@@ -21,8 +21,9 @@ class Pid {
     double error_rad = 0;
     double speed_error_rad_per_s = 0;
     double feed_forward_Nm = 0;
-    double limit_Nm = 0;  // > 0
-    double step_s = 0;    // since the last update
+    double limit_Nm = 0;        // > 0
+    double step_s = 0;          // since the last update
+    double integral_ratio = 1;  // of the error that the integral takes up; 0 holds it
   };
 
   TOWBENCH_REALTIME [[nodiscard]] double update(const Input& input) noexcept;

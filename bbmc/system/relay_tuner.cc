@@ -79,9 +79,11 @@ void RelayTuner::end_round() noexcept {
   // The amplitude grows faster than the relay, with the square to the cube of it: half a step in
   // proportion converges from either side.
   const double change = std::clamp(std::sqrt(ratio), 0.6, 1.6);
-  const double next_Nm = relay_Nm_ * change;
+  // Not beyond the limit; there it must do, or not at all.
+  const bool at_limit = relay_Nm_ >= parameters_.torque_limit_Nm;
+  const double next_Nm = std::min(relay_Nm_ * change, parameters_.torque_limit_Nm);
   ++rounds_;
-  over_ = rounds_ == kMostRounds || next_Nm > parameters_.torque_limit_Nm;
+  over_ = rounds_ == kMostRounds || (at_limit && change > 1.0);
   relay_Nm_ = next_Nm;
   cycles_ = 0;
   total_s_ = 0;

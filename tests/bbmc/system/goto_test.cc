@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "bbmc/system/approach_profile.h"
+#include "core/random.h"
 #include "tests/bbmc/support/machine.h"
 #include "tests/bbmc/support/motions.h"
+#include "tests/bbmc/support/tracking.h"
 
 namespace towbench::tests {
 namespace {
@@ -48,6 +50,32 @@ TEST(Defect9Goto, DoneMeansThatBothAxesStandOnTheirTargets) {
     for (Axis axis : core::kAxes) {
       const double counts_per_m = bbmc::Configuration().axes[axis].counts_per_m();
       EXPECT_LE(std::fabs(machine.status(axis).position_m - target[axis]) * counts_per_m, 1.5);
+    }
+  }
+}
+
+// Dry friction makes the last counts the hard ones: an axis that stands one off, another that waits
+// on its target. Judged by where the motors truly are.
+TEST(Goto, EndsWithinOneCountOnEachAxisWhereverItGoes) {
+  Machine::Options options;
+  options.configuration = tuned(kLaws.front());
+  options.configuration.go_to.done_within_counts = 1;  // bbmc-tuned.toml
+  Machine machine(options);
+  core::Random random(7);
+  for (int i = 0; i < 40; ++i) {
+    const core::PerAxis<double> target{
+        {0.1 + 3.4 * random.uniform(), 0.09 + 0.5 * random.uniform()}};
+    machine.truth.clear();
+    machine.rows.clear();
+    ASSERT_TRUE(machine.system().request_goto({.target_m = target, .fast = true}));
+    ASSERT_TRUE(machine.run_until_rest(60.0));
+    ASSERT_EQ(machine.system().status().last_motion_result, ErrorCode::kNone)
+        << target[Axis::kY] << ' ' << target[Axis::kX];
+    for (Axis axis : core::kAxes) {
+      const double target_count = target[axis] * bbmc::Configuration().axes[axis].counts_per_m();
+      // The middle of the count on which the motor stands.
+      const auto count = static_cast<double>(machine.truth.back().axes[axis].count) + 0.5;
+      EXPECT_LE(std::fabs(count - target_count), 1.6);
     }
   }
 }

@@ -133,6 +133,23 @@ TEST_P(Tuning, OnTheMachineTheGainFoundIsTheEdgeOfOscillationAndItsGainsHold) {
 
 INSTANTIATE_TEST_SUITE_P(BothAxes, Tuning, ::testing::ValuesIn(core::kAxes));
 
+// Large oscillations: the relay turns the motor round while it runs, and what the encoder says of
+// that is no fault of it.
+TEST_P(Tuning, EveryAmplitudeThatTheCommandTakesIsReached) {
+  const Axis axis = GetParam();
+  for (const double amplitude_m : {1e-4, 2e-4, 7e-4, 1e-3}) {
+    Machine machine;
+    machine.keep_records = false;
+    ASSERT_TRUE(machine.system().request_tuning({.axis = axis, .amplitude_m = amplitude_m}));
+    ASSERT_TRUE(machine.run_until_rest(120.0));
+    EXPECT_EQ(machine.system().status().fault, ErrorCode::kNone) << amplitude_m;
+    const bbmc::RelayResult found = machine.status(axis).tuning;
+    ASSERT_TRUE(found.found()) << amplitude_m;
+    EXPECT_NEAR(found.amplitude_rad * bbmc::Configuration().axes[axis].m_per_rad() / amplitude_m,
+                1.0, 0.05);
+  }
+}
+
 TEST(TuningRequest, RefusesWhatIsNoAmplitude) {
   Machine machine;
   for (const double amplitude_m : {0.0, -1e-3, 0.05, std::nan("")}) {
