@@ -4,6 +4,8 @@
 namespace towbench::tests {
 
 void print_tracking();
+// The tables of README.md, "How well it follows".
+void print_results();
 // The estimators' errors against truth as a table, and as a picture.
 void print_velocity_table();
 void print_velocity_picture();

@@ -58,18 +58,29 @@ bbmc::Configuration tuned(const Law& law) {
   configuration.axes[Axis::kX].gains = {.proportional_Nm_per_rad = 0.02,
                                         .integral_Nm_per_rad_s = 0.2,
                                         .derivative_Nm_s_per_rad = 2e-4};
+  if (law.stiff) {
+    configuration.axes[Axis::kY].gains = {0.2, 0.5, 1.2e-3};
+    configuration.axes[Axis::kX].gains = {0.08, 0.2, 4e-4};
+  }
   for (auto& axis : configuration.axes) {
     axis.feed_forward.enabled = law.feed_forward;
     axis.friction.enabled = law.friction;
     axis.disturbance_observer.enabled = law.observer;
     axis.chain.enabled = law.chain;
+    axis.chain.smoothing_rad_per_s = 0.3;
   }
+  // As bbmc-best.toml: where an axis reverses, it is break-away that stretches the chain.
+  configuration.axes[Axis::kY].chain.carriage_friction_Nm = 2.4e-3;
+  configuration.axes[Axis::kX].chain.carriage_friction_Nm = 1.56e-3;
   configuration.cross_coupling.enabled = law.cross_coupling;
   return configuration;
 }
 
-TrapezoidFigures measure_trapezoid(const Law& law, Axis axis, double speed_m_per_s) {
-  Machine machine(machine_for(law, kStartY_m, axis == Axis::kX ? 0.1 : kStartX_m));
+TrapezoidFigures measure_trapezoid(const Law& law, Axis axis, double speed_m_per_s,
+                                   const emulator::RigParameters& rig) {
+  Machine::Options options = machine_for(law, kStartY_m, axis == Axis::kX ? 0.1 : kStartX_m);
+  options.rig = rig;
+  Machine machine(options);
   const double room_m = axis == Axis::kX ? 0.42 : 1e9;
   const double distance_m = std::min(room_m, speed_m_per_s * (kRamp_s + kSteady_s));
   const bbmc::TrapezoidParameters wanted{.start_m = machine.status(axis).position_m,

@@ -8,6 +8,7 @@
 
 #include "bbmc/system/configuration.h"
 #include "core/axis.h"
+#include "emulator/rig_parameters.h"
 
 namespace towbench::tests {
 
@@ -19,23 +20,25 @@ struct Law {
   bool observer = false;
   bool cross_coupling = false;
   bool chain = false;  // with S-curve profiles, which it needs
+  bool stiff = false;  // the gains of fixtures/controllers/bbmc-stiff.toml
 };
 
-inline constexpr std::array<Law, 7> kLaws{{
+inline constexpr std::array<Law, 8> kLaws{{
     {.name = "PID"},
     {.name = "PID, feed-forward", .feed_forward = true},
     {.name = "PID, feed-forward, friction", .feed_forward = true, .friction = true},
     {.name = "PID, observer", .observer = true},
     {.name = "PID, cross-coupling", .cross_coupling = true},
+    {.name = "PID, stiff", .stiff = true},
     {.name = "PID, feed-forward, friction, chain; S-curve",
      .feed_forward = true,
      .friction = true,
      .chain = true},
-    {.name = "everything; S-curve",
+    // bbmc-best.toml. Cross-coupling would take the chain's lead for an error across the path.
+    {.name = "PID, feed-forward, friction, chain, observer; S-curve",
      .feed_forward = true,
      .friction = true,
      .observer = true,
-     .cross_coupling = true,
      .chain = true},
 }};
 
@@ -53,7 +56,8 @@ struct TrapezoidFigures {
 
 // 0.8 s to speed, 3 s of it, 0.8 s to rest, from y = 0.449 m or x = 0.1 m.
 [[nodiscard]] TrapezoidFigures measure_trapezoid(const Law& law, core::Axis axis,
-                                                 double speed_m_per_s);
+                                                 double speed_m_per_s,
+                                                 const emulator::RigParameters& rig = {});
 
 struct CircleFigures {
   bool sound = false;

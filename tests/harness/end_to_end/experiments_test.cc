@@ -16,7 +16,10 @@ TEST_P(Shipped, Passes) {
 
 INSTANTIATE_TEST_SUITE_P(Experiments, Shipped,
                          ::testing::Values("trapezoid-400", "circle", "pulses", "endstop-y-max",
-                                           "endstop-y-max-coasting", "kill-1khz", "kill-10hz"),
+                                           "endstop-y-max-coasting", "kill-1khz", "kill-10hz",
+                                           "trapezoid-400-best", "trapezoid-10-stiff",
+                                           "trapezoid-20-best", "circle-best", "spatial-best",
+                                           "ellipse-best", "goto-pick-and-place"),
                          [](const auto& each) {
                            std::string name = each.param;
                            std::replace(name.begin(), name.end(), '-', '_');
