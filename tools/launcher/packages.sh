@@ -14,6 +14,7 @@ test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev libsundials-dev libode-dev
   clang clang-format clang-tidy libclang-rt-14-dev shellcheck chromium python3 debootstrap
   qemu-system-x86 can-utils socat cpio make
+  g++-arm-linux-gnueabihf qemu-user-static valgrind
 )
 
 package_is_missing() { ! dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'ok installed'; }

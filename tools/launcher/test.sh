@@ -4,7 +4,7 @@
 # A stage is a function stage_NAME that returns 0 (passed), 99 (skipped, reason in $skip_reason) or
 # anything else (failed). It adds what it counted to $passed and $failed.
 
-all_stages=(lint tests carriers tidy sanitize_address sanitize_thread fuzz fresh_start)
+all_stages=(lint tests carriers armhf step_cost tidy sanitize_address sanitize_thread fuzz fresh_start)
 quick_stages=(lint tests)
 on_request_stages=(tidy_everything campaign mutants slurm)
 
@@ -22,6 +22,9 @@ stages: lint              format, shellcheck, include rules
         tests             unit, integration and browser tests of the release build
         carriers          the demo over serial lines, CAN and GPIO lines, and the carriers' own tests, in an
                           emulated machine whose Debian kernel has both; a run by the wall clock
+        armhf             the controller built for armhf, under qemu-user: the same duty to the last bit, fed with a
+                          record and as a process against the emulator
+        step_cost         instructions of every control step, counted: independent of the data within 20 %
         tidy              clang-tidy of plant, controller and protocol
         sanitize_address  the tests under address and undefined-behaviour sanitizers
         sanitize_thread   the same under the thread sanitizer
@@ -150,7 +153,7 @@ stage_fuzz() {
 
 stage_carriers() {
   local status=0 log=$root/build/carriers.log
-  build_preset release release towbench-bench test_protocol
+  build_preset release release towbench-bench test_protocol test_bbmc
   "$root/tests/carriers/run.sh" "$root" "$root/build/release" 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
   passed=$((passed + $(grep -c '^@@ passed' "$log")))
   if grep -q '^@@ real time unproven' "$log"; then note='; real time unproven'; fi
@@ -160,6 +163,31 @@ stage_carriers() {
     *) failed=$((failed + 1)) ;;
   esac
   return "$status"
+}
+
+# report_of LOG STATUS: what a script with exit code 99 for "skipped" has found.
+report_of() {
+  local log=$1 status=$2
+  case $status in
+    0) passed=$((passed + 1)) ;;
+    99) skip_reason=$(sed -n 's/^skipped: //p' "$log" | tail -n 1) ;;
+    *) failed=$((failed + 1)) ;;
+  esac
+  return "$status"
+}
+
+stage_armhf() {
+  local status=0 log=$root/build/armhf.log
+  build_preset release release towbench-bench bbmc_record bbmc_controller_process
+  "$root/tools/armhf_duty.sh" "$root/build/release" "$root" 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
+  report_of "$log" "$status"
+}
+
+stage_step_cost() {
+  local status=0 log=$root/build/step_cost.log
+  build_preset release release bbmc_step_cost
+  "$root/tools/control_step_cost.sh" "$root/build/release" 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
+  report_of "$log" "$status"
 }
 
 stage_campaign() {
