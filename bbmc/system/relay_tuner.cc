@@ -10,7 +10,9 @@ namespace {
 // Cycles of a round: the first ones are transient, the rest is averaged.
 constexpr std::int32_t kTransientCycles = 6;
 constexpr std::int32_t kCountedCycles = 8;
-constexpr std::int32_t kMostRounds = 25;
+constexpr std::int32_t kMostRounds = 40;
+// Rounds of large steps; then small ones.
+constexpr std::int32_t kCoarseRounds = 8;
 // The amplitude is as wanted within so much.
 constexpr double kTolerance = 0.05;
 // Further away than so many amplitudes is no oscillation; no crossing for so long neither.
@@ -78,7 +80,10 @@ void RelayTuner::end_round() noexcept {
   }
   // The amplitude grows faster than the relay, with the square to the cube of it: half a step in
   // proportion converges from either side.
-  const double change = std::clamp(std::sqrt(ratio), 0.6, 1.6);
+  // Where it does not settle so, the amplitude has two values over a range of the relay, up and
+  // down: then slowly along one of them.
+  const double whole = std::clamp(std::sqrt(ratio), 0.6, 1.6);
+  const double change = rounds_ < kCoarseRounds ? whole : 1.0 + 0.25 * (whole - 1.0);
   // Not beyond the limit; there it must do, or not at all.
   const bool at_limit = relay_Nm_ >= parameters_.torque_limit_Nm;
   const double next_Nm = std::min(relay_Nm_ * change, parameters_.torque_limit_Nm);

@@ -16,7 +16,7 @@ constexpr std::array<OptionSpec, kOptionCount> kOptions{{
      .short_name = "-a",
      .dimension = Dimension::kLength,
      .bare_unit = "m",
-     .range = core::between(1e-4, 1e-3),
+     .range = core::between(2e-4, 1e-3),
      .default_value = 5e-4,
      .counts_of = CountsOf::kDof,
      .meaning = "of the oscillation at which the gain is critical"},

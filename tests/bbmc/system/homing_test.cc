@@ -56,8 +56,10 @@ bool touched_an_end(const Machine& machine) {
 }
 
 // The switch acts on the carriage. Uncorrected, the chain's stretch alone would be 170 counts on Y
-// and 115 on X. EXP-P-5: within 10 counts.
+// and 115 on X. EXP-P-5, with the tuned gains: within 10 counts. BBMC's own defaults ripple by a
+// fifth of the torque at so slow an approach.
 constexpr double kAllowed_counts = 10;
+constexpr double kAllowedByDefaults_counts = 12;
 
 TEST(Homing, FindsTheSwitchFromAnyPlaceOfEitherAxisAtEitherEnd) {
   const Case cases[] = {
@@ -71,6 +73,14 @@ TEST(Homing, FindsTheSwitchFromAnyPlaceOfEitherAxisAtEitherEnd) {
   for (const Case& c : cases) {
     SCOPED_TRACE(::testing::Message() << core::name_of(c.axis) << " end " << static_cast<int>(c.end)
                                       << " from " << c.start_m << (c.latching ? " latching" : ""));
+    Machine::Options with_tuned = unknown_place(c);
+    with_tuned.configuration = tuned(kLaws.front());
+    Machine by_tuned(with_tuned);
+    by_tuned.run_for(0.05);
+    ASSERT_TRUE(by_tuned.system().request_homing(homing_of(c.axis, c.end)));
+    ASSERT_TRUE(by_tuned.run_until_rest(300.0));
+    EXPECT_LE(std::fabs(error_in_counts(by_tuned, c.axis)), kAllowed_counts);
+
     Machine machine(unknown_place(c));
     machine.run_for(0.05);
     ASSERT_TRUE(machine.system().request_homing(homing_of(c.axis, c.end)));
@@ -78,7 +88,7 @@ TEST(Homing, FindsTheSwitchFromAnyPlaceOfEitherAxisAtEitherEnd) {
     EXPECT_EQ(machine.system().status().fault, ErrorCode::kNone);
     EXPECT_EQ(machine.system().status().last_motion_result, ErrorCode::kNone);
     EXPECT_TRUE(machine.status(c.axis).position_calibrated);
-    EXPECT_LE(std::fabs(error_in_counts(machine, c.axis)), kAllowed_counts);
+    EXPECT_LE(std::fabs(error_in_counts(machine, c.axis)), kAllowedByDefaults_counts);
     EXPECT_FALSE(touched_an_end(machine));
     // Where it now stands a motion may be planned.
     EXPECT_FALSE(machine.status(c.axis).hall_min_active || machine.status(c.axis).hall_max_active);

@@ -137,7 +137,7 @@ INSTANTIATE_TEST_SUITE_P(BothAxes, Tuning, ::testing::ValuesIn(core::kAxes));
 // that is no fault of it.
 TEST_P(Tuning, EveryAmplitudeThatTheCommandTakesIsReached) {
   const Axis axis = GetParam();
-  for (const double amplitude_m : {1e-4, 2e-4, 7e-4, 1e-3}) {
+  for (const double amplitude_m : {2e-4, 3e-4, 5e-4, 7e-4, 8.5e-4, 1e-3}) {
     Machine machine;
     machine.keep_records = false;
     ASSERT_TRUE(machine.system().request_tuning({.axis = axis, .amplitude_m = amplitude_m}));
