@@ -156,7 +156,7 @@ void serve_pace(Controller& self) noexcept {
 }
 
 [[noreturn]] void serve_console(Controller& self) noexcept {
-  std::uint32_t served = self.services;
+  std::uint32_t served = 0;  // the first exchange may be over already
   while (true) {
     // Woken by any interrupt; an exchange that ended since the last look is not slept through.
     asm volatile("cpsid i" : : : "memory");
