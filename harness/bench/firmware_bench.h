@@ -36,6 +36,10 @@ class FirmwareBench {
   void finish();
 
   void type(std::string_view bytes);
+  // False until an image that is known has started; a stranger's script waits for its prompt.
+  [[nodiscard]] bool listens() const noexcept {
+    return !probe_.has_port() || (row_seen_ && now_ns_ >= kStartUp_ns);
+  }
   // No motion runs and nothing typed is unserved, as far as that can be known.
   [[nodiscard]] bool idle() const noexcept;
   [[nodiscard]] core::Nanoseconds now_ns() const noexcept { return now_ns_; }
@@ -45,6 +49,7 @@ class FirmwareBench {
 
   [[nodiscard]] const DebugProbe& probe() const noexcept { return probe_; }
   // Rows of a stranger's log are this far apart.
+  static constexpr core::Nanoseconds kStartUp_ns = 10 * core::kNanosecondsPerMillisecond;
   static constexpr core::Nanoseconds kPinRow_ns = core::kNanosecondsPerMillisecond;
 
  private:
