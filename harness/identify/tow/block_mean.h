@@ -1,0 +1,46 @@
+// The mean of a coloured sequence and how sure it is.
+//
+// Neighbouring samples of a filtered sensor or of a swinging carriage are not independent, so the
+// deviation is taken from means of blocks that are long against every memory in the signal (batch
+// means: the scatter of b block means over the square root of b, with b - 1 degrees of freedom).
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace towbench::harness::identify {
+
+struct UncertainMean {
+  double value = 0;
+  double deviation = 0;  // standard deviation of `value`
+  double freedom = 0;    // degrees of freedom behind `deviation`
+};
+
+// Blocks of at least `block_rows`, between 4 and 40 of them: fewer rows than four blocks give
+// shorter ones. Needs at least 8 samples; fewer give a deviation of infinity.
+[[nodiscard]] UncertainMean block_mean(std::span<const double> samples, std::size_t block_rows);
+
+// One period of a carriage that swings on its chain against a held motor (4.12 Hz). It dies out
+// over 1.4 s, so a steady part always has some of it left.
+inline constexpr double kSwing_s = 0.243;
+
+// Running mean over `rows`, twice: a triangle, which takes out a swing of that period and most of
+// one that is a fifth slower or faster. Sample k of what is left belongs to sample k + rows - 1.
+[[nodiscard]] std::vector<double> without_swing(std::span<const double> samples, std::size_t rows);
+
+// Mean of steady motion: value without the swing, deviation by block means of one swing each about
+// their own straight line (friction rises along the track: that is no noise).
+[[nodiscard]] UncertainMean steady_mean(std::span<const double> samples, double period_s);
+
+// Mean of repeats that are independent of one another.
+[[nodiscard]] UncertainMean mean_of_repeats(std::span<const double> repeats);
+
+// share_a a + share_b b of independent means; degrees of freedom by Welch and Satterthwaite.
+[[nodiscard]] UncertainMean combine(double share_a, const UncertainMean& a, double share_b,
+                                    const UncertainMean& b);
+
+// Half width of the two-sided 95 % interval over the deviation: Student's t.
+[[nodiscard]] double student_factor(double freedom);
+
+}  // namespace towbench::harness::identify

@@ -1,0 +1,38 @@
+// docs/results.md: every table of the thesis's chapters 7 and 8 with what the bench found and what
+// is true of the emulated machine beside it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/judge/recovery.h"
+#include "harness/procedures/tow/tow_procedure.h"
+#include "harness/results/tracked_run.h"
+
+namespace towbench::harness {
+
+struct TrackedSpeed {
+  double speed_m_per_s = 0;
+  TrackedRun run;
+};
+
+struct TowResult {
+  std::string id;
+  std::string title;
+  procedures::TowOutcome outcome;
+  std::vector<Recovery> recoveries;
+};
+
+struct Results {
+  std::string rig;
+  emulator::RigParameters truth;   // of the machine
+  identify::Estimates identified;  // by the procedures of the identification
+  std::vector<TowResult> tows;
+  std::vector<TrackedSpeed> slow;      // the 14 speeds of Table 7.6, thesis's trapezoids
+  std::vector<TrackedSpeed> fast_air;  // the 6 speeds of Table 8.3
+  std::vector<TrackedSpeed> fast_water;
+};
+
+[[nodiscard]] std::string results_page(const Results& results);
+
+}  // namespace towbench::harness
