@@ -33,13 +33,19 @@ int hand_over(const std::string& verb, const std::vector<std::string>& rest) {
   return kExitRuntime;
 }
 
+void add_elsewhere(CLI::App& app, int& exit_code, const std::string& name, const char* what) {
+  auto* verb = app.add_subcommand(name, what);
+  verb->prefix_command();
+  verb->set_help_flag();  // --help is the sibling's to answer
+  verb->callback([verb, name, &exit_code] { exit_code = hand_over(name, verb->remaining()); });
+}
+
 }  // namespace
 
 void add_identify_elsewhere(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("identify", "find a machine's parameters by experiments on it");
-  verb->prefix_command();
-  verb->set_help_flag();  // --help is the sibling's to answer
-  verb->callback([verb, &exit_code] { exit_code = hand_over("identify", verb->remaining()); });
+  add_elsewhere(app, exit_code, "identify", "find a machine's parameters by experiments on it");
+  add_elsewhere(app, exit_code, "tow", "the tow experiments of chapter 8, judged");
+  add_elsewhere(app, exit_code, "results", "the thesis's tables: thesis, bench, truth");
 }
 
 }  // namespace towbench::harness
