@@ -157,7 +157,8 @@ bool LocalSocket::set_receive_timeout(core::Nanoseconds timeout_ns) noexcept {
   // A timeout of zero would mean for ever.
   const auto us = std::max<core::Nanoseconds>(timeout_ns / core::kNanosecondsPerMicrosecond, 1);
   constexpr core::Nanoseconds kMicrosecondsPerSecond = 1'000'000;
-  const timeval timeout{us / kMicrosecondsPerSecond, us % kMicrosecondsPerSecond};
+  const timeval timeout{static_cast<time_t>(us / kMicrosecondsPerSecond),
+                        static_cast<suseconds_t>(us % kMicrosecondsPerSecond)};
   receive_timeout_ns_ = timeout_ns;
   return ::setsockopt(socket_.native_handle(), SOL_SOCKET, SO_RCVTIMEO, &timeout,
                       sizeof(timeout)) == 0;
