@@ -1,9 +1,8 @@
 #include "bbmc/host/controller_node.h"
 
-#include <vector>
-
 #include "bbmc/application/application.h"
 #include "bbmc/host/emulated_board.h"
+#include "bbmc/host/guarded_rows.h"
 #include "bbmc/system/system_manager.h"
 #include "core/check.h"
 
@@ -17,7 +16,7 @@ class ControllerNode::Implementation {
         exchange_ns(exchange_period_ns(configuration.control_period_ns())),
         log_storage(kDataLogRows),
         devices(board.ports()),
-        system(configuration, devices, log_storage),
+        system(configuration, devices, log_storage.span()),
         application(system, devices) {
     core::check(inconsistency(configuration) == nullptr);
   }
@@ -53,7 +52,7 @@ class ControllerNode::Implementation {
   bool started = false;
   bool ended = false;
   EmulatedBoard board;
-  std::vector<DataLogRow> log_storage;
+  GuardedRows<DataLogRow> log_storage;
   DeviceManager devices;
   SystemManager system;
   Application application;

@@ -25,6 +25,7 @@ MotionControl::MotionControl(const Configuration& configuration, core::Nanosecon
     : configuration_(configuration),
       log_(&log),
       period_ns_(configuration.control_period_ns()),
+      exchange_ns_(exchange_ns),
       axes_{{AxisControl(configuration.axes[Axis::kY], configuration.safety,
                          configuration.control_rate_Hz, 1.0 / core::seconds(exchange_ns)),
              AxisControl(configuration.axes[Axis::kX], configuration.safety,

@@ -83,6 +83,7 @@ class MotionControl {
   // motion_safety.cc: what stops the machine.
   void serve_line(const Aintc::Reading& edge) noexcept;
   void watch(const ControlSample& sample) noexcept;
+  void watch_clock(core::Nanoseconds time_ns) noexcept;
   void watch_axis(core::Axis which, const ControlSample& sample) noexcept;
   void serve_brakes() noexcept;
   void latch(core::ErrorCode code, core::Axis which) noexcept;
@@ -127,11 +128,13 @@ class MotionControl {
   Configuration configuration_;
   DataLog* log_;
   core::Nanoseconds period_ns_;
+  core::Nanoseconds exchange_ns_;
   core::PerAxis<AxisControl> axes_;
   Motion motion_;
   SystemStatus status_;
   core::Nanoseconds now_ns_ = 0;
   core::Nanoseconds last_tick_ns_ = 0;
+  core::Nanoseconds last_served_ns_ = -1;  // none yet
   core::ErrorCode motion_result_ = core::ErrorCode::kNone;
   std::uint16_t lines_ = 0;
   std::uint64_t lost_ = 0;

@@ -15,8 +15,8 @@ using core::Axis;
 using core::ErrorCode;
 using Kind = SystemEvent::Kind;
 
-// A tick so much later than due means the axis ran blind: 10 periods, but 20 ms at least.
-constexpr std::uint32_t kOverrunPeriods = 10;
+// Served so much later than due, an axis ran blind. Counted in exchanges, not in control ticks: at
+// 10 Hz as soon as at 1 kHz.
 constexpr core::Nanoseconds kOverrun_ns = 20 * core::kNanosecondsPerMillisecond;
 
 struct HallLine {
@@ -65,8 +65,19 @@ void MotionControl::watch(const ControlSample& sample) noexcept {
                                  (sample.lines & mask_of(hall_max_of(which))) != 0);
     watch_axis(which, sample);
   }
-  if (sample.tick_due && any_powered() && sample.ticks_missed >= kOverrunPeriods &&
-      sample.time_ns - sample.tick_due_ns > kOverrun_ns) {
+  watch_clock(sample.time_ns);
+}
+
+void MotionControl::watch_clock(core::Nanoseconds time_ns) noexcept {
+  const core::Nanoseconds before_ns = last_served_ns_;
+  last_served_ns_ = time_ns;
+  if (before_ns < 0 || !any_powered()) {
+    return;
+  }
+  if (time_ns < before_ns) {
+    // The clock has gone back: speeds and ages cannot be believed, the next tick is far away.
+    cut_all(ErrorCode::kFaultControlOverrun, Axis::kY);
+  } else if (time_ns - before_ns - exchange_ns_ > kOverrun_ns) {
     brake_all(ErrorCode::kFaultControlOverrun, Axis::kY);
   }
 }

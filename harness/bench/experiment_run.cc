@@ -1,8 +1,16 @@
 #include "harness/bench/experiment_run.h"
 
+#include <array>
+#include <cerrno>
+#include <csignal>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
+
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "harness/bench/driven_run.h"
 #include "harness/bench/emulator_process.h"
@@ -10,10 +18,14 @@
 #include "harness/bench/in_process_plant.h"
 #include "harness/bench/linked_plant.h"
 #include "harness/bench/lockstep_bench.h"
+#include "harness/bench/pty_line.h"
 #include "harness/bench/real_lines.h"
+#include "harness/bench/run_carrier.h"
 #include "harness/faults/case_link.h"
 #include "harness/faults/faulted_experiment.h"
+#include "harness/faults/record_faults.h"
 #include "harness/fixtures/canonical_hash.h"
+#include "harness/fixtures/fixture_error.h"
 #include "harness/realtime/realtime_plant.h"
 #include "harness/realtime/run_timing.h"
 #include "harness/record/can_log.h"
@@ -37,6 +49,7 @@ class Run {
     if (options.hand != nullptr) {
       given_ = fixture;
     }
+    wire_ = options.wire;
     identity_.carrier = name_of_carrier(options);
     identity_.clock = options.clock == RunClock::kReal ? "real" : "lockstep";
     identity_.fidelity = is_bus(options) ? "digest" : "edges";
@@ -50,11 +63,13 @@ class Run {
   }
 
   RunResult run() {
-    auto outcome = options_.carrier == Carrier::kInProcess ? run_in_process() : run_with_child();
+    auto outcome = faults_ && faults_->kills_host()          ? run_to_be_killed()
+                   : options_.carrier == Carrier::kInProcess ? run_in_process()
+                                                             : run_with_child();
     if (outcome.control_period_ns == 0) {  // a stranger's image has rows of another distance
       outcome.control_period_ns = fixture_.controller.configuration.control_period_ns();
     }
-    outcome.complete = outcome.complete || (faults_ && faults_->kills_plant());
+    outcome.complete = outcome.complete || (faults_ && faults_->may_end_run());
     if (options_.hand != nullptr) {
       take_over_what_was_done();
     }
@@ -64,12 +79,17 @@ class Run {
     result.reason = outcome.reason;
     if (outcome.complete) {
       merge_events(folder_);
-      result.judgement = judge(folder_, fixture_, outcome);
+      if (!faults_ || !faults_->kills_host()) {
+        result.judgement = judge(folder_, fixture_, outcome);
+      }
       if (timing_) {
         result.timing = timing_->judge_into(result.judgement, outcome.control_period_ns);
       }
       if (faults_) {
-        faults_->judge_into(folder_, result.judgement);
+        result.faults = faults_->judge_into(
+            folder_,
+            {.writes_succeeded = outcome.writes_succeeded, .host_was_killed = host_was_killed_},
+            result.judgement);
       }
       write_judged(folder_, fixture_, identity_, outcome, result.judgement);
       result.exit_code = exit_code_of(result.judgement.verdict);
@@ -107,6 +127,8 @@ class Run {
         return options.firmware.empty() ? "in-process" : "virtual board";
       case Carrier::kLocal:
         return "local" + lines;
+      case Carrier::kSerialPty:
+        return "serial-pty" + lines;
       case Carrier::kWire:
         break;
     }
@@ -118,18 +140,53 @@ class Run {
   }
   static std::unique_ptr<FaultedExperiment> faults_of(const ExperimentFixture& fixture,
                                                       const RunOptions& options) {
+    if (!fixture.experiment.faults.empty() && options.clock == RunClock::kReal) {
+      throw FixtureError({.file = "fault plan"}, "a run by the wall clock",
+                         "lockstep: a fault is judged beside a twin of the same bits");
+    }
     return fixture.experiment.faults.empty()
                ? nullptr
-               : std::make_unique<FaultedExperiment>(fixture, seed_of(fixture, options));
+               : std::make_unique<FaultedExperiment>(fixture, seed_of(fixture, options),
+                                                     kind_of(options));
   }
 
   RunOutcome run_in_process() {
     PlantRecorder plant_recorder(folder_, options_.tap);
     InProcessPlant plant(fixture_.rig.parameters, identity_.seed, fixture_.experiment.events,
                          plant_recorder);
-    auto outcome = options_.firmware.empty() ? play_against(plant) : play_firmware(plant);
+    auto outcome = options_.firmware.empty() ? play_against(plant, plant) : play_firmware(plant);
     plant_recorder.flush();
     outcome.writes_succeeded = outcome.writes_succeeded && plant_recorder.good();
+    return outcome;
+  }
+
+  // The controller's side as a process of its own, which the fault ends. The run is over when
+  // nobody holds the pipe any more: neither that process nor the plant that it has started.
+  RunOutcome run_to_be_killed() {
+    std::array<int, 2> alive{};
+    if (pipe(alive.data()) != 0) {
+      throw std::system_error(errno, std::generic_category(), "pipe");
+    }
+    const pid_t host = fork();
+    if (host < 0) {
+      throw std::system_error(errno, std::generic_category(), "fork");
+    }
+    if (host == 0) {
+      close(alive[0]);
+      (void)run_with_child();
+      _exit(0);
+    }
+    close(alive[1]);
+    int status = 0;
+    waitpid(host, &status, 0);
+    constexpr int kPlantNotices_ms = 5000;
+    pollfd ended{alive[0], POLLIN, 0};
+    (void)poll(&ended, 1, kPlantNotices_ms);
+    close(alive[0]);
+    host_was_killed_ = WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
+    RunOutcome outcome;
+    outcome.complete = true;
+    outcome.reason = host_was_killed_ ? "the controller's process was killed" : "";
     return outcome;
   }
 
@@ -142,10 +199,20 @@ class Run {
     if (options_.clock == RunClock::kReal) {
       arguments.insert(arguments.end(), {"--clock", "real"});
     }
+    std::optional<PtyLine> line;
+    if (options_.carrier == Carrier::kSerialPty) {
+      line.emplace();
+      const auto ends =
+          protocol::parse_carrier_ends("serial:" + line->near_end() + ',' + line->far_end());
+      wire_ = *ends;
+    }
+    // What it has to say of such an end is in its record.
+    const bool end_is_expected = faults_ && (faults_->may_end_run() || faults_->kills_host());
     const auto child =
         options_.carrier == Carrier::kLocal
-            ? EmulatorProcess::with_socket(options_.program, arguments)
-            : EmulatorProcess::on_wire(options_.program, arguments, options_.wire->plant.text());
+            ? EmulatorProcess::with_socket(options_.program, arguments, end_is_expected)
+            : EmulatorProcess::on_wire(options_.program, arguments, wire_->plant.text(),
+                                       end_is_expected);
     auto outcome = play_over(*child);
     if (const auto trouble = child->join(); !trouble.empty()) {
       outcome.reason += (outcome.reason.empty() ? "" : "; ") + trouble;
@@ -158,8 +225,8 @@ class Run {
     using protocol::Connection;
     protocol::CarrierResult<std::unique_ptr<Connection>> connection;
     constexpr core::Nanoseconds kStartUp_ns = 10 * core::kNanosecondsPerSecond;
-    if (options_.carrier == Carrier::kWire) {
-      connection = Connection::to_plant(options_.wire->controller, kStartUp_ns);
+    if (wire_) {
+      connection = Connection::to_plant(wire_->controller, kStartUp_ns);
     } else {
       connection = Connection::over(child.take_stream());
       // A child that died shows in the handshake.
@@ -172,11 +239,12 @@ class Run {
     }
     std::unique_ptr<CanLog> log;
     if (auto* can = (*connection)->can_link(); can != nullptr) {
-      log = std::make_unique<CanLog>(folder_ / "candump.log", options_.wire->controller.place);
+      log = std::make_unique<CanLog>(folder_ / "candump.log", wire_->controller.place);
       can->log_to(*log);
     }
-    auto outcome = options_.clock == RunClock::kReal ? play_in_real_time((*connection)->link())
-                                                     : play_in_lockstep((*connection)->link());
+    auto outcome = options_.clock == RunClock::kReal
+                       ? play_in_real_time(child, (*connection)->link())
+                       : play_in_lockstep(child, (*connection)->link());
     if (log != nullptr) {
       log->flush();
       outcome.writes_succeeded = outcome.writes_succeeded && log->good();
@@ -184,10 +252,10 @@ class Run {
     return outcome;
   }
 
-  RunOutcome play_in_lockstep(protocol::TurnLink& link) {
+  RunOutcome play_in_lockstep(PeerControl& peer, protocol::TurnLink& link) {
     LinkedPlant plant(link);
     if (options_.lines.controller.empty()) {
-      return play_against(plant);
+      return play_against(plant, peer);
     }
     const auto port =
         protocol::open_lines(options_.lines.controller, protocol::LineSide::kController);
@@ -197,20 +265,20 @@ class Run {
       return outcome;
     }
     RealLinesAtController with_lines(plant, **port);
-    return play_against(with_lines);
+    return play_against(with_lines, peer);
   }
 
-  RunOutcome play_in_real_time(protocol::TurnLink& link) {
+  RunOutcome play_in_real_time(PeerControl& peer, protocol::TurnLink& link) {
     timing_.emplace(folder_, fixture_.controller.configuration);
     RealtimePlantEnd plant(link, timing_->loop());
-    return play_against(plant);
+    return play_against(plant, peer);
   }
 
   RunOutcome play_firmware(PlantEnd& plant) {
     return run_firmware(fixture_, options_.firmware, folder_, plant, options_.watchers);
   }
 
-  RunOutcome play_against(PlantEnd& plant) {
+  RunOutcome play_against(PlantEnd& plant, PeerControl& peer) {
     ControllerRecorder recorder(folder_, options_.tap);
     if (!faults_ && options_.hand == nullptr) {
       LockstepBench bench(fixture_.controller.configuration, fixture_.rig.hash, plant, &recorder);
@@ -218,7 +286,9 @@ class Run {
     }
     CaseRecord crossed;  // what it notes is of no use here: the judge makes its own
     const Injection planned = faults_ ? faults_->injection() : Injection{};
-    CaseLink link(plant, planned.link, crossed);
+    CaseLink link(plant, peer, planned.link, crossed);
+    RecordFaults of_record(planned.host, folder_);
+    link.tell(of_record);
     LockstepBench bench(fixture_.controller.configuration, fixture_.rig.hash, link, &recorder);
     bench.run_on(planned.host);
     return play(fixture_.experiment, bench, recorder, options_.watchers, options_.hand);
@@ -230,6 +300,8 @@ class Run {
   const RunOptions& options_;
   RunIdentity identity_;
   std::filesystem::path folder_;
+  std::optional<protocol::CarrierEnds> wire_;  // empty: a socket, or nothing between
+  bool host_was_killed_ = false;
   std::optional<ControllerTiming> timing_;  // of a run in real time
 };
 

@@ -11,6 +11,7 @@
 #include "harness/bench/hand.h"
 #include "harness/bench/script_loop.h"
 #include "harness/experiment/experiment_fixture.h"
+#include "harness/faults/fault_case.h"
 #include "harness/judge/check.h"
 #include "harness/judge/judge.h"
 #include "harness/record/run_tap.h"
@@ -19,7 +20,8 @@
 namespace towbench::harness {
 
 enum class RunClock : std::uint8_t { kLockstep, kReal };
-enum class Carrier : std::uint8_t { kInProcess, kLocal, kWire };
+// kSerialPty: a serial line of its own between two processes, over pseudo-terminals.
+enum class Carrier : std::uint8_t { kInProcess, kLocal, kWire, kSerialPty };
 
 // Real lines (line_address.h) of both sides; empty: lines are messages. Need two processes.
 struct LineEnds {
@@ -50,12 +52,14 @@ struct RunResult {
   bool complete = false;
   std::string reason;  // why not
   RunOutcome outcome;
-  std::string timing;   // how the loops of a run in real time kept time, in words
-  Judgement judgement;  // of a complete run
+  std::string timing;                 // how the loops of a run in real time kept time, in words
+  Judgement judgement;                // of a complete run
+  std::optional<CaseVerdict> faults;  // of a complete run with faults
   int exit_code = kExitRuntime;
 };
 
-// Throws filesystem_error and system_error when the run cannot even begin; after that every trouble
+// Throws filesystem_error and system_error when the run cannot even begin, FixtureError for a fault
+// that the carrier cannot have; after that every trouble
 // is told in the result and in the folder.
 [[nodiscard]] RunResult run_experiment(const ExperimentFixture& fixture, const RunOptions& options);
 

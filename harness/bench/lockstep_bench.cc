@@ -30,9 +30,14 @@ core::Status LockstepBench::start() noexcept {
   return plant_.wait_for(protocol::Turn::kAdvanced);
 }
 
+core::Nanoseconds LockstepBench::controller_time_ns() const noexcept {
+  const auto planned_ns = host_ == nullptr ? 0 : host_->ahead_ns(now_ns_);
+  return now_ns_ + planned_ns + unplanned_.ahead_ns(now_ns_);
+}
+
 std::string_view LockstepBench::serve() noexcept {
   if ((host_ == nullptr || host_->serves_at(now_ns_)) && unplanned_.serves_at(now_ns_)) {
-    controller_.serve(now_ns_);
+    controller_.serve(controller_time_ns());
   }
   take_records();
   return console_;
@@ -47,7 +52,7 @@ core::Status LockstepBench::advance() noexcept {
   }
   if (!status) {
     controller_.peer_lost(status.error());
-    controller_.serve(now_ns_);
+    controller_.serve(controller_time_ns());
     take_records();
     return status;
   }
@@ -65,6 +70,8 @@ bool LockstepBench::inject(const Injection& injection) {
   }
   const auto& stalls = injection.host.stalls;
   unplanned_.stalls.insert(unplanned_.stalls.end(), stalls.begin(), stalls.end());
+  const auto& steps = injection.host.steps;
+  unplanned_.steps.insert(unplanned_.steps.end(), steps.begin(), steps.end());
   return possible;
 }
 

@@ -23,8 +23,8 @@ class LockstepBench {
   LockstepBench(const bbmc::Configuration& configuration, std::uint64_t rig_hash, PlantEnd& plant,
                 BenchRecorder* recorder);
 
-  // The host that the controller runs on does not serve it while the schedule says so. Outlives
-  // this; before start().
+  // The host that the controller runs on: when it serves, and by which clock. Outlives this; before
+  // start().
   void run_on(const HostSchedule& host) noexcept { host_ = &host; }
 
   // Handshake. Before anything else.
@@ -47,6 +47,8 @@ class LockstepBench {
 
  private:
   void take_records() noexcept;
+  // By its host's clock.
+  [[nodiscard]] core::Nanoseconds controller_time_ns() const noexcept;
 
   PlantEnd& plant_;
   BenchRecorder* recorder_;

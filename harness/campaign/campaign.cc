@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/check.h"
+#include "harness/bench/run_carrier.h"
 #include "harness/campaign/drawn_machines.h"
 #include "harness/faults/case_run.h"
 #include "harness/faults/fault_text.h"
@@ -25,10 +26,17 @@ CampaignEntry read_entry(TableReader& reader) {
   reader.text("words", entry.words, "more words of the fault");
   reader.strings("also", entry.also, "further faults at the same time, in words");
   reader.value("seeds", entry.seeds, core::between(0, 1e6), "instead of the campaign's");
+  reader.strings("carriers", entry.carriers, "instead of the campaign's");
   reader.require("parts");
   reader.require("kinds");
   reader.finish();
   return entry;
+}
+
+CarrierKind kind_of_carrier(const std::string& carrier) {
+  RunOptions options;
+  choose_carrier(carrier, options);
+  return kind_of(options);
 }
 
 // Tried once, so that a slip is told before the first case.
@@ -42,6 +50,23 @@ void check_entry(const CampaignEntry& entry) {
       const auto* row = place ? find_fault(place->part, kind) : nullptr;
       const bool built = row != nullptr && row->start == FaultStart::kWholeRun;
       (void)parse_fault(fmt::format("{} {} {} {}", part, kind, built ? "" : "at=1s", entry.words));
+    }
+  }
+}
+
+// Every combination that the file names must be one that there is.
+void check_carriers(const Campaign& campaign, const CampaignEntry& entry) {
+  const auto& carriers = entry.carriers.empty() ? campaign.carriers : entry.carriers;
+  for (const auto& carrier : carriers) {
+    const auto kind = kind_of_carrier(carrier);
+    for (const auto& part : entry.parts) {
+      for (const auto& name : entry.kinds) {
+        const auto why = why_not_over(kind, find_fault(place_named(part)->part, name)->kind);
+        if (!why.empty()) {
+          throw FixtureError({.file = campaign.file.string(), .key = "carriers"},
+                             fmt::format("{} {} over {}", part, name, carrier), std::string(why));
+        }
+      }
     }
   }
 }
@@ -79,6 +104,8 @@ void read_campaign(const std::filesystem::path& path, Campaign& campaign, Canoni
       entry.seeds = 0;
     }
   }
+  reader.strings("carriers", campaign.carriers,
+                 "in-process, local, serial-pty, or an address with both ends");
   reader.value("machines", campaign.machines, core::between(0, 1000),
                "machines drawn at random, besides the nominal one");
   reader.value("spread", campaign.spread, core::between(0.001, 0.3),
@@ -137,10 +164,16 @@ Campaign load_campaign(const std::filesystem::path& path, std::uint64_t seeds) {
     }
   }
   for (const auto& row : fault_catalogue()) {
-    if (!row.refused.empty()) {
-      campaign.incapable.push_back(
-          fmt::format("{} {}: {}", name_of(row.part), row.name, row.refused));
+    for (const auto carrier :
+         {CarrierKind::kInProcess, CarrierKind::kLocal, CarrierKind::kSerial, CarrierKind::kCan}) {
+      if (const auto why = why_not_over(carrier, row.kind); !why.empty()) {
+        campaign.refused.push_back(
+            fmt::format("{} {} over {}: {}", name_of(row.part), row.name, name_of(carrier), why));
+      }
     }
+  }
+  for (const auto& entry : campaign.entries) {
+    check_carriers(campaign, entry);
   }
   for (const auto& motion : campaign.motions) {
     for (const auto& source : motion.plain.sources) {

@@ -1,5 +1,5 @@
-// A campaign: faults x phases of motion x seeds x drawn machines on a set of motions, as its
-// fixture says.
+// A campaign: faults x phases of motion x carriers x seeds x drawn machines on a set of motions, as
+// its fixture says.
 #pragma once
 
 #include <cstddef>
@@ -19,12 +19,13 @@ namespace towbench::harness {
 struct CampaignEntry {
   std::vector<std::string> parts;
   std::vector<std::string> kinds;
-  std::vector<std::string> motions;  // names; empty: all
-  std::vector<std::string> phases;   // a random moment of each that the motion has
-  std::string event;                 // instead of phases
-  std::string words;                 // what is added: duration, parameters
-  std::vector<std::string> also;     // further faults of the same case, each complete
-  std::uint64_t seeds = 0;           // 0: as the campaign
+  std::vector<std::string> motions;   // names; empty: all
+  std::vector<std::string> phases;    // a random moment of each that the motion has
+  std::string event;                  // instead of phases
+  std::string words;                  // what is added: duration, parameters
+  std::vector<std::string> also;      // further faults of the same case, each complete
+  std::vector<std::string> carriers;  // empty: as the campaign
+  std::uint64_t seeds = 0;            // 0: as the campaign
 };
 
 // A motion on which faults are tried: an experiment without its expectations, and its twin.
@@ -49,24 +50,27 @@ struct Campaign {
   std::filesystem::path file;
   std::vector<CampaignEntry> entries;
   std::vector<CampaignMotion> motions;   // twins have been run
-  std::vector<std::string> incapable;    // "part kind: why", for each kind refused
+  std::vector<std::string> carriers;     // empty: in one process
+  std::vector<std::string> refused;      // "part kind over carrier: why"
   std::unique_ptr<DrawnMachines> drawn;  // once drawn (drawn_machines.h)
   // Of everything that decides a result: fixtures, seeds, machines and this program. Results that
   // bear another are of another campaign.
   std::string fingerprint;
+  std::filesystem::path program = "/proc/self/exe";  // for the emulator's process
 
   [[nodiscard]] const CampaignMotion& motion(const std::string& name) const;
 };
 
-// One case, complete in words: `run MOTION --fault "WORDS" ...` repeats it.
+// One case, complete in words: `run MOTION --carrier CARRIER --fault "WORDS" ...` repeats it.
 struct CampaignCase {
-  std::string id;  // motion/part.kind/moment/seed
+  std::string id;  // motion/part.kind/moment/seed, and the carrier unless there is none
   std::string motion;
   std::string part;
   std::string kind;
-  std::string moment;               // phase or event; "built" for what is so from the start
-  std::vector<std::string> faults;  // in words; the first is the one that the case is about
-  std::size_t machine = 0;          // 0: nominal
+  std::string moment;                  // phase or event; "built" for what is so from the start
+  std::vector<std::string> faults;     // in words; the first is the one that the case is about
+  std::size_t machine = 0;             // 0: nominal
+  std::string carrier = "in-process";  // as `run --carrier` takes it
 };
 
 // Throws FixtureError. `seeds` instead of every number of seeds in the fixture when it is not 0.

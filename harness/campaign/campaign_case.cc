@@ -1,11 +1,15 @@
 // One case of a campaign as one line of JSON: the same on every machine and in every order.
 #include <algorithm>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
+#include "harness/bench/run_carrier.h"
 #include "harness/campaign/campaign.h"
 #include "harness/campaign/drawn_machines.h"
 #include "harness/faults/fault_text.h"
+#include "harness/faults/faulted_experiment.h"
+#include "harness/record/temporary_folder.h"
 
 namespace towbench::harness {
 namespace {
@@ -13,15 +17,53 @@ namespace {
 using nlohmann::json;
 
 json identity_of(const Campaign& campaign, const CampaignCase& one) {
-  return {{"case", one.id},         {"motion", one.motion},      {"part", one.part},
-          {"kind", one.kind},       {"moment", one.moment},      {"faults", one.faults},
-          {"machine", one.machine}, {"of", campaign.fingerprint}};
+  return {{"case", one.id},         {"motion", one.motion},   {"part", one.part},
+          {"kind", one.kind},       {"moment", one.moment},   {"faults", one.faults},
+          {"machine", one.machine}, {"carrier", one.carrier}, {"of", campaign.fingerprint}};
 }
 
 void put(json& line, const char* key, const std::optional<double>& value) {
   if (value) {
     line[key] = *value;
   }
+}
+
+// Into a folder that nobody keeps, from one process to another, judged with what was written.
+CaseVerdict verdict_on_record(const Campaign& campaign, const CampaignMotion& motion,
+                              const CampaignCase& one) {
+  auto fixture = motion.plain;
+  add_faults(fixture, plan_of(one));
+  const TemporaryFolder folder;
+  RunOptions options;
+  options.out = folder.path();
+  options.program = campaign.program;
+  choose_carrier(one.carrier, options);
+  auto run = run_experiment(fixture, options);
+  if (run.faults) {
+    return std::move(*run.faults);
+  }
+  Check check;
+  check.name = "run_complete";
+  check.meaning = "the run came to its end";
+  check.verdict = Verdict::kInvalid;
+  check.reason = run.reason;
+  CaseVerdict nothing;
+  nothing.checks.push_back(std::move(check));
+  return nothing;
+}
+
+CaseVerdict verdict_of(const Campaign& campaign, const CampaignCase& one) {
+  const auto& motion = motion_of(campaign, one);
+  const auto plan = plan_of(one);
+  const bool on_record =
+      one.carrier != "in-process" || std::any_of(plan.begin(), plan.end(), [](const Fault& fault) {
+        return fault.row().needs == FaultNeeds::kRecord;
+      });
+  if (on_record) {
+    return verdict_on_record(campaign, motion, one);
+  }
+  const auto prepared = prepare(plan, motion.plain, *motion.twin);
+  return judge_case(motion.plain, prepared, *motion.twin, motion.plain.experiment.seed);
 }
 
 }  // namespace
@@ -37,10 +79,7 @@ FaultPlan plan_of(const CampaignCase& one) {
 std::string run_campaign_case(const Campaign& campaign, const CampaignCase& one) {
   auto line = identity_of(campaign, one);
   try {
-    const auto& motion = motion_of(campaign, one);
-    const auto seed = motion.plain.experiment.seed;
-    const auto prepared = prepare(plan_of(one), motion.plain, *motion.twin);
-    const auto verdict = judge_case(motion.plain, prepared, *motion.twin, seed);
+    const auto verdict = verdict_of(campaign, one);
     const auto& figures = verdict.figures;
     line["verdict"] = name_of(verdict.verdict());
     line["fired"] = verdict.fired;

@@ -11,6 +11,8 @@
 namespace towbench::harness {
 namespace {
 
+constexpr const char* kNoCarrier = "in-process";
+
 std::uint64_t hash_of(const std::string& text) {
   CanonicalHash hash;
   hash.add(text);
@@ -51,6 +53,11 @@ class CaseList {
         }
       }
     }
+  }
+
+  [[nodiscard]] std::vector<std::string> carriers_of(const CampaignEntry& entry) const {
+    const auto& named = entry.carriers.empty() ? campaign_.carriers : entry.carriers;
+    return named.empty() ? std::vector<std::string>{kNoCarrier} : named;
   }
 
   [[nodiscard]] std::uint64_t seeds(const CampaignEntry& entry) const {
@@ -119,9 +126,13 @@ class CaseList {
       id += "/and " + more;
       faults.push_back(more);
     }
-    std::replace(id.begin(), id.end(), ' ', ',');
-    cases_.push_back({std::move(id), name, part, kind, moment, std::move(faults),
-                      static_cast<std::size_t>((seed - 1) % (campaign_.machines + 1))});
+    const auto machine = static_cast<std::size_t>((seed - 1) % (campaign_.machines + 1));
+    for (const auto& carrier : carriers_of(entry)) {
+      const auto over = carrier == kNoCarrier ? std::string() : "/over " + carrier;
+      cases_.push_back({id + over, name, part, kind, moment, faults, machine, carrier});
+      auto& named = cases_.back().id;
+      std::replace(named.begin(), named.end(), ' ', ',');
+    }
   }
 
   const Campaign& campaign_;

@@ -139,9 +139,7 @@ std::string coverage(const Results& results) {
   std::map<std::string, std::map<std::string, std::size_t>> tried;
   std::set<std::string> moments;
   for (const auto& row : fault_catalogue()) {
-    if (row.refused.empty()) {
-      tried[fmt::format("{} {}", name_of(row.part), row.name)];
-    }
+    tried[fmt::format("{} {}", name_of(row.part), row.name)];
   }
   for (const auto& line : results) {
     const auto place = place_named(line.value("part", ""));
@@ -254,6 +252,7 @@ std::string campaign_report(const CampaignReport& report, const Results& results
   text += "\n## Phases\n\n" + matrix(results, "moment", nullptr);
   text += "\n## Motions\n\n" + matrix(results, "motion", nullptr);
   text += "\n## Machines (0: nominal)\n\n" + matrix(results, "machine", nullptr);
+  text += "\n## Carriers\n\n" + matrix(results, "carrier", nullptr);
   text += "\n## Requirements\n\n" + rules(results);
   text += "\n## Figures, and the case behind the worst\n\n" + figures(report, results);
   const auto section = [&](const char* head, const std::string& body) {
@@ -264,10 +263,10 @@ std::string campaign_report(const CampaignReport& report, const Results& results
   section("Passed with a remark", remarks(results));
   section("Covered: cases of each kind at each moment", coverage(results));
   std::string refused;
-  for (const auto& kind : report.incapable) {
+  for (const auto& kind : report.refused) {
     refused += "- " + kind + "\n";
   }
-  section("Not covered: kinds that the bench refuses", refused);
+  section("Refused: what a carrier cannot have", refused);
   return text;
 }
 

@@ -44,7 +44,7 @@ struct CampaignSummary {
 // What the report says beside the results.
 struct CampaignReport {
   std::string title;
-  std::vector<std::string> incapable;  // kinds that the bench refuses, with the reason
+  std::vector<std::string> refused;  // kinds that a carrier cannot have, with the reason
   CampaignSummary sum;
   std::map<std::string, std::string> kept;  // case -> folder of its run, relative to the report
   std::function<std::string(const nlohmann::json&)> again;  // the command that runs a case again

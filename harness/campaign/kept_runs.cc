@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/bench/experiment_run.h"
+#include "harness/bench/run_carrier.h"
 #include "harness/campaign/campaign_report.h"
 #include "harness/campaign/drawn_machines.h"
 #include "harness/faults/faulted_experiment.h"
@@ -27,7 +27,8 @@ CampaignCase case_of(const json& line) {
           line.value("kind", ""),
           line.value("moment", ""),
           line.at("faults").get<std::vector<std::string>>(),
-          line.value("machine", std::size_t{0})};
+          line.value("machine", std::size_t{0}),
+          line.value("carrier", "in-process")};
 }
 
 std::vector<json> wanted(const std::vector<json>& results) {
@@ -81,6 +82,9 @@ std::string command_of(const Campaign& campaign, const json& line,
   const auto one = case_of(line);
   auto text = "./towbench run " +
               DrawnMachines::file_of(campaign, folder, one.machine, one.motion).generic_string();
+  if (one.carrier != "in-process") {
+    text += " --carrier " + one.carrier;
+  }
   for (const auto& words : one.faults) {
     text += fmt::format(" --fault \"{}\"", words);
   }
@@ -91,6 +95,8 @@ std::filesystem::path keep_run(const Campaign& campaign, const CampaignCase& one
                                const std::filesystem::path& folder) {
   RunOptions options;
   options.out = folder / "runs";
+  options.program = campaign.program;
+  choose_carrier(one.carrier, options);
   const auto run = run_experiment(experiment_of(campaign, one, folder), options);
   (void)write_report(run.folder);  // the folder says all, with a page or without
   return run.folder;

@@ -225,7 +225,7 @@ int report_all(const Options& options, const Campaign& campaign,
   auto sum = summary_of(results);
   CampaignReport report;
   report.title = campaign.title;
-  report.incapable = campaign.incapable;
+  report.refused = campaign.refused;
   sum.missing = whole && all.size() > sum.cases ? all.size() - sum.cases : 0;
   report.sum = sum;
   report.again = [&](const nlohmann::json& line) { return command_of(campaign, line, folder); };

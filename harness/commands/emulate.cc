@@ -44,6 +44,12 @@ struct Machine {
   std::uint64_t seed = 1;
 };
 
+CarrierKind kind_of(const Options& options) {
+  return options.stream_descriptor >= 0
+             ? CarrierKind::kLocal
+             : harness::kind_of(carrier_address("--carrier", options.carrier).scheme);
+}
+
 Machine machine_of(const Options& options) {
   Machine machine;
   if (!options.rig.empty()) {
@@ -55,7 +61,8 @@ Machine machine_of(const Options& options) {
     machine.events = fixture.experiment.events;
     machine.seed = fixture.experiment.seed;
     if (!fixture.experiment.faults.empty()) {
-      const FaultedExperiment faulted(fixture, options.seed.value_or(machine.seed));
+      const FaultedExperiment faulted(fixture, options.seed.value_or(machine.seed),
+                                      kind_of(options));
       machine.rig = faulted.fixture().rig.parameters;
       machine.events = faulted.fixture().experiment.events;
     }

@@ -27,21 +27,6 @@ void add_experiment_options(CLI::App& verb, ExperimentOptions& options) {
   verb.add_flag("--no-report", options.no_report, "write no report.html");
 }
 
-void choose_carrier(const std::string& text, RunOptions& options) {
-  if (text.empty() || text == "in-process" || text == "local") {
-    options.carrier = text == "local" ? Carrier::kLocal : Carrier::kInProcess;
-    return;
-  }
-  const auto ends = protocol::parse_carrier_ends(text);
-  if (!ends) {
-    throw FixtureError({"command line", 0, "--carrier"}, '"' + text + '"',
-                       "in-process, local, serial:DEVICE,DEVICE[@BAUD] or "
-                       "can:INTERFACE[,INTERFACE]");
-  }
-  options.carrier = Carrier::kWire;
-  options.wire = *ends;
-}
-
 void choose_clock(const std::string& clock, RunOptions& options) {
   if (clock != "real") {
     return;

@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "harness/bench/experiment_run.h"
+#include "harness/bench/run_carrier.h"
 
 namespace towbench::harness {
 
@@ -34,13 +34,6 @@ void choose_lines(const std::string& text, RunOptions& options);
 inline constexpr const char* kLinesHelp =
     "digital lines on real ones, controller's and machine's end: CHIP[+FIRST],CHIP[+FIRST] or "
     "CHIP[+FIRST],sim:CHIP[+FIRST]";
-
-// "in-process", "local", or an address with both ends (carrier_address.h). Throws FixtureError.
-void choose_carrier(const std::string& text, RunOptions& options);
-
-inline constexpr const char* kCarrierHelp =
-    "in-process; local: the emulator in a process of its own; serial:DEVICE,DEVICE[@BAUD] or "
-    "can:INTERFACE[,INTERFACE]: the same over wires";
 
 // "firmware:IMAGE.elf" (the virtual board). Throws FixtureError for another word, for a file that
 // is no such image, and beside another carrier, clock or lines.

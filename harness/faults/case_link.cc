@@ -12,11 +12,16 @@ namespace {
 
 }  // namespace
 
-CaseLink::CaseLink(PlantEnd& plant, const std::vector<LinkFault>& faults, CaseRecord& record)
-    : plant_(plant), record_(record), to_plant_(*this, faults), to_controller_(*this, faults) {
+CaseLink::CaseLink(PlantEnd& plant, PeerControl& peer, const std::vector<LinkFault>& faults,
+                   CaseRecord& record)
+    : plant_(plant),
+      peer_(peer),
+      record_(record),
+      to_plant_(*this, faults),
+      to_controller_(*this, faults) {
   to_plant_.disturber.connect(plant.sink());
-  std::copy_if(faults.begin(), faults.end(), std::back_inserter(killers_),
-               [](const LinkFault& fault) { return fault.kind == FaultKind::kPeerKilled; });
+  std::copy_if(faults.begin(), faults.end(), std::back_inserter(blows_),
+               [](const LinkFault& fault) { return may_end_run(fault.kind); });
 }
 
 void CaseLink::connect(protocol::MessageSink& controller) noexcept {
@@ -26,24 +31,46 @@ void CaseLink::connect(protocol::MessageSink& controller) noexcept {
 }
 
 bool CaseLink::disturb(const LinkFault& fault) {
-  if (fault.kind == FaultKind::kPeerKilled) {
-    killers_.push_back(fault);
+  if (may_end_run(fault.kind)) {
+    blows_.push_back(fault);
   }
   to_plant_.disturber.add(fault);
   to_controller_.disturber.add(fault);
   return true;
 }
 
-bool CaseLink::plant_is_dead(core::Nanoseconds time_ns) const noexcept {
-  return std::any_of(killers_.begin(), killers_.end(),
-                     [&](const LinkFault& fault) { return time_ns >= fault.from_ns; });
+void CaseLink::strike(core::Nanoseconds time_ns) noexcept {
+  for (auto blow = blows_.begin(); blow != blows_.end() && !is_lost();) {
+    if (time_ns < blow->from_ns) {
+      ++blow;
+      continue;
+    }
+    switch (blow->kind) {
+      case FaultKind::kPeerKilled:
+        lost_ = peer_.kill_peer();
+        break;
+      case FaultKind::kPeerRestart:
+        lost_ = peer_.restart_peer();
+        to_plant_.disturber.connect(plant_.sink());
+        break;
+      case FaultKind::kBusOff:
+        lost_ = peer_.leave_bus();
+        break;
+      default:
+        break;  // strikes by itself: no turn is understood any more
+    }
+    blow = blows_.erase(blow);
+  }
 }
 
 core::Status CaseLink::wait_for(protocol::Turn expected) noexcept {
-  if (plant_is_dead(until_ns_)) {
-    return core::failure(core::ErrorCode::kPeerClosed);
+  if (!is_lost()) {
+    const auto heard = plant_.wait_for(expected);
+    if (!heard) {
+      return heard;
+    }
   }
-  return plant_.wait_for(expected);
+  return is_lost() ? core::Status(core::failure(lost_)) : core::Status();
 }
 
 // ---- controller to plant ----
@@ -61,7 +88,7 @@ void CaseLink::ToPlant::handle(const protocol::PwmDuty& duty) noexcept {
     duty_sequence = duty.sequence;
     period_ticks = duty.period_ticks;
   }
-  if (!link.plant_is_dead(link.now_ns_)) {
+  if (!link.is_lost()) {
     disturber.pass(duty, link.now_ns_);
   }
 }
@@ -71,7 +98,9 @@ void CaseLink::ToPlant::handle(const protocol::DigitalOutputs& outputs) noexcept
     return;
   }
   outputs_sequence = outputs.sequence;
-  disturber.pass(outputs, link.now_ns_);
+  if (!link.is_lost()) {
+    disturber.pass(outputs, link.now_ns_);
+  }
 }
 
 void CaseLink::ToPlant::drive_in_reverse() noexcept {
@@ -96,8 +125,12 @@ void CaseLink::ToPlant::handle(const protocol::Advance& advance) noexcept {
   }
   disturber.end_turn(link.now_ns_);
   link.until_ns_ = advance.until_ns;
-  if (!link.plant_is_dead(advance.until_ns)) {
-    link.plant_.sink().on(advance);
+  if (link.watcher_ != nullptr) {
+    link.watcher_->runs_to(advance.until_ns);
+  }
+  link.strike(advance.until_ns);
+  if (!link.is_lost() && !disturber.pass_turn(advance, link.now_ns_)) {
+    link.lost_ = core::ErrorCode::kPeerSilent;
   }
   link.now_ns_ = advance.until_ns;
 }
@@ -107,7 +140,9 @@ void CaseLink::ToPlant::handle(const protocol::Advance& advance) noexcept {
 void CaseLink::ToController::handle(const protocol::Advanced& advanced) noexcept {
   disturber.end_turn(link.until_ns_);
   link.record_.arrivals.push_back({link.until_ns_, link.witness_.digest});
-  disturber.pass(advanced, link.until_ns_);
+  if (!disturber.pass_turn(advanced, link.until_ns_)) {
+    link.lost_ = core::ErrorCode::kPeerSilent;
+  }
 }
 
 void CaseLink::Witness::mix(std::uint64_t word) noexcept {
@@ -121,6 +156,16 @@ void CaseLink::Witness::on(const protocol::EncoderEdges& edges) noexcept {
   for (const protocol::EncoderEdge edge : edges.edges.view()) {
     mix(edge.packed());
   }
+}
+
+void CaseLink::Witness::on(const protocol::EncoderReport& report) noexcept {
+  mix(static_cast<std::uint64_t>(report.last_edge_ns));
+  mix(static_cast<std::uint32_t>(report.count_change));
+  mix(report.capture_period_ns);
+  mix(static_cast<std::uint32_t>(report.index_count));
+  mix(report.levels | (static_cast<std::uint64_t>(report.axis) << 8U) |
+      (static_cast<std::uint64_t>(report.index_pulses) << 16U) |
+      (static_cast<std::uint64_t>(report.illegal_transitions) << 32U));
 }
 
 void CaseLink::Witness::on(const protocol::DigitalInputs& inputs) noexcept {

@@ -7,7 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "harness/bench/peer_control.h"
 #include "harness/bench/plant_end.h"
+#include "harness/bench/time_watcher.h"
 #include "harness/faults/case_record.h"
 #include "harness/faults/link_faults.h"
 #include "protocol/each_message.h"
@@ -27,8 +29,12 @@ struct FullReverse {
 
 class CaseLink final : public PlantEnd {
  public:
-  // All outlive this.
-  CaseLink(PlantEnd& plant, const std::vector<LinkFault>& faults, CaseRecord& record);
+  // All outlive this. `peer` is whoever can end and restart the process behind `plant`.
+  CaseLink(PlantEnd& plant, PeerControl& peer, const std::vector<LinkFault>& faults,
+           CaseRecord& record);
+
+  // Told of each exchange before the plant runs through it. Outlives this.
+  void tell(TimeWatcher& watcher) noexcept { watcher_ = &watcher; }
 
   void take_over(const FullReverse& reverse) noexcept { to_plant_.reverse = reverse; }
 
@@ -80,6 +86,7 @@ class CaseLink final : public PlantEnd {
     explicit Witness(CaseLink& owner) : link(owner) {}
     using MessageSink::on;
     void on(const protocol::EncoderEdges& edges) noexcept override;
+    void on(const protocol::EncoderReport& report) noexcept override;
     void on(const protocol::DigitalInputs& inputs) noexcept override;
     void on(const protocol::CurrentSample& sample) noexcept override;
     void mix(std::uint64_t word) noexcept;
@@ -88,11 +95,16 @@ class CaseLink final : public PlantEnd {
     std::uint64_t digest = 0;
   };
 
-  [[nodiscard]] bool plant_is_dead(core::Nanoseconds time_ns) const noexcept;
+  // What befalls the peer or the bus by then.
+  void strike(core::Nanoseconds time_ns) noexcept;
+  [[nodiscard]] bool is_lost() const noexcept { return lost_ != core::ErrorCode::kNone; }
 
   PlantEnd& plant_;
+  PeerControl& peer_;
   CaseRecord& record_;
-  std::vector<LinkFault> killers_;
+  TimeWatcher* watcher_ = nullptr;
+  std::vector<LinkFault> blows_;  // not struck yet
+  core::ErrorCode lost_ = core::ErrorCode::kNone;
   ToPlant to_plant_;
   ToController to_controller_;
   Witness witness_{*this};

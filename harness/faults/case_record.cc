@@ -60,12 +60,17 @@ core::Nanoseconds first_difference(const std::vector<Row>& a, const std::vector<
 }  // namespace
 
 void CaseRecord::drain(bbmc::ControllerNode& controller) noexcept {
+  const bool is_off = host_ != nullptr && host_->ahead_ns(now_ns_) != 0;
   bbmc::TelemetryRow row;
   while (controller.next_row(row)) {
+    row.time_ns = is_off ? now_ns_ : row.time_ns;
     log.push_back(row);
   }
   bbmc::ControllerEvent event;
   while (controller.next_event(event)) {
+    // A line's edge has the machine's time.
+    const bool by_clock = event.kind != bbmc::ControllerEvent::Kind::kLineEdge;
+    event.time_ns = is_off && by_clock ? now_ns_ : event.time_ns;
     controller_events.push_back(event);
   }
 }
@@ -128,14 +133,19 @@ const TruthRow& CaseRecord::truth_at(core::Nanoseconds time_ns) const noexcept {
 }
 
 bool CaseRecord::driven_at(core::Nanoseconds time_ns) const noexcept {
-  core::PerAxis<bool> driven{};
-  for (const auto& duty : duties) {
-    if (duty.time_ns > time_ns) {
-      break;
+  auto later = std::upper_bound(
+      duties.begin(), duties.end(), time_ns,
+      [](core::Nanoseconds time, const DutyMessage& duty) { return time < duty.time_ns; });
+  // The last that each axis was told.
+  core::PerAxis<bool> told{};
+  while (later != duties.begin() && !(told[core::Axis::kY] && told[core::Axis::kX])) {
+    --later;
+    if (!told[later->axis] && later->drives()) {
+      return true;
     }
-    driven[duty.axis] = duty.drives();
+    told[later->axis] = true;
   }
-  return driven[core::Axis::kY] || driven[core::Axis::kX];
+  return false;
 }
 
 std::string CaseRecord::all_printed() const {

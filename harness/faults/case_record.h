@@ -11,6 +11,7 @@
 #include "core/realtime.h"
 #include "emulator/plant_node.h"
 #include "harness/bench/bench_recorder.h"
+#include "harness/bench/host_schedule.h"
 #include "harness/bench/run_outcome.h"
 #include "protocol/messages.h"
 
@@ -58,6 +59,10 @@ class CaseRecord final : public BenchRecorder, public emulator::PlantObserver {
   std::vector<ConsoleText> typed_lines;  // by the operator, each with the time of its end
   RunOutcome outcome;
 
+  // The controller's clock may be off: rows and events are kept by the bench's. Null: it is
+  // right.
+  void keep_time_of(const HostSchedule* host) noexcept { host_ = host; }
+
   void drain(bbmc::ControllerNode& controller) noexcept override;
   void console(std::string_view text) noexcept override;
   void typed(core::Nanoseconds time_ns, std::string_view text) noexcept override;
@@ -86,6 +91,7 @@ class CaseRecord final : public BenchRecorder, public emulator::PlantObserver {
 
  private:
   std::string typing_;
+  const HostSchedule* host_ = nullptr;
   core::Nanoseconds now_ns_ = 0;
 };
 

@@ -1,7 +1,9 @@
 #include "harness/faults/case_run.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "harness/bench/can_framed_plant.h"
 #include "harness/bench/in_process_plant.h"
 #include "harness/bench/script_loop.h"
 
@@ -28,14 +30,26 @@ std::unique_ptr<CaseRecord> run_case(const ExperimentFixture& fixture,
   events.insert(events.end(), injection.events.begin(), injection.events.end());
   std::stable_sort(events.begin(), events.end(),
                    [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; });
-  InProcessPlant plant(built, options.seed, events, *record);
-  CaseLink link(plant, injection.link, *record);
+  std::optional<InProcessPlant> direct;
+  std::optional<CanFramedPlant> framed;
+  PlantEnd* plant = nullptr;
+  PeerControl* peer = nullptr;
+  if (injection.over_can) {
+    plant = &framed.emplace(built, options.seed, events, *record);
+    peer = &*framed;
+  } else {
+    plant = &direct.emplace(built, options.seed, events, *record);
+    peer = &*direct;
+  }
+  CaseLink link(*plant, *peer, injection.link, *record);
   if (options.reverse) {
     link.take_over(*options.reverse);
   }
   LockstepBench bench(fixture.controller.configuration, fixture.rig.hash, link, record.get());
   bench.run_on(injection.host);
+  record->keep_time_of(&injection.host);
   record->outcome = play(experiment, bench, *record, {});
+  record->keep_time_of(nullptr);
   record->outcome.control_period_ns = fixture.controller.configuration.control_period_ns();
   return record;
 }

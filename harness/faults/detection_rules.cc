@@ -64,6 +64,12 @@ MaybeCheck link_or_host_fault_is_found(const CaseEvidence& evidence) {
   if (fault == nullptr || !must_be_found(*fault)) {
     return std::nullopt;
   }
+  // A clock that leaps ahead by less than a host may be late says nothing wrong.
+  constexpr double kHostMayBeLate_s = 0.021;
+  if (fault->kind == kClockStep && fault->parameters[0] >= 0 &&
+      fault->parameters[0] < kHostMayBeLate_s) {
+    return std::nullopt;
+  }
   const auto& run = evidence.run;
   const auto seen_ns = served_ns(evidence, evidence.cause_ns);
   const bool driven = is_driven_mode(mode_at(run, Axis::kY, evidence.cause_ns - 1)) ||
@@ -118,6 +124,36 @@ MaybeCheck no_false_trip(const CaseEvidence& evidence) {
     return failed(
         kName, kMeaning,
         fmt::format("fault {}: {}", core::number_of(fault->code), core::describe(fault->code)));
+  }
+  return passed(kName, kMeaning);
+}
+
+MaybeCheck bounce_while_leaving_is_ignored(const CaseEvidence& evidence) {
+  constexpr auto kName = "leaving_goes_on";
+  constexpr auto kMeaning = "a switch that bounces while its end is left does not stop the machine";
+  const Fault* fault = fault_of(evidence, FaultPart::kEndStop);
+  if (fault == nullptr || fault->kind != kBounce) {
+    return std::nullopt;
+  }
+  const auto& edges = evidence.twin.plant_events;
+  const auto line = fault->place.hall_line();
+  const auto index = static_cast<std::size_t>(fault - evidence.prepared.plan.data());
+  const auto edge = std::find_if(edges.begin(), edges.end(), [&](const auto& event) {
+    return event.kind == emulator::PlantEventKind::kInputLineChanged &&
+           event.time_ns >= evidence.prepared.onsets_ns[index] &&
+           static_cast<protocol::InputLine>(static_cast<int>(event.value)) == line;
+  });
+  const bool is_left = edge != edges.end() && (edge->lines & protocol::mask_of(line)) == 0;
+  if (!is_left || evidence.prepared.plan.size() > 1) {
+    return std::nullopt;
+  }
+  const auto faults_of = [](const CaseRecord& run) {
+    return std::count_if(
+        run.controller_events.begin(), run.controller_events.end(),
+        [](const auto& event) { return event.kind == bbmc::ControllerEvent::Kind::kFaultLatched; });
+  };
+  if (faults_of(evidence.run) > faults_of(evidence.twin)) {
+    return failed(kName, kMeaning, "it was stopped once more than with a sound switch");
   }
   return passed(kName, kMeaning);
 }

@@ -15,8 +15,9 @@ namespace {
 
 Injection injection_of(const FaultPlan& plan, const std::vector<core::Nanoseconds>& onsets_ns,
                        const ExperimentFixture& fixture, const CaseRecord& twin,
-                       std::size_t without) {
+                       std::size_t without, bool over_can) {
   Injection injection;
+  injection.over_can = over_can;
   const auto end_ns = core::nanoseconds(fixture.experiment.duration_limit_s);
   for (std::size_t i = 0; i < plan.size(); ++i) {
     if (i == without && plan[i].kind == FaultKind::kWelded) {
@@ -58,7 +59,8 @@ Check fired_check(const ExperimentFixture& plain, const PreparedPlan& prepared,
     fired_ns = first_difference_ns(run, twin);
   } else {
     const auto other = run_case(plain, rig_of(prepared.plan, plain, index),
-                                injection_of(prepared.plan, prepared.onsets_ns, plain, twin, index),
+                                injection_of(prepared.plan, prepared.onsets_ns, plain, twin, index,
+                                             prepared.injection.over_can),
                                 {.seed = seed});
     fired_ns = first_difference_ns(run, *other);
   }
@@ -74,7 +76,7 @@ Check fired_check(const ExperimentFixture& plain, const PreparedPlan& prepared,
 }  // namespace
 
 PreparedPlan prepare_at(const FaultPlan& plan, const std::vector<core::Nanoseconds>& onsets_ns,
-                        const ExperimentFixture& fixture, const CaseRecord& twin) {
+                        const ExperimentFixture& fixture, const CaseRecord& twin, bool over_can) {
   PreparedPlan prepared{.plan = plan, .onsets_ns = onsets_ns};
   prepared.built = rig_of(plan, fixture, kAll);
   if (const char* wrong = emulator::inconsistency(prepared.built)) {
@@ -85,12 +87,12 @@ PreparedPlan prepare_at(const FaultPlan& plan, const std::vector<core::Nanosecon
       throw FixtureError({.file = "fault plan"}, describe(fault), "an axis that the rig has");
     }
   }
-  prepared.injection = injection_of(plan, onsets_ns, fixture, twin, kAll);
+  prepared.injection = injection_of(plan, onsets_ns, fixture, twin, kAll, over_can);
   return prepared;
 }
 
 PreparedPlan prepare(const FaultPlan& plan, const ExperimentFixture& fixture,
-                     const CaseRecord& twin) {
+                     const CaseRecord& twin, bool over_can) {
   std::vector<core::Nanoseconds> onsets_ns;
   for (const auto& fault : plan) {
     if (fault.row().start == FaultStart::kWholeRun) {
@@ -104,11 +106,14 @@ PreparedPlan prepare(const FaultPlan& plan, const ExperimentFixture& fixture,
     }
     onsets_ns.push_back(*onset);
   }
-  return prepare_at(plan, onsets_ns, fixture, twin);
+  return prepare_at(plan, onsets_ns, fixture, twin, over_can);
 }
 
-std::unique_ptr<CaseRecord> run_twin(const ExperimentFixture& plain, std::uint64_t seed) {
-  return run_case(plain, plain.rig.parameters, {}, {.seed = seed});
+std::unique_ptr<CaseRecord> run_twin(const ExperimentFixture& plain, std::uint64_t seed,
+                                     bool over_can) {
+  Injection nothing;
+  nothing.over_can = over_can;
+  return run_case(plain, plain.rig.parameters, nothing, {.seed = seed});
 }
 
 CaseVerdict judge_case(const ExperimentFixture& plain, const PreparedPlan& prepared,
@@ -119,6 +124,9 @@ CaseVerdict judge_case(const ExperimentFixture& plain, const PreparedPlan& prepa
   core::Nanoseconds cause_ns = -1;
   verdict.fired = true;
   for (std::size_t i = 0; i < prepared.plan.size(); ++i) {
+    if (prepared.plan[i].row().needs == FaultNeeds::kRecord) {
+      continue;
+    }
     core::Nanoseconds fired_ns = -1;
     verdict.checks.push_back(fired_check(plain, prepared, twin, *run, seed, i, fired_ns));
     verdict.fired = verdict.fired && fired_ns >= 0;

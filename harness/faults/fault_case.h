@@ -24,11 +24,12 @@ struct PreparedPlan {
   Injection injection{};
 };
 [[nodiscard]] PreparedPlan prepare(const FaultPlan& plan, const ExperimentFixture& fixture,
-                                   const CaseRecord& twin);
+                                   const CaseRecord& twin, bool over_can = false);
 // With the beginnings known already (a run folder's, a child process's).
 [[nodiscard]] PreparedPlan prepare_at(const FaultPlan& plan,
                                       const std::vector<core::Nanoseconds>& onsets_ns,
-                                      const ExperimentFixture& fixture, const CaseRecord& twin);
+                                      const ExperimentFixture& fixture, const CaseRecord& twin,
+                                      bool over_can = false);
 
 // All that the requirements look at.
 struct CaseEvidence {
@@ -51,9 +52,10 @@ struct CaseVerdict {
 
 // The fault-free run of an experiment, without its expectations.
 [[nodiscard]] std::unique_ptr<CaseRecord> run_twin(const ExperimentFixture& plain,
-                                                   std::uint64_t seed);
+                                                   std::uint64_t seed, bool over_can = false);
 
-// Runs and judges. `plain` is without expectations; `run_out` takes the record when it is not null.
+// Runs and judges. Faults that strike the record are left out: there is none in memory. `plain` is
+// without expectations; `run_out` takes the record when it is not null.
 [[nodiscard]] CaseVerdict judge_case(const ExperimentFixture& plain, const PreparedPlan& prepared,
                                      const CaseRecord& twin, std::uint64_t seed,
                                      std::unique_ptr<CaseRecord>* run_out = nullptr);

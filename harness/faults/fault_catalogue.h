@@ -1,5 +1,5 @@
 // Every kind of fault there is, as one table: where it may sit, what it means, its parameters, and
-// whether this bench can make it happen. What it cannot do is in the table too, with the reason.
+// what it takes. Which carriers cannot have it is in carrier_fit.h.
 #pragma once
 
 #include <array>
@@ -101,6 +101,18 @@ enum class FaultStart : std::uint8_t {
   kWholeRun,  // as built: no trigger, no duration
 };
 
+// What it takes to make it happen.
+enum class FaultNeeds : std::uint8_t {
+  kNothing,
+  kRecord,  // a run folder: it strikes what is written
+};
+
+// Whether the run may end with it: the two sides do not hear each other any more.
+[[nodiscard]] constexpr bool may_end_run(FaultKind kind) noexcept {
+  return kind == FaultKind::kPeerKilled || kind == FaultKind::kPeerRestart ||
+         kind == FaultKind::kBusOff || kind == FaultKind::kBaudMismatch;
+}
+
 // What a controller can be asked to do about it. The judge's rules are in requirements.h.
 enum class FaultDuty : std::uint8_t {
   kStop,     // must latch a fault once the fault has shown where the controller can see it
@@ -115,7 +127,7 @@ struct FaultRow {
   std::string_view meaning;
   FaultStart start = FaultStart::kAnyTime;
   FaultDuty duty = FaultDuty::kNothing;
-  std::string_view refused;  // why this bench cannot do it; empty: it can
+  FaultNeeds needs = FaultNeeds::kNothing;
   std::array<FaultParameter, 3> parameters{};
 };
 

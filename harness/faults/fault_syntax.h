@@ -24,8 +24,8 @@ inline constexpr std::array<TriggerKey, 3> kNumericTriggers{{
     {"speed_m_per_s", FaultTrigger::Kind::kSpeed, core::between(1e-4, 10)},
 }};
 
-// Throws FixtureError when the fault as a whole cannot be: beyond this bench, without a trigger, or
-// built in and with one.
+// Throws FixtureError when the fault as a whole cannot be: without a trigger, or built in and with
+// one.
 void check_whole(const Fault& fault, bool has_trigger, const FixtureError::Place& place);
 
 }  // namespace towbench::harness

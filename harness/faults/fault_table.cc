@@ -45,9 +45,6 @@ bool read_trigger(TableReader& reader, Trigger& trigger) {
 void check_whole(const Fault& fault, bool has_trigger, const FixtureError::Place& place) {
   const auto& row = fault.row();
   const auto what = fmt::format("{} {}", name_of(fault.place), row.name);
-  if (!row.refused.empty()) {
-    throw FixtureError(place, what, std::string(row.refused));
-  }
   const bool whole_run = row.start == FaultStart::kWholeRun;
   if (whole_run && (has_trigger || fault.duration_s)) {
     throw FixtureError(place, what + " with a trigger or a duration",

@@ -4,8 +4,8 @@
 //   encoder.y jump phase=cruise after=20ms counts=400 seed=7
 //
 // On the command line a value has its unit (at=20ms, force=10N) or its key has (at_s=0.02); in a
-// fixture the key has. Whatever is not understood, out of range, without effect or beyond this
-// bench is refused with one line.
+// fixture the key has. Whatever is not understood, out of range or without effect
+// is refused with one line.
 #pragma once
 
 #include <string>

@@ -7,36 +7,28 @@
 #include "harness/faults/case_run.h"
 #include "harness/faults/fault_text.h"
 #include "harness/fixtures/canonical_hash.h"
-#include "harness/judge/csv_table.h"
+#include "harness/fixtures/fixture_error.h"
 
 namespace towbench::harness {
 namespace {
 
-// The folder was written by a second run of the same bits; were it another run, its verdict would
-// be about something else.
-Check recorded_run_check(const std::filesystem::path& folder, const CaseRecord& run) {
-  Check check;
-  check.name = "recorded_run_is_judged";
-  check.meaning = "the record on disk is the run that was judged for faults";
-  const auto same_end = [&](const CsvTable& table, std::size_t rows) {
-    return table.rows() == rows;
-  };
-  const auto truth = CsvTable::load(folder / "truth.csv");
-  const auto log = CsvTable::load(folder / "log.csv");
-  bool same = same_end(truth, run.truth.size()) && same_end(log, run.log.size());
-  for (const auto axis : core::kAxes) {
-    const auto column = truth.column(fmt::format("{}_carriage_m", core::name_of(axis)));
-    const auto duty = log.column(fmt::format("{}_duty_pct", core::name_of(axis)));
-    for (std::size_t i = 0; same && i < column.size(); ++i) {
-      same = column[i] == run.truth[i].axes[axis].carriage_m;
-    }
-    for (std::size_t i = 0; same && i < duty.size(); ++i) {
-      same = duty[i] == run.log[i].axes[axis].duty_pct;
+// The faults, each of which the carrier can have.
+const FaultPlan& plan_over(const ExperimentFixture& fixture, CarrierKind carrier) {
+  const auto& plan = fixture.experiment.faults;
+  for (const auto& fault : plan) {
+    if (const auto why = why_not_over(carrier, fault.kind); !why.empty()) {
+      throw FixtureError({.file = "fault plan"},
+                         fmt::format("\"{}\" over {}", describe(fault), name_of(carrier)),
+                         std::string(why));
     }
   }
-  check.verdict = same ? Verdict::kPass : Verdict::kInvalid;
-  check.reason = same ? "" : "truth.csv or log.csv differs from it";
-  return check;
+  return plan;
+}
+
+bool strikes(const ExperimentFixture& fixture, FaultKind kind) {
+  const auto& plan = fixture.experiment.faults;
+  return std::any_of(plan.begin(), plan.end(),
+                     [&](const Fault& fault) { return fault.kind == kind; });
 }
 
 }  // namespace
@@ -56,12 +48,14 @@ void add_faults(ExperimentFixture& fixture, const FaultPlan& plan) {
   fixture.hash = hash.value();
 }
 
-FaultedExperiment::FaultedExperiment(const ExperimentFixture& fixture, std::uint64_t seed)
+FaultedExperiment::FaultedExperiment(const ExperimentFixture& fixture, std::uint64_t seed,
+                                     CarrierKind carrier)
     : plain_(without_expectations(fixture)),
       faulted_(plain_),
       seed_(seed),
-      twin_(run_twin(plain_, seed)),
-      prepared_(prepare(fixture.experiment.faults, plain_, *twin_)) {
+      twin_(run_twin(plain_, seed, carrier == CarrierKind::kCan)),
+      prepared_(
+          prepare(plan_over(fixture, carrier), plain_, *twin_, carrier == CarrierKind::kCan)) {
   auto& events = faulted_.experiment.events;
   events.insert(events.end(), prepared_.injection.events.begin(), prepared_.injection.events.end());
   std::stable_sort(events.begin(), events.end(),
@@ -69,27 +63,49 @@ FaultedExperiment::FaultedExperiment(const ExperimentFixture& fixture, std::uint
   faulted_.rig.parameters = prepared_.built;
 }
 
-bool FaultedExperiment::kills_plant() const noexcept {
-  return std::any_of(prepared_.injection.link.begin(), prepared_.injection.link.end(),
-                     [](const LinkFault& fault) { return fault.kind == FaultKind::kPeerKilled; });
+bool FaultedExperiment::may_end_run() const noexcept {
+  const auto& link = prepared_.injection.link;
+  return std::any_of(link.begin(), link.end(),
+                     [](const LinkFault& fault) { return harness::may_end_run(fault.kind); });
 }
 
-void FaultedExperiment::judge_into(const std::filesystem::path& folder,
-                                   Judgement& judgement) const {
+bool FaultedExperiment::kills_host() const noexcept {
+  return prepared_.injection.host.killed_ns.has_value();
+}
+
+CaseVerdict FaultedExperiment::judge_into(const std::filesystem::path& folder, RecordFacts facts,
+                                          Judgement& judgement) const {
   auto& checks = judgement.checks;
   std::unique_ptr<CaseRecord> run;
   auto verdict = judge_case(plain_, prepared_, *twin_, seed_, &run);
+  const auto& host = prepared_.injection.host;
+  facts.ordinary = judgement.verdict;
+  auto of_record = judge_record(folder, host, *run, facts);
   // Ticks that the host never served are no gap of the record; the rule for faults knows them.
-  if (!prepared_.injection.host.stalls.empty() || kills_plant()) {
+  if (!host.stalls.empty() || !host.steps.empty() || may_end_run()) {
     std::erase_if(checks, [](const Check& check) {
       return check.name == "log_complete" || check.name == "truth_complete" ||
              check.name == "events_fired";
     });
   }
   std::erase_if(checks, [](const Check& check) { return check.name == "console_script"; });
+  if (!of_record.empty()) {
+    checks.clear();  // the ordinary ones speak of a whole record
+  }
   checks.insert(checks.begin(), verdict.checks.begin(), verdict.checks.end());
-  checks.push_back(recorded_run_check(folder, *run));
+  checks.insert(checks.end(), of_record.begin(), of_record.end());
+  // A plant that is ended takes along what it had not written yet.
+  const bool plant_is_cut =
+      strikes(faulted_, FaultKind::kPeerKilled) || strikes(faulted_, FaultKind::kPeerRestart);
+  checks.push_back(
+      recorded_run_check(folder, *run, !of_record.empty(), plant_is_cut || !of_record.empty()));
   judgement.verdict = worst_of(checks);
+  verdict.checks = checks;
+  verdict.fired = verdict.fired && std::none_of(checks.begin(), checks.end(), [](const Check& c) {
+                    return c.name.ends_with("fired") && c.verdict == Verdict::kInvalid;
+                  });
+  verdict.handled = judgement.verdict == Verdict::kPass;
+  return verdict;
 }
 
 }  // namespace towbench::harness

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "harness/experiment/experiment_fixture.h"
+#include "harness/faults/carrier_fit.h"
 #include "harness/faults/fault_case.h"
+#include "harness/faults/record_verdict.h"
 #include "harness/judge/judge.h"
 
 namespace towbench::harness {
@@ -21,8 +23,10 @@ void add_faults(ExperimentFixture& fixture, const FaultPlan& plan);
 
 class FaultedExperiment {
  public:
-  // Runs the twin and finds when everything begins. Throws FixtureError.
-  FaultedExperiment(const ExperimentFixture& fixture, std::uint64_t seed);
+  // Runs the twin and finds when everything begins. Throws FixtureError, also for a fault that the
+  // carrier cannot have.
+  FaultedExperiment(const ExperimentFixture& fixture, std::uint64_t seed,
+                    CarrierKind carrier = CarrierKind::kInProcess);
 
   // What is to be run: without expectations, with the faults' events, on the machine as built.
   [[nodiscard]] const ExperimentFixture& fixture() const noexcept { return faulted_; }
@@ -31,11 +35,15 @@ class FaultedExperiment {
   [[nodiscard]] const std::vector<core::Nanoseconds>& onsets_ns() const noexcept {
     return prepared_.onsets_ns;
   }
-  // A plant that is killed ends the run as it should.
-  [[nodiscard]] bool kills_plant() const noexcept;
+  // A run that ends because the two sides do not hear each other any more ends as it should.
+  [[nodiscard]] bool may_end_run() const noexcept;
+  // The controller's process does not live to the end of the run.
+  [[nodiscard]] bool kills_host() const noexcept;
 
-  // Judges the same run in memory, and that the folder holds that run.
-  void judge_into(const std::filesystem::path& folder, Judgement& judgement) const;
+  // Judges the same run in memory, that the folder holds that run, and what a struck record must
+  // show.
+  CaseVerdict judge_into(const std::filesystem::path& folder, RecordFacts facts,
+                         Judgement& judgement) const;
 
  private:
   ExperimentFixture plain_;

@@ -305,10 +305,23 @@ class Injector {
   }
 
   void host() {
+    auto& host = into_.host;
+    if (fault_.kind == kClockStep) {
+      host.steps.push_back({at_ns_, until_ns_, core::nanoseconds(parameter(0))});
+      return;
+    }
+    if (fault_.kind == kFullDisk) {
+      host.full_disks.push_back({at_ns_, until_ns_});
+      return;
+    }
+    if (fault_.kind == kKilledWhileLogging) {
+      host.killed_ns = at_ns_;
+      return;
+    }
     const double length_s = fault_.kind == kMissedTicks
                                 ? parameter(0) * core::seconds(twin_.outcome.control_period_ns)
                                 : parameter(0);
-    into_.host.stalls.push_back({at_ns_, at_ns_ + core::nanoseconds(length_s)});
+    host.stalls.push_back({at_ns_, at_ns_ + core::nanoseconds(length_s)});
   }
 
   const Fault& fault_;

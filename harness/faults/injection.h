@@ -17,6 +17,7 @@ namespace towbench::harness {
 inline constexpr core::Nanoseconds kHandComes_ns = 50 * core::kNanosecondsPerMillisecond;
 
 struct Injection {
+  bool over_can = false;                         // what a bus does to the data, too
   std::vector<emulator::ScheduledEvent> events;  // sorted by time
   std::vector<LinkFault> link;
   HostSchedule host;

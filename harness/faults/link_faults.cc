@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 
+#include "harness/faults/uart_line.h"
 #include "protocol/frame.h"
 
 namespace towbench::harness {
@@ -36,6 +37,9 @@ LinkDisturber::LinkDisturber(const std::vector<LinkFault>& faults, bool to_plant
 void LinkDisturber::add(const LinkFault& fault) {
   if (fault.to_plant == to_plant_) {
     faults_.push_back({.fault = fault, .random = core::Random(fault.seed)});
+    if (fault.kind == FaultKind::kBaudMismatch) {
+      faults_.back().reader = std::make_unique<protocol::CobsReader>();
+    }
   }
 }
 
@@ -73,6 +77,13 @@ void LinkDisturber::carry_from(std::size_t index, const LinkMessage& message,
           return;
         }
         break;
+      case FaultKind::kBaudMismatch: {
+        std::array<std::byte, protocol::CobsFraming::kMaxFrameSize> frame;
+        const auto size = std::visit(
+            [&](const auto& each) { return protocol::CobsFraming::append(each, frame); }, message);
+        misread(acting, std::span(frame).first(size));
+        return;
+      }
       case FaultKind::kReorder:
         reorder(index, message, now_ns);
         return;
@@ -124,6 +135,23 @@ void LinkDisturber::corrupt(Acting& acting, const LinkMessage& message) {
   const auto reader = std::make_unique<protocol::FrameReader>();
   reader->feed(std::span(frame).first(size), *to_);
   reader->finish(*to_);
+}
+
+LinkDisturber::Acting* LinkDisturber::mismatched(core::Nanoseconds now_ns) noexcept {
+  const auto found = std::find_if(faults_.begin(), faults_.end(), [&](const Acting& acting) {
+    return acting.fault.kind == FaultKind::kBaudMismatch && acting.fault.acts_at(now_ns);
+  });
+  return found == faults_.end() ? nullptr : &*found;
+}
+
+bool LinkDisturber::misread(Acting& line, std::span<const std::byte> frame) {
+  // A receiver that is faster than the sender may see several bytes in one.
+  constexpr std::size_t kMostBytesOfOne = 10;
+  std::vector<std::byte> received(kMostBytesOfOne * frame.size());
+  const auto size = over_uart(frame, line.fault.amount, received);
+  const auto before = line.reader->counts().frames;
+  line.reader->feed(std::span(received).first(size), *to_);
+  return line.reader->counts().frames > before;
 }
 
 void LinkDisturber::end_turn(core::Nanoseconds now_ns) {

@@ -1,10 +1,15 @@
 // What a link may do to the messages of one direction. The lockstep's own messages (greeting,
-// Advance, Advanced, Bye) pass: without them there is no run to look at.
+// Advance, Advanced, Bye) pass: without them there is no run to look at. Where the two ends
+// disagree about the baud rate nothing passes by itself, and the run ends when a turn is not
+// understood.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -12,6 +17,7 @@
 #include "core/random.h"
 #include "core/time.h"
 #include "harness/faults/fault_catalogue.h"
+#include "protocol/cobs.h"
 #include "protocol/message_sink.h"
 #include "protocol/messages.h"
 
@@ -22,7 +28,7 @@ struct LinkFault {
   bool to_plant = false;
   core::Nanoseconds from_ns = 0;
   core::Nanoseconds until_ns = 0;
-  double amount = 0;  // probability, seconds or messages, as the catalogue has it
+  double amount = 0;  // probability, seconds, messages or ratio, as the catalogue has it
   std::uint64_t seed = 1;
 
   [[nodiscard]] bool acts_at(core::Nanoseconds time_ns) const noexcept {
@@ -56,6 +62,17 @@ class LinkDisturber {
     }
     to_->on(message);
   }
+  // A message of the lockstep's own. False when the other end does not understand it.
+  template <typename Message>
+  [[nodiscard]] bool pass_turn(const Message& message, core::Nanoseconds now_ns) {
+    Acting* line = mismatched(now_ns);
+    if (line == nullptr) {
+      to_->on(message);
+      return true;
+    }
+    std::array<std::byte, protocol::CobsFraming::kMaxFrameSize> frame;
+    return misread(*line, std::span(frame).first(protocol::CobsFraming::append(message, frame)));
+  }
   // The turn ends: what is due arrives, and what a flood brings.
   void end_turn(core::Nanoseconds now_ns);
 
@@ -65,6 +82,7 @@ class LinkDisturber {
     core::Random random;
     std::optional<LinkMessage> held{};  // reorder
     core::Nanoseconds last_due_ns = 0;
+    std::unique_ptr<protocol::CobsReader> reader{};  // baud mismatch
   };
   struct Waiting {
     core::Nanoseconds due_ns = 0;
@@ -77,6 +95,10 @@ class LinkDisturber {
   void reorder(std::size_t index, const LinkMessage& message, core::Nanoseconds now_ns);
   void corrupt(Acting& acting, const LinkMessage& message);
   void arrive(const LinkMessage& message);
+  // The fault that has the two ends disagree; null when none does.
+  [[nodiscard]] Acting* mismatched(core::Nanoseconds now_ns) noexcept;
+  // Whether a message came out of the frame's bits at the other end.
+  bool misread(Acting& line, std::span<const std::byte> frame);
 
   bool to_plant_;
   std::vector<Acting> faults_;

@@ -27,12 +27,9 @@ bool finite(const emulator::TruthRow& row) {
   });
 }
 
-// Whether the host was not there between two ticks.
+// Whether the host was not there between two ticks, or its clock not right.
 bool stalled_between(const CaseEvidence& evidence, Nanoseconds from_ns, Nanoseconds to_ns) {
-  const auto& stalls = evidence.prepared.injection.host.stalls;
-  return std::any_of(stalls.begin(), stalls.end(), [&](const HostStall& stall) {
-    return stall.from_ns <= to_ns && stall.until_ns >= from_ns;
-  });
+  return evidence.prepared.injection.host.may_miss_ticks(from_ns, to_ns);
 }
 
 std::string why_incomplete(const CaseEvidence& evidence) {
@@ -47,7 +44,8 @@ std::string why_incomplete(const CaseEvidence& evidence) {
   for (std::size_t i = 1; i < run.log.size(); ++i) {
     const auto from_ns = run.log[i - 1].time_ns;
     const auto to_ns = run.log[i].time_ns;
-    if (to_ns - from_ns != period_ns && !stalled_between(evidence, from_ns, to_ns)) {
+    // The first tick after a stall is computed late, the next is in time again.
+    if (to_ns - from_ns != period_ns && !stalled_between(evidence, from_ns - period_ns, to_ns)) {
       return fmt::format("no row between {:.4f} s and {:.4f} s", core::seconds(from_ns),
                          core::seconds(to_ns));
     }
@@ -80,9 +78,8 @@ Check script_went_on(const CaseEvidence& evidence) {
   constexpr auto kMeaning = "the console took every line and came to rest";
   const auto& outcome = evidence.run.outcome;
   const auto& plan = evidence.prepared.plan;
-  const bool plant_killed = std::any_of(plan.begin(), plan.end(), [](const Fault& fault) {
-    return fault.kind == FaultKind::kPeerKilled;
-  });
+  const bool plant_killed = std::any_of(plan.begin(), plan.end(),
+                                        [](const Fault& fault) { return may_end_run(fault.kind); });
   if (!outcome.complete && !plant_killed) {
     return failed(kName, kMeaning, outcome.reason);
   }

@@ -29,6 +29,8 @@ void judge_requirements(const CaseEvidence& evidence, CaseVerdict& verdict) {
   add(link_or_host_fault_is_found(evidence));
   add(tracking_is_guarded(evidence));
   add(no_false_trip(evidence));
+  add(bounce_while_leaving_is_ignored(evidence));
+  add(integral_does_not_wind_up(evidence));
   add(fault_number_fits(evidence));
   add(log_is_complete(evidence));
   add(script_went_on(evidence));

@@ -29,7 +29,10 @@ using MaybeCheck = std::optional<Check>;
 [[nodiscard]] MaybeCheck link_or_host_fault_is_found(const CaseEvidence& evidence);
 [[nodiscard]] MaybeCheck tracking_is_guarded(const CaseEvidence& evidence);
 [[nodiscard]] MaybeCheck no_false_trip(const CaseEvidence& evidence);
+[[nodiscard]] MaybeCheck bounce_while_leaving_is_ignored(const CaseEvidence& evidence);
 [[nodiscard]] MaybeCheck fault_number_fits(const CaseEvidence& evidence);
+// saturation_rules.cc
+[[nodiscard]] MaybeCheck integral_does_not_wind_up(const CaseEvidence& evidence);
 // record_rules.cc
 [[nodiscard]] Check log_is_complete(const CaseEvidence& evidence);
 [[nodiscard]] Check script_went_on(const CaseEvidence& evidence);

@@ -6,6 +6,7 @@
 #include "bbmc/application/commands/command_table.h"
 #include "harness/commands/fixture_paths.h"
 #include "harness/experiment/experiment_fixture.h"
+#include "harness/faults/carrier_fit.h"
 #include "harness/faults/fault.h"
 #include "harness/faults/fault_catalogue.h"
 #include "harness/panel/panel_json.h"
@@ -60,9 +61,10 @@ json commands_json() {
 json faults_json() {
   auto faults = json::array();
   for (const auto& row : fault_catalogue()) {
-    json object = {{"part", name_of(row.part)}, {"kind", row.name},
-                   {"meaning", row.meaning},    {"built_in", row.start == FaultStart::kWholeRun},
-                   {"refused", row.refused},    {"parameters", json::array()}};
+    json object = {
+        {"part", name_of(row.part)},       {"kind", row.name},
+        {"meaning", row.meaning},          {"built_in", row.start == FaultStart::kWholeRun},
+        {"refused", why_not_by_hand(row)}, {"parameters", json::array()}};
     for (const auto& parameter : row.parameters) {
       if (!parameter.key.empty()) {
         object["parameters"].push_back({{"key", parameter.key},

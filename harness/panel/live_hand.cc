@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/faults/carrier_fit.h"
 #include "harness/faults/case_run.h"
 #include "harness/faults/fault_case.h"
 
@@ -17,8 +18,8 @@ bool is_same_place(const Fault& a, const Fault& b) {
 
 void refuse_unless_possible(const Fault& fault, const ExperimentFixture& fixture) {
   const auto place = name_of(fault.place) + " " + std::string(fault.row().name);
-  if (!fault.row().refused.empty()) {
-    throw FixtureError({.file = "fault"}, place, std::string(fault.row().refused));
+  if (const auto why = why_not_by_hand(fault.row()); !why.empty()) {
+    throw FixtureError({.file = "fault"}, place, std::string(why));
   }
   if (fault.row().start == FaultStart::kWholeRun) {
     throw FixtureError({.file = "fault"}, place,
@@ -201,7 +202,9 @@ std::string LiveHand::make_broken(const Fault& fault, LockstepBench& bench) {
   const auto onset_ns = bench.now_ns() + bench.controller().exchange_ns();
   now.trigger = {.value = core::seconds(onset_ns)};
   const auto injection = injection_of(now);
-  if (injection.events.empty() && injection.link.empty() && injection.host.stalls.empty()) {
+  const auto& host = injection.host;
+  if (injection.events.empty() && injection.link.empty() && host.stalls.empty() &&
+      host.steps.empty()) {
     return fmt::format("\"{}\" would take no effect in this run", describe(now));
   }
   if (!bench.inject(injection)) {
@@ -226,7 +229,7 @@ std::string LiveHand::make_mended(const Fault& fault, LockstepBench& bench) {
   auto after = injection_of(over);
   // What has been given to the machine cannot be taken back: only an end can be added.
   const bool adds = before.link.empty() && before.host.stalls.empty() &&
-                    after.events.size() > before.events.size() &&
+                    before.host.steps.empty() && after.events.size() > before.events.size() &&
                     std::equal(before.events.begin(), before.events.end(), after.events.begin(),
                                [](const auto& a, const auto& b) {
                                  return a.time_ns == b.time_ns && a.kind == b.kind;

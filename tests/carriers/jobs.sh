@@ -143,6 +143,10 @@ flood_of_foreign_frames() {
   return "$code"
 }
 
+faults_over_can() {
+  bench campaign can --fresh --quiet --workers 1 --out "$runs/faults"
+}
+
 on_host() {
   real_time_window
   demo_over in-process in-process
@@ -169,6 +173,7 @@ in_machine() {
   job 'a bus that goes down in a run leaves both sides safe' bus_goes_down
   job "a node that babbles with the bench's identifiers leaves both sides safe" node_babbles
   job 'a flood of foreign frames changes no verdict' flood_of_foreign_frames
+  job 'faults over CAN: bus-off, a plant killed and restarted, a killed controller, lost frames' faults_over_can
   job "can-utils play the bench's candump.log" candump_is_played
 }
 

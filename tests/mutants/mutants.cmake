@@ -37,6 +37,9 @@ mutant(kill_ignored_in_open_loop system/motion_safety.cc
   "    if (edge.active) {\n      cut_all" "    if (edge.active && status_.motion != MotionKind::kOpenLoop) {\n      cut_all"
   "  if (status_.kill_switch_pressed && (" "  if (status_.kill_switch_pressed && status_.motion != MotionKind::kOpenLoop && (")
 
+mutant(no_debounce system/end_stop_guard.cc
+  "return active && !bounces;" "static_cast<void>(bounces);\n  return active;")
+
 # ---- what is not believed
 mutant(no_plausibility system/encoder_plausibility.cc
   "if (settings_.enabled && scope" "if (false && scope")
@@ -58,3 +61,11 @@ mutant(lost_peer_ignored host/controller_node.cc
   "implementation_->lose_link(core::ErrorCode::kFaultLinkLost);" "")
 mutant(overrun_ignored system/motion_safety.cc
   "brake_all(ErrorCode::kFaultControlOverrun, Axis::kY);" "")
+mutant(clock_step_ignored system/motion_safety.cc
+  "cut_all(ErrorCode::kFaultControlOverrun, Axis::kY);" "")
+
+# ---- what must stay bounded
+mutant(integral_wind_up system/pid.cc
+  "if (winds_up) {" "if (false && winds_up) {")
+mutant(unbounded_log system/data_log.cc
+  "if (full()) {" "if (false && full()) {")

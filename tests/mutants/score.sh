@@ -45,8 +45,14 @@ for program in "$build"/tests/mutants/mutant_*; do
     status=1
     continue
   fi
-  "$program" campaign mutants --quiet --out "$out/$name" >"$out/campaign.txt" 2>&1
-  if [[ $? -eq 1 ]]; then
+  code=0
+  "$program" campaign mutants --quiet --out "$out/$name" >"$out/campaign.txt" 2>&1 || code=$?
+  if ((code > 128)); then
+    # On a motion of the campaign, before any fault.
+    caught=$((caught + 1))
+    echo "$name: caught by signal $((code - 128)) on a fault-free motion"
+    table+="| \`$name\` | no_crash, on a fault-free motion |"$'\n'
+  elif ((code == 1)); then
     caught=$((caught + 1))
     broken=$(grep -o '"rule":"[a-z_]*"' "$out/$name/results.jsonl" | sort | uniq -c | sort -rn |
       head -n 3 | sed 's/^ *\([0-9]*\) "rule":"\([a-z_]*\)"/\2 \1/' | paste -sd, | sed 's/,/, /g')

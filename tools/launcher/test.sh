@@ -193,6 +193,7 @@ stage_step_cost() {
 stage_campaign() {
   build_preset release release towbench-bench
   count "$root/build/release/harness/towbench-bench" campaign standard --fresh --out "$root/build/campaign"
+  count "$root/build/release/harness/towbench-bench" campaign log-full --fresh --out "$root/build/campaign-log-full"
 }
 
 stage_mutants() {

@@ -1,47 +1,14 @@
 // Every kind of fault there is takes effect: a plant or sensor signal differs from the twin run.
 // Where it cannot, the run says so and proves nothing.
-#include <map>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "harness/faults/case_run.h"
-#include "harness/faults/fault_case.h"
-#include "harness/faults/fault_text.h"
-#include "tests/harness/end_to_end/run_support.h"
+#include "tests/harness/faults/stage.h"
 
 namespace towbench::harness {
 namespace {
 
 using ::testing::HasSubstr;
-
-// One motion and its fault-free run, shared by every fault tried on it.
-struct Stage {
-  explicit Stage(const std::string& experiment)
-      : plain(without_expectations(Runs::shipped(experiment))), twin(run_twin(plain, 1)) {}
-  ExperimentFixture plain;
-  std::unique_ptr<CaseRecord> twin;
-
-  CaseVerdict carry_out(const std::string& words, std::unique_ptr<CaseRecord>* run = nullptr) {
-    const auto prepared = prepare({parse_fault(words)}, plain, *twin);
-    return judge_case(plain, prepared, *twin, 1, run);
-  }
-};
-
-Stage& stage(const std::string& experiment) {
-  static std::map<std::string, Stage> stages;
-  return stages.try_emplace(experiment, experiment).first->second;
-}
-
-std::string words_of(const CaseVerdict& verdict) {
-  std::string text;
-  for (const auto& check : verdict.checks) {
-    if (check.verdict != Verdict::kPass) {
-      text += check.name + ": " + check.reason + "\n";
-    }
-  }
-  return text;
-}
 
 struct Trial {
   const char* experiment;
@@ -109,13 +76,20 @@ INSTANTIATE_TEST_SUITE_P(
         Trial{kMid, "link.to_controller corrupt_byte phase=cruise"},
         Trial{kMid, "link.to_controller peer_killed phase=cruise"},
         Trial{kMid, "link.to_controller flood phase=cruise"},
+        Trial{kMid, "link.to_controller baud_mismatch phase=cruise"},
+        Trial{kMid, "link.to_plant baud_mismatch phase=cruise ratio=1.2"},
+        Trial{kMid, "link.to_controller bus_off phase=cruise"},
+        Trial{kMid, "link.to_controller peer_restart phase=cruise"},
+        Trial{kMid, "host clock_step phase=cruise"},
+        Trial{kMid, "host clock_step phase=cruise step=-20ms"},
         Trial{kMid, "host late_tick phase=accelerate after=50ms"},
         Trial{kMid, "host missed_ticks phase=accelerate after=50ms"},
         Trial{kMid, "host stopped_process phase=accelerate after=50ms"}));
 
 TEST(FaultWithoutEffect, MakesTheRunInvalid) {
   for (const char* words : {"endstop.y_max stuck_open phase=cruise", "kill_switch welded at=100s",
-                            "amplifier.x gain_drop phase=rest", "endstop.x_min bounce at=0s"}) {
+                            "amplifier.x gain_drop phase=rest", "endstop.x_min bounce at=0s",
+                            "link.to_controller baud_mismatch phase=cruise ratio=1.03"}) {
     const auto verdict = stage(kMid).carry_out(words);
     EXPECT_FALSE(verdict.fired) << words;
     EXPECT_EQ(verdict.verdict(), Verdict::kInvalid) << words;

@@ -1,0 +1,33 @@
+// What befalls the host that writes the record, done for real: the kernel refuses to let a file
+// grow, or ends the process.
+#pragma once
+
+#include <filesystem>
+
+#include <sys/resource.h>
+
+#include "harness/bench/host_schedule.h"
+#include "harness/bench/time_watcher.h"
+
+namespace towbench::harness {
+
+class RecordFaults final : public TimeWatcher {
+ public:
+  // Of the record in `folder`. The schedule outlives this.
+  RecordFaults(const HostSchedule& host, std::filesystem::path folder);
+  // The disk has room again.
+  ~RecordFaults() override;
+
+  void runs_to(core::Nanoseconds until_ns) noexcept override;
+
+ private:
+  void fill_disk() noexcept;
+  void free_disk() noexcept;
+
+  const HostSchedule& host_;
+  std::filesystem::path folder_;
+  bool is_full_ = false;
+  rlimit before_{};
+};
+
+}  // namespace towbench::harness
