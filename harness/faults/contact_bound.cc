@@ -70,7 +70,8 @@ Nanoseconds could_know_ns(const CaseEvidence& evidence, const Contact& contact) 
   return encoder_lies ? std::min(known_ns, evidence.cause_ns + kDetection_ns) : known_ns;
 }
 
-// What a requirement takes away: from then on nobody may drive the axis, braking included.
+// When the drive is taken away, braking included: a kill demands it; without a believable encoder
+// or a link it is the controller's policy (docs/safety.md says why).
 struct DriveTaken {
   Nanoseconds from_ns = kNever;
   const char* why = "";
@@ -83,7 +84,7 @@ DriveTaken drive_taken(const CaseEvidence& evidence, const Contact& contact) {
   for (const auto& arrival : run.lines) {
     if ((arrival.lines & kKill) != 0) {
       taken = {served_ns(evidence, arrival.served_ns) + kReaction_ns,
-               "a kill takes the drive away"};
+               "by requirement: a kill takes the drive away"};
       break;
     }
   }
@@ -100,9 +101,9 @@ DriveTaken drive_taken(const CaseEvidence& evidence, const Contact& contact) {
     const auto code = core::number_of(event.code);
     const auto between = [&](int low, int high) { return code >= low && code <= high; };
     if (blind && event.axis == contact.axis && between(310, 315)) {
-      taken = {event.time_ns, "an axis without a believable encoder is not driven"};
+      taken = {event.time_ns, "by policy: an axis without a believable encoder is not driven"};
     } else if (has(evidence, FaultPart::kLink) && between(320, 321)) {
-      taken = {event.time_ns, "a machine whose link fails is not driven"};
+      taken = {event.time_ns, "by policy: a machine whose link fails is not driven"};
     }
   }
   return taken;
@@ -161,10 +162,9 @@ Check no_preventable_contact(const CaseEvidence& evidence) {
   }
   const auto taken = drive_taken(evidence, contact);
   if (touches_even_so(evidence, contact, known_ns + kReaction_ns, taken.from_ns)) {
-    unavoidable.reason =
-        taken.from_ns < contact.time_ns
-            ? fmt::format("by requirement: {}; full reverse until then touches too", taken.why)
-            : "unavoidable: full reverse from the first evidence on touches too";
+    unavoidable.reason = taken.from_ns < contact.time_ns
+                             ? fmt::format("{}; full reverse until then touches too", taken.why)
+                             : "unavoidable: full reverse from the first evidence on touches too";
     return unavoidable;
   }
   auto check = failed(kName, kMeaning,
