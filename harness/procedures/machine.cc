@@ -1,6 +1,8 @@
 #include "harness/procedures/machine.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -37,6 +39,38 @@ std::uint64_t seed_of(std::uint64_t session, const std::string& name) {
     hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
   }
   return hash;
+}
+
+template <typename T>
+void drop_front(std::vector<T>& column, std::size_t rows) {
+  column.erase(column.begin(),
+               column.begin() + static_cast<std::ptrdiff_t>(std::min(rows, column.size())));
+}
+
+// Where the controller was told its position the count jumps, faster than any axis moves. Rows
+// before that are in another frame and nothing has been driven yet.
+void drop_other_frames(identify::Recording& recording) {
+  constexpr std::int64_t kJump = 2000;
+  std::size_t from = 0;
+  for (const auto& axis : recording.axes) {
+    for (std::size_t k = 1; k < recording.rows(); ++k) {
+      if (std::abs(axis.count[k] - axis.count[k - 1]) > kJump && axis.duty_pct[k] == 0) {
+        from = std::max(from, k);
+      }
+    }
+  }
+  for (const auto which : core::kAxes) {
+    auto& axis = recording.axes[which];
+    drop_front(axis.count, from);
+    drop_front(axis.duty_pct, from);
+    drop_front(axis.reference_m, from);
+    drop_front(axis.reference_velocity_m_per_s, from);
+    drop_front(axis.velocity_m_per_s, from);
+    drop_front(axis.mode, from);
+    drop_front(axis.current_A, from);
+    drop_front(recording.force_N[which], from);
+  }
+  drop_front(recording.time_s, from);
 }
 
 }  // namespace
@@ -81,6 +115,7 @@ identify::Recording Machine::play(const Conversation& conversation,
   const auto outcome = harness::play(experiment, bench, recorder, watchers_);
 
   auto recording = recorder.take();
+  drop_other_frames(recording);
   recording.period_s = core::seconds(configuration.control_period_ns());
   for (const auto axis : core::kAxes) {
     recording.rad_per_count[axis] = 2 * std::numbers::pi / nameplates_[axis].counts_per_turn;

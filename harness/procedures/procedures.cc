@@ -6,7 +6,10 @@ namespace towbench::harness::procedures {
 
 std::vector<std::unique_ptr<Procedure>> identification_procedures() {
   std::vector<std::unique_ptr<Procedure>> all;
+  all.push_back(drive_calibration());
   all.push_back(saturation_speed());
+  all.push_back(break_away_map());
+  all.push_back(pulse_responses());
   return all;
 }
 

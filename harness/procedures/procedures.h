@@ -7,7 +7,10 @@
 
 namespace towbench::harness::procedures {
 
-[[nodiscard]] std::unique_ptr<Procedure> saturation_speed();  // EXP-P-3
+[[nodiscard]] std::unique_ptr<Procedure> drive_calibration();  // EXP-P-1
+[[nodiscard]] std::unique_ptr<Procedure> saturation_speed();   // EXP-P-3
+[[nodiscard]] std::unique_ptr<Procedure> break_away_map();     // EXP-OL-1
+[[nodiscard]] std::unique_ptr<Procedure> pulse_responses();    // EXP-OL-2
 
 // Where an axis may be sent: between the soft limits that the controller keeps.
 struct Track {

@@ -1,4 +1,4 @@
-#include "harness/diagnose/zero_phase_filter.h"
+#include "harness/identify/zero_phase_filter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "core/check.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::harness::identify {
 namespace {
 
 constexpr double kChebyshevRippleDecibel = 0.05;
@@ -108,4 +108,4 @@ Eigen::VectorXd central_difference(const Eigen::Ref<const Eigen::VectorXd>& x, d
   return d;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::harness::identify

@@ -1,0 +1,57 @@
+#include "harness/identify/break_away.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace towbench::harness::identify {
+namespace {
+
+constexpr std::uint8_t kOpenLoop = 1;  // bbmc::AxisMode
+constexpr double kOnsetShare = 0.2;    // of the threshold: already more than creep
+
+// In m/s over 20 ms that end at row k.
+double speed_at(const Recording& data, core::Axis axis, std::size_t from, std::size_t k) {
+  const auto span = static_cast<std::size_t>(std::lround(0.02 / data.period_s));
+  const std::size_t before = k > from + span ? k - span : from;
+  const double time_s = data.time_s[k] - data.time_s[before];
+  return time_s > 0 ? (data.position_m(axis, k) - data.position_m(axis, before)) / time_s : 0;
+}
+
+}  // namespace
+
+std::vector<BreakAway> find_break_aways(const Recording& data, core::Axis axis,
+                                        double threshold_m_per_s) {
+  std::vector<BreakAway> found;
+  const auto& columns = data.axes[axis];
+  for (std::size_t k = 0; k < data.rows();) {
+    if (columns.mode[k] != kOpenLoop) {
+      ++k;
+      continue;
+    }
+    const std::size_t from = k;
+    while (k < data.rows() && columns.mode[k] == kOpenLoop) {
+      ++k;
+    }
+    const std::size_t last = k - 1;
+    if (std::fabs(speed_at(data, axis, from, last)) < 0.5 * threshold_m_per_s) {
+      continue;  // gave up without moving
+    }
+    std::size_t onset = last;
+    while (onset > from &&
+           std::fabs(speed_at(data, axis, from, onset)) > kOnsetShare * threshold_m_per_s) {
+      --onset;
+    }
+    std::size_t before = onset;
+    while (before > from && columns.duty_pct[before] == columns.duty_pct[onset]) {
+      --before;
+    }
+    const double level = columns.duty_pct[onset];
+    const double below = columns.duty_pct[before];
+    found.push_back({.position_m = data.position_m(axis, onset),
+                     .duty_pct = 0.5 * (level + below),
+                     .step_pct = std::fabs(level - below)});
+  }
+  return found;
+}
+
+}  // namespace towbench::harness::identify

@@ -1,0 +1,34 @@
+// K_T and K_amp from runs at one steady speed under different pushes on the load.
+//
+//   K_T i = tau_friction(direction) - r F      r = R/n, F: force sensor, on the load
+//   i = K_amp v_c                              v_c = duty x PWM amplitude
+//
+// Friction is the same in runs of one direction at one speed over one stretch, and so are the
+// biases of both sensors within one session: only differences count.
+#pragma once
+
+#include <vector>
+
+#include "harness/identify/window_means.h"
+
+namespace towbench::harness::identify {
+
+struct PushedRun {
+  bool towards_max = true;
+  Mean current_A;
+  Mean force_N;
+  Mean command_V;
+};
+
+struct DriveConstants {
+  double torque_constant_Nm_per_A = 0;
+  double torque_constant_deviation = 0;
+  double amplifier_gain_A_per_V = 0;
+  double amplifier_gain_deviation = 0;
+  bool found = false;  // false: pushes or currents do not differ
+};
+
+[[nodiscard]] DriveConstants find_drive_constants(const std::vector<PushedRun>& runs,
+                                                  double metres_per_rad);
+
+}  // namespace towbench::harness::identify

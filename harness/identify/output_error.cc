@@ -1,0 +1,244 @@
+#include "harness/identify/output_error.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include <ceres/ceres.h>
+
+#include "harness/identify/long_run_covariance.h"
+
+namespace towbench::harness::identify {
+namespace {
+
+enum Index : int {
+  kInertia,  // logarithms, of positive quantities
+  kViscous,
+  kExcess,
+  kStribeck,
+  kResonance,
+  kDamping,
+  kShare,  // plain, 0 .. 1
+  kDelay,  // in units of 10 us
+  kKnots,  // logarithm of the friction at each knot
+};
+
+class Problem {
+ public:
+  Problem(const TwoMassStart& start, const Recording& data, core::Axis axis, double span_s)
+      : start_(start), data_(data), axis_(axis) {
+    span_ = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(span_s / data.period_s)));
+    every_ = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(4e-3 / data.period_s)));
+    for (std::size_t k = span_; k < data.rows(); k += every_) {
+      rows_.push_back(k);
+    }
+  }
+
+  [[nodiscard]] int parameters() const { return kKnots + static_cast<int>(start_.knots_m.size()); }
+  [[nodiscard]] int data_residuals() const { return static_cast<int>(rows_.size()); }
+  static constexpr int kPriors = 4;
+  [[nodiscard]] Eigen::Index lags() const { return static_cast<Eigen::Index>(4 * span_ / every_); }
+
+  [[nodiscard]] Eigen::VectorXd first() const {
+    const auto& a = start_.axis;
+    Eigen::VectorXd p(parameters());
+    p[kInertia] = std::log(a.inertia_kg_m2);
+    p[kViscous] = std::log(a.viscous_friction_Nm_s_per_rad);
+    p[kExcess] = std::log(std::max(1e-5, a.friction.breakaway_Nm - a.coulomb_friction_Nm));
+    p[kStribeck] = std::log(a.friction.stribeck_speed_rad_per_s);
+    p[kResonance] = std::log(a.chain.resonance_Hz);
+    p[kDamping] = std::log(a.chain.damping_ratio);
+    p[kShare] = a.friction.carriage_share;
+    p[kDelay] = start_.path.delay_s / 1e-5;
+    for (int i = kKnots; i < parameters(); ++i) {
+      p[i] = std::log(a.coulomb_friction_Nm);
+    }
+    return p;
+  }
+
+  [[nodiscard]] emulator::AxisParameters axis_of(const double* p) const {
+    auto a = start_.axis;
+    a.inertia_kg_m2 = std::exp(p[kInertia]);
+    a.viscous_friction_Nm_s_per_rad = std::exp(p[kViscous]);
+    a.friction.stribeck_speed_rad_per_s = std::exp(p[kStribeck]);
+    a.chain.resonance_Hz = std::exp(p[kResonance]);
+    a.chain.damping_ratio = std::exp(p[kDamping]);
+    a.friction.carriage_share = p[kShare];
+    const auto knots = start_.knots_m.size();
+    double lowest = std::exp(p[kKnots]);
+    for (std::size_t i = 1; i < knots; ++i) {
+      lowest = std::min(lowest, std::exp(p[kKnots + static_cast<int>(i)]));
+    }
+    a.coulomb_friction_Nm = lowest;
+    a.friction.breakaway_Nm = lowest + std::exp(p[kExcess]);
+    a.friction.position.position_m.clear();
+    a.friction.position.friction_Nm.clear();
+    for (std::size_t i = 0; knots > 1 && i < knots; ++i) {
+      (void)a.friction.position.position_m.push_back(start_.knots_m[i]);
+      (void)a.friction.position.friction_Nm.push_back(std::exp(p[kKnots + static_cast<int>(i)]) -
+                                                      lowest);
+    }
+    return a;
+  }
+  [[nodiscard]] DrivePath path_of(const double* p) const {
+    auto path = start_.path;
+    path.delay_s = p[kDelay] * 1e-5;
+    return path;
+  }
+
+  [[nodiscard]] std::optional<std::vector<double>> simulate(const double* p) const {
+    return simulate_counts(axis_of(p), path_of(p), data_, axis_);
+  }
+
+  [[nodiscard]] bool residuals(const double* p, double* out) const {
+    const auto simulated = simulate(p);
+    if (!simulated) {
+      return false;
+    }
+    const auto& counts = data_.axes[axis_].count;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const std::size_t k = rows_[i];
+      const auto measured = static_cast<double>(counts[k] - counts[k - span_]);
+      out[i] = measured - ((*simulated)[k] - (*simulated)[k - span_]);
+    }
+    priors(p, out + rows_.size());
+    return true;
+  }
+
+  // In counts: a deviation of one standard deviation weighs as much as a few hundred rows' noise.
+  void priors(const double* p, double* out) const {
+    const auto guess = first();
+    const auto pull = [&](int i, double known) {
+      return known > 0 ? kPriorWeight * (p[i] - guess[i]) / known : 0.0;
+    };
+    out[0] = pull(kStribeck, start_.stribeck_known);
+    out[1] = pull(kExcess, start_.excess_known);
+    out[2] = pull(kShare, start_.share_known);
+    out[3] = pull(kDelay, 3.0);
+  }
+
+ private:
+  static constexpr double kPriorWeight = 10;
+  const TwoMassStart& start_;
+  const Recording& data_;
+  core::Axis axis_;
+  std::size_t span_ = 1;
+  std::size_t every_ = 1;
+  std::vector<std::size_t> rows_;
+};
+
+constexpr double step_of(int i) {
+  return i == kShare ? 1e-3 : (i == kDelay ? 1e-2 : 2e-4);
+}
+
+// Residuals with their derivatives by one-sided differences of the simulation.
+class Cost final : public ceres::CostFunction {
+ public:
+  explicit Cost(const Problem& problem) : problem_(problem) {
+    set_num_residuals(problem.data_residuals() + Problem::kPriors);
+    mutable_parameter_block_sizes()->push_back(problem.parameters());
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    if (!problem_.residuals(parameters[0], residuals)) {
+      return false;
+    }
+    if (jacobians == nullptr || jacobians[0] == nullptr) {
+      return true;
+    }
+    const int n = problem_.parameters();
+    const int m = num_residuals();
+    std::vector<double> p(parameters[0], parameters[0] + n);
+    std::vector<double> moved(static_cast<std::size_t>(m));
+    for (int i = 0; i < n; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const double before = p[at];
+      p[at] += step_of(i);
+      if (!problem_.residuals(p.data(), moved.data())) {
+        return false;
+      }
+      for (int k = 0; k < m; ++k) {
+        jacobians[0][k * n + i] = (moved[static_cast<std::size_t>(k)] - residuals[k]) / step_of(i);
+      }
+      p[at] = before;
+    }
+    return true;
+  }
+
+ private:
+  const Problem& problem_;
+};
+
+bool minimise(const Problem& problem, Eigen::VectorXd& p, double tolerance, std::string& message) {
+  ceres::Problem solver_problem;
+  solver_problem.AddResidualBlock(new Cost(problem), nullptr, p.data());
+  const auto bound = [&](int i, double low, double high) {
+    solver_problem.SetParameterLowerBound(p.data(), i, low);
+    solver_problem.SetParameterUpperBound(p.data(), i, high);
+  };
+  for (int i = 0; i < problem.parameters(); ++i) {
+    const double room = i == kViscous || i == kDamping || i == kExcess ? 3.0 : 1.6;
+    bound(i, p[i] - room, p[i] + room);
+  }
+  bound(kShare, 0.02, 0.98);
+  bound(kDelay, 0.0, 9.9);
+  ceres::Solver::Options options;
+  options.max_num_iterations = 60;
+  options.function_tolerance = tolerance;
+  options.parameter_tolerance = 1e-8;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &solver_problem, &summary);
+  message = summary.BriefReport();
+  return summary.IsSolutionUsable();
+}
+
+}  // namespace
+
+TwoMassFit fit_two_mass(const TwoMassStart& start, const Recording& data, core::Axis axis) {
+  TwoMassFit fit;
+  // Short spans first: they have no memory of what a wrong guess did a second ago.
+  const Problem coarse(start, data, axis, 0.03);
+  const Problem fine(start, data, axis, 0.12);
+  Eigen::VectorXd p = coarse.first();
+  fit.converged = minimise(coarse, p, 1e-3, fit.message) && minimise(fine, p, 1e-7, fit.message);
+  fit.axis = fine.axis_of(p.data());
+  fit.path = fine.path_of(p.data());
+  if (auto counts = fine.simulate(p.data())) {
+    fit.simulated_counts = std::move(*counts);
+  }
+  const int n = fine.parameters();
+  const int m = fine.data_residuals();
+  const Cost cost(fine);
+  Eigen::VectorXd residual(cost.num_residuals());
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian(
+      cost.num_residuals(), n);
+  const double* parameters = p.data();
+  double* rows = jacobian.data();
+  if (!cost.Evaluate(&parameters, residual.data(), &rows)) {
+    fit.converged = false;
+    return fit;
+  }
+  const Eigen::MatrixXd priors = jacobian.bottomRows(Problem::kPriors);
+  const Eigen::MatrixXd covariance =
+      sandwich(jacobian.topRows(m), residual.head(m), priors.transpose() * priors, fine.lags());
+  const auto deviation = [&](int i) { return std::sqrt(std::max(0.0, covariance(i, i))); };
+  fit.inertia_deviation = fit.axis.inertia_kg_m2 * deviation(kInertia);
+  fit.viscous_deviation = fit.axis.viscous_friction_Nm_s_per_rad * deviation(kViscous);
+  fit.resonance_deviation_Hz = fit.axis.chain.resonance_Hz * deviation(kResonance);
+  fit.damping_deviation = fit.axis.chain.damping_ratio * deviation(kDamping);
+  fit.share_deviation = deviation(kShare);
+  fit.excess_Nm = std::exp(p[kExcess]);
+  fit.excess_deviation_Nm = fit.excess_Nm * deviation(kExcess);
+  fit.stribeck_deviation = fit.axis.friction.stribeck_speed_rad_per_s * deviation(kStribeck);
+  for (int i = kKnots; i < n; ++i) {
+    fit.coulomb_Nm.push_back(std::exp(p[i]));
+    fit.coulomb_deviation_Nm.push_back(std::exp(p[i]) * deviation(i));
+  }
+  fit.residual_rms_counts = std::sqrt(residual.head(m).squaredNorm() / m);
+  return fit;
+}
+
+}  // namespace towbench::harness::identify

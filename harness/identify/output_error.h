@@ -1,0 +1,54 @@
+// Parameters of the two-mass model by output error: those with which the simulated encoder follows
+// the measured one. No speed or acceleration is ever taken from counts, and the input is exact, so
+// quantisation and filtering leave no bias (Ljung 1999, ch. 7).
+//
+//   e_k = [n(t_k) - n(t_k - s)] - [m(t_k) - m(t_k - s)]      n measured, m simulated counts
+//
+// over a span s: what the model leaves out cannot pile up over the whole run. Minimised by Ceres.
+//
+// Friction is C + tau_P(x), tau_P piecewise linear between `knots_m`; what is estimated is its
+// value at each knot. Torques scale with K_T K_amp, which encoder and duty cannot show.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "harness/identify/two_mass_twin.h"
+
+namespace towbench::harness::identify {
+
+struct TwoMassStart {
+  emulator::AxisParameters axis;  // documents, and first guesses of what is estimated
+  DrivePath path;
+  std::vector<double> knots_m{};  // ascending, at least one
+  // How well the first guess is known, as a standard deviation of its logarithm; 0: not at all.
+  double stribeck_known = 0;
+  double excess_known = 0;
+  double share_known = 0.25;  // of the carriage's share, absolute
+  double rotor_known = 0;     // 0: exactly, from its data sheet
+};
+
+struct TwoMassFit {
+  emulator::AxisParameters axis;
+  DrivePath path;
+  std::vector<double> coulomb_Nm;  // at each knot
+  std::vector<double> coulomb_deviation_Nm;
+  double inertia_deviation = 0;
+  double viscous_deviation = 0;
+  double resonance_deviation_Hz = 0;
+  double damping_deviation = 0;
+  double share_deviation = 0;
+  double excess_Nm = 0;  // break-away above sliding friction
+  double excess_deviation_Nm = 0;
+  double stribeck_deviation = 0;
+  double residual_rms_counts = 0;
+  std::vector<double> simulated_counts;
+  bool converged = false;
+  std::string message;
+};
+
+[[nodiscard]] TwoMassFit fit_two_mass(const TwoMassStart& start, const Recording& data,
+                                      core::Axis axis);
+
+}  // namespace towbench::harness::identify

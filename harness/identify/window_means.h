@@ -1,0 +1,21 @@
+// Means of columns over stretches of a recording, with what they are worth.
+#pragma once
+
+#include <vector>
+
+#include "harness/identify/recording.h"
+
+namespace towbench::harness::identify {
+
+struct Mean {
+  double value = 0;
+  double deviation = 0;  // of the mean, from ten blocks
+};
+
+// Rows [from, to) of a column. Fewer than 20 rows: no deviation can be told, it is infinite.
+[[nodiscard]] Mean mean_of(const std::vector<double>& column, std::size_t from, std::size_t to);
+
+// The first row at or after a time.
+[[nodiscard]] std::size_t row_at(const Recording& data, double time_s);
+
+}  // namespace towbench::harness::identify

@@ -1,0 +1,66 @@
+#include "harness/procedures/believed_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/procedures/procedures.h"
+
+namespace towbench::harness::procedures {
+
+emulator::AxisParameters believed_axis(const ProcedureContext& context) {
+  const auto& plate = context.machine.nameplate(context.axis);
+  const auto& belief = context.machine.configuration().axes[context.axis];
+  emulator::AxisParameters axis;
+  axis.gear_ratio = plate.gear_ratio;
+  axis.sprocket_radius_m = plate.sprocket_radius_m;
+  axis.rotor_inertia_kg_m2 = plate.rotor_inertia_kg_m2;
+  axis.winding = {.resistance_ohm = plate.resistance_ohm,
+                  .inductance_H = plate.inductance_H,
+                  .choke_inductance_H = 0};
+  axis.amplifier.current_loop_bandwidth_Hz = plate.current_loop_bandwidth_Hz;
+  axis.current_limit_A = plate.current_limit_A;
+  axis.hard_ends.fitted = false;
+  axis.torque_constant_Nm_per_A =
+      value_or(context, "torque_constant_Nm_per_A", belief.drive.torque_constant_Nm_per_A);
+  axis.amplifier_gain_A_per_V =
+      value_or(context, "amplifier_gain_A_per_V", belief.drive.amplifier_gain_A_per_V);
+  const auto& model = belief.feed_forward;
+  axis.inertia_kg_m2 = std::max(value_or(context, "inertia_kg_m2", model.inertia_kg_m2),
+                                1.05 * plate.rotor_inertia_kg_m2);
+  axis.viscous_friction_Nm_s_per_rad =
+      value_or(context, "viscous_friction_Nm_s_per_rad", model.viscous_friction_Nm_s_per_rad);
+  axis.coulomb_friction_Nm = model.coulomb_friction_Nm;
+  axis.friction.breakaway_Nm =
+      std::max(belief.friction.breakaway_Nm, 1.1 * axis.coulomb_friction_Nm);
+  axis.friction.stribeck_speed_rad_per_s = belief.friction.stribeck_speed_rad_per_s;
+  // The free-free mode from what the controller believes of the held motor's:
+  // w0^2 = K_s (r^2/J_m + 1/M), held: K_s / M.
+  const double ratio = (axis.inertia_kg_m2 - axis.rotor_inertia_kg_m2) / axis.rotor_inertia_kg_m2;
+  axis.chain.resonance_Hz = belief.braking.held_motor_chain_Hz * std::sqrt(1 + ratio);
+  return axis;
+}
+
+identify::DrivePath believed_path(const ProcedureContext& context) {
+  const auto& plate = context.machine.nameplate(context.axis);
+  const emulator::AmplifierParameters amplifier;
+  return {.pwm_amplitude_V = plate.pwm_amplitude_V,
+          .supply_V = plate.output_limit_V / amplifier.output_limit_ratio};
+}
+
+TorqueScale torque_scale(const ProcedureContext& context) {
+  constexpr double kNormal95 = 1.96;
+  const auto axis = believed_axis(context);
+  TorqueScale scale;
+  scale.torque_per_duty_Nm = axis.torque_constant_Nm_per_A * axis.amplifier_gain_A_per_V *
+                             context.machine.nameplate(context.axis).pwm_amplitude_V / 100;
+  const auto* k = context.find("torque_constant_Nm_per_A");
+  const auto* gain = context.find("amplifier_gain_A_per_V");
+  if (k != nullptr && gain != nullptr) {
+    scale.measured = true;
+    scale.relative_deviation =
+        std::hypot(k->half_width() / k->value, gain->half_width() / gain->value) / kNormal95;
+  }
+  return scale;
+}
+
+}  // namespace towbench::harness::procedures
