@@ -20,6 +20,7 @@ enum Index : int {
   kDamping,
   kShare,  // plain, 0 .. 1
   kDelay,  // in units of 10 us
+  kPlace,  // share of the lowest friction that belongs to the place, not to the machine
   kKnots,  // logarithm of the friction at each knot
 };
 
@@ -36,7 +37,7 @@ class Problem {
 
   [[nodiscard]] int parameters() const { return kKnots + static_cast<int>(start_.knots_m.size()); }
   [[nodiscard]] int data_residuals() const { return static_cast<int>(rows_.size()); }
-  static constexpr int kPriors = 4;
+  static constexpr int kPriors = 5;
   [[nodiscard]] Eigen::Index lags() const { return static_cast<Eigen::Index>(4 * span_ / every_); }
 
   [[nodiscard]] Eigen::VectorXd first() const {
@@ -50,6 +51,7 @@ class Problem {
     p[kDamping] = std::log(a.chain.damping_ratio);
     p[kShare] = a.friction.carriage_share;
     p[kDelay] = start_.path.delay_s / 1e-5;
+    p[kPlace] = 0.1;
     for (int i = kKnots; i < parameters(); ++i) {
       p[i] = std::log(a.coulomb_friction_Nm);
     }
@@ -69,6 +71,7 @@ class Problem {
     for (std::size_t i = 1; i < knots; ++i) {
       lowest = std::min(lowest, std::exp(p[kKnots + static_cast<int>(i)]));
     }
+    lowest *= 1 - p[kPlace];
     a.coulomb_friction_Nm = lowest;
     a.friction.breakaway_Nm = lowest + std::exp(p[kExcess]);
     a.friction.position.position_m.clear();
@@ -115,6 +118,7 @@ class Problem {
     out[1] = pull(kExcess, start_.excess_known);
     out[2] = pull(kShare, start_.share_known);
     out[3] = pull(kDelay, 3.0);
+    out[4] = pull(kPlace, 0.2);
   }
 
  private:
@@ -128,7 +132,7 @@ class Problem {
 };
 
 constexpr double step_of(int i) {
-  return i == kShare ? 1e-3 : (i == kDelay ? 1e-2 : 2e-4);
+  return i == kShare || i == kPlace ? 1e-3 : (i == kDelay ? 1e-2 : 2e-4);
 }
 
 // Residuals with their derivatives by one-sided differences of the simulation.
@@ -183,6 +187,7 @@ bool minimise(const Problem& problem, Eigen::VectorXd& p, double tolerance, std:
   }
   bound(kShare, 0.02, 0.98);
   bound(kDelay, 0.0, 9.9);
+  bound(kPlace, 0.0, 0.7);
   ceres::Solver::Options options;
   options.max_num_iterations = 60;
   options.function_tolerance = tolerance;
@@ -230,6 +235,7 @@ TwoMassFit fit_two_mass(const TwoMassStart& start, const Recording& data, core::
   fit.resonance_deviation_Hz = fit.axis.chain.resonance_Hz * deviation(kResonance);
   fit.damping_deviation = fit.axis.chain.damping_ratio * deviation(kDamping);
   fit.share_deviation = deviation(kShare);
+  fit.common_deviation_Nm = fit.axis.coulomb_friction_Nm / (1 - p[kPlace]) * deviation(kPlace);
   fit.excess_Nm = std::exp(p[kExcess]);
   fit.excess_deviation_Nm = fit.excess_Nm * deviation(kExcess);
   fit.stribeck_deviation = fit.axis.friction.stribeck_speed_rad_per_s * deviation(kStribeck);

@@ -39,7 +39,8 @@ struct TwoMassFit {
   double resonance_deviation_Hz = 0;
   double damping_deviation = 0;
   double share_deviation = 0;
-  double excess_Nm = 0;  // break-away above sliding friction
+  double common_deviation_Nm = 0;  // of axis.coulomb_friction_Nm: what is not the place's
+  double excess_Nm = 0;            // break-away above sliding friction
   double excess_deviation_Nm = 0;
   double stribeck_deviation = 0;
   double residual_rms_counts = 0;

@@ -47,6 +47,23 @@ identify::DrivePath believed_path(const ProcedureContext& context) {
           .supply_V = plate.output_limit_V / amplifier.output_limit_ratio};
 }
 
+bbmc::Configuration studied_configuration(const ProcedureContext& context) {
+  constexpr double kFrictionRoom = 1.6;  // *assumed*: no machine of a kind has more than that
+  auto configuration = context.machine.configuration();
+  for (const auto which : core::kAxes) {
+    auto& axis = configuration.axes[which];
+    const auto of = [&](std::string_view quantity, double& field) {
+      if (const auto* found = identify::find(context.known, quantity, core::name_of(which))) {
+        field = found->value;
+      }
+    };
+    of("torque_constant_Nm_per_A", axis.drive.torque_constant_Nm_per_A);
+    of("amplifier_gain_A_per_V", axis.drive.amplifier_gain_A_per_V);
+    axis.plausibility.worst_breakaway_Nm *= kFrictionRoom;
+  }
+  return configuration;
+}
+
 TorqueScale torque_scale(const ProcedureContext& context) {
   constexpr double kNormal95 = 1.96;
   const auto axis = believed_axis(context);

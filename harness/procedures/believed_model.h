@@ -10,6 +10,10 @@ namespace towbench::harness::procedures {
 [[nodiscard]] emulator::AxisParameters believed_axis(const ProcedureContext& context);
 [[nodiscard]] identify::DrivePath believed_path(const ProcedureContext& context);
 
+// The controller as an operator sets it up for a machine that is being studied: K_T and K_amp as
+// far as they have been found, and friction allowed to be more than it was believed to be.
+[[nodiscard]] bbmc::Configuration studied_configuration(const ProcedureContext& context);
+
 // Motor torque of 1 % duty, and how well it is known: the relative standard deviation of
 // K_T K_amp, 0 when nobody measured it.
 struct TorqueScale {

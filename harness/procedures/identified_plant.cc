@@ -91,19 +91,21 @@ class AxisWriter {
     return map;
   }
 
-  // The lowest of the map is the machine's own; what is above it belongs to the place.
+  // What is the same everywhere is the machine's own; what is above it belongs to the place.
   double write_coulomb(double belief) {
     const auto map = map_of("coulomb_friction_Nm");
     if (map.empty()) {
       estimated("coulomb_friction_Nm", "coulomb_friction_Nm", belief);
       return 0;
     }
-    const auto& lowest =
-        *std::min_element(map.begin(), map.end(),
-                          [](const Estimate& a, const Estimate& b) { return a.value < b.value; });
-    line("coulomb_friction_Nm", lowest.value,
-         fmt::format("{}, lowest of the map, at {:.3f} m", lowest.procedure, *lowest.at));
-    return lowest.value;
+    const auto* common = identify::find(estimates_, "friction_common_Nm", axis_);
+    const auto& lowest = *std::min_element(
+        map.begin(), map.end(),
+        [](const Estimate& one, const Estimate& other) { return one.value < other.value; });
+    const double value = common != nullptr ? common->value : lowest.value;
+    line("coulomb_friction_Nm", value,
+         fmt::format("{}; the rest belongs to the place, below", lowest.procedure));
+    return value;
   }
 
   void friction(double lowest_Nm) {

@@ -10,6 +10,7 @@ std::vector<std::unique_ptr<Procedure>> identification_procedures() {
   all.push_back(saturation_speed());
   all.push_back(break_away_map());
   all.push_back(pulse_responses());
+  all.push_back(torque_speed_map());
   return all;
 }
 

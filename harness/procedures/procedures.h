@@ -12,6 +12,8 @@ namespace towbench::harness::procedures {
 [[nodiscard]] std::unique_ptr<Procedure> break_away_map();     // EXP-OL-1
 [[nodiscard]] std::unique_ptr<Procedure> pulse_responses();    // EXP-OL-2
 
+[[nodiscard]] std::unique_ptr<Procedure> torque_speed_map();  // EXP-CL-1
+
 // Where an axis may be sent: between the soft limits that the controller keeps.
 struct Track {
   double min_m = 0;

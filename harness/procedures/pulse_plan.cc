@@ -46,7 +46,7 @@ double probe(const ProcedureContext& context, double duty_pct, double start_m, P
   talk.steps.push_back(
       move(fmt::format("rmpi si {} --duty {}% --on {}s --off 0.4s --pulses 2 --alternate",
                        core::name_of(context.axis), duty_pct, kProbeOn_s)));
-  const auto data = context.machine.play(talk);
+  const auto data = context.machine.play(talk, studied_configuration(context));
   if (!data.trouble.empty()) {
     plan.refusal = "the probing pulse: " + data.trouble;
     return 0;

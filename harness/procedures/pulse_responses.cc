@@ -20,7 +20,8 @@ using identify::Estimate;
 struct Settings {
   PulseWish wish;
   double start_share = 0.15;
-  double knot_spacing_m = 0.25;
+  double knot_spacing_m = 0.3;
+  int places = 5;
   double cutoff_Hz = 20;
 
   template <typename Visitor>
@@ -33,6 +34,7 @@ struct Settings {
     v.value("most_pulses", wish.most_pulses, core::between(2, 200), "in one direction");
     v.value("start_share", start_share, core::between(0.05, 0.6), "of the track, where it starts");
     v.value("knot_spacing_m", knot_spacing_m, core::between(0.01, 2), "of the friction's map");
+    v.value("places", places, core::between(1, 20), "along the axis at which pulses are given");
     v.value("cutoff_hz", cutoff_Hz, core::between(1, 200), "of the filter before least squares");
   }
 };
@@ -77,14 +79,28 @@ class PulseResponses final : public Procedure {
     talk.start_m = middle_of_tracks(context.machine);
     talk.start_m[context.axis] = start_m;
     talk.steps = declare_position(talk, context.machine);
-    for (const char direction : {'+', '-'}) {
-      talk.steps.push_back(move(fmt::format(
-          "rmpi si {} --duty {}% --on {}s --off {}s --pulses {} --alternate -d {} --rest 3s",
-          core::name_of(context.axis), plan.duty_pct, settings.wish.on_s, settings.wish.off_s,
-          plan.pulses, direction)));
+    // Sets of pulses along the axis, one way and the other so that they do not wander off.
+    const auto& belief = context.machine.configuration().axes[context.axis];
+    const auto track = track_of(belief);
+    const double span_m =
+        std::min(settings.wish.longest_m, track.max_m - start_m - 1.3 * plan.reach_m);
+    const double apart_m =
+        settings.places > 1 ? std::max(0.0, span_m) / (settings.places - 1) : 0.0;
+    for (int place = 0; place < settings.places; ++place) {
+      for (const char direction : {'+', '-'}) {
+        talk.steps.push_back(move(fmt::format(
+            "rmpi si {} --duty {}% --on {}s --off {}s --pulses {} --alternate -d {} --rest 2s",
+            core::name_of(context.axis), plan.duty_pct, settings.wish.on_s, settings.wish.off_s,
+            plan.pulses, direction)));
+      }
+      if (place + 1 < settings.places && apart_m > 1e-3) {
+        talk.steps.push_back(move(fmt::format("run -trapez {} --distance {:.4f}m --speed {:.3f}m/s",
+                                              core::name_of(context.axis), apart_m,
+                                              0.4 * belief.speed_limit_m_per_s)));
+      }
     }
     talk.limit_s = 300;
-    return context.machine.play(talk);
+    return context.machine.play(talk, studied_configuration(context));
   }
 
   static std::vector<double> knots_of(const identify::Recording& data, core::Axis axis,
@@ -128,6 +144,7 @@ class PulseResponses final : public Procedure {
         fit.viscous_deviation, "N m s/rad", true);
     add("chain_resonance_Hz", fit.axis.chain.resonance_Hz, fit.resonance_deviation_Hz, "Hz", false);
     add("chain_damping_ratio", fit.axis.chain.damping_ratio, fit.damping_deviation, "1", false);
+    add("friction_common_Nm", fit.axis.coulomb_friction_Nm, fit.common_deviation_Nm, "N m", true);
     add("friction_carriage_share", fit.axis.friction.carriage_share, fit.share_deviation, "1",
         false);
     add("stribeck_speed_rad_per_s", fit.axis.friction.stribeck_speed_rad_per_s,

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "harness/identify/plateau.h"
+#include "harness/procedures/believed_model.h"
 #include "harness/procedures/procedures.h"
 #include "harness/procedures/settings.h"
 
@@ -73,7 +74,7 @@ class SaturationSpeed final : public Procedure {
     talk.steps.push_back(move(text('+')));
     talk.steps.push_back(move(text('-')));
     talk.limit_s = 2 * time_s + 20;
-    const auto data = context.machine.play(talk);
+    const auto data = context.machine.play(talk, studied_configuration(context));
     if (!data.trouble.empty()) {
       return ProcedureOutcome::failed(data.trouble);
     }
