@@ -10,7 +10,11 @@ mapfile -t sources < <(git ls-files '*.cc' '*.h')
 mapfile -t scripts < <(git ls-files '*.sh' towbench .ci/run)
 
 echo "clang-format: ${#sources[@]} files"
-clang-format --dry-run -Werror "${sources[@]}" 2>&1 | grep -E 'error' | head -n 20 && status=1
+# Not as a pipe into grep: its status is that of the first that fails, and a finding would pass.
+if ! findings=$(clang-format --dry-run -Werror "${sources[@]}" 2>&1); then
+  grep -E 'error' <<<"$findings" | head -n 20
+  status=1
+fi
 
 echo "shellcheck: ${#scripts[@]} scripts"
 shellcheck -x "${scripts[@]}" || status=1

@@ -1,5 +1,5 @@
-// Any message to the panel and any request target: carried out or refused in a sentence, and no file
-// outside the runs' folder is ever named.
+// Any message to the panel and any request target: carried out or refused in a sentence, and no
+// file outside the runs' folder is ever named.
 #include <cstdint>
 #include <cstdlib>
 #include <string>
@@ -18,11 +18,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (text.find("start") == std::string::npos && steer(session, text).empty()) {
     std::abort();  // no run is under way: nothing can be carried out
   }
-  const auto answer = routes.answer({.method = "GET",
-                                     .target = "/runs/" + text,
-                                     .host = "host",
-                                     .origin = "",
-                                     .cookie = cookie});
+  const auto answer = routes.answer(
+      {.method = "GET", .target = "/runs/" + text, .host = "host", .origin = "", .cookie = cookie});
   if (answer.file && !answer.file->string().starts_with("/usr/share/doc/")) {
     std::abort();
   }
