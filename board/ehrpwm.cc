@@ -140,11 +140,11 @@ PwmShare Ehrpwm::output(Output which) const noexcept {
   const PwmChannel now = channel(which);
   const std::uint32_t cycle = cycle_ticks(now);
   const auto held = [cycle](bool high) { return PwmShare{high ? cycle : 0, cycle}; };
-  const unsigned trip = (half(kTzCtl) >> (2 * index)) & 3U;
+  const unsigned trip = (std::uint32_t{half(kTzCtl)} >> (2 * index)) & 3U;
   if ((half(kTzFlg) & (kOneShotTrip | kCycleTrip)) != 0 && trip != 3) {
     return held(trip == 1);  // high; low and high-impedance (pulled down) alike drive nothing
   }
-  const unsigned forced = (half(kAqCsfrc) >> (2 * index)) & 3U;
+  const unsigned forced = (std::uint32_t{half(kAqCsfrc)} >> (2 * index)) & 3U;
   if (forced == 1 || forced == 2) {
     return held(forced == 2);
   }

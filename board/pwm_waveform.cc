@@ -84,7 +84,7 @@ Cycle cycle_of(const PwmChannel& channel) {
 }
 
 bool apply(std::uint16_t actions, unsigned event, bool level) noexcept {
-  switch ((actions >> event) & 3U) {
+  switch ((std::uint32_t{actions} >> event) & 3U) {
     case 1:
       return false;
     case 2:

@@ -69,7 +69,7 @@ TEST(CommandLine, BashCompletesVerbsOptionsAndExperiments) {
            "; _towbench; echo \"<${COMPREPLY[*]}>\"";
   };
   EXPECT_THAT(bash(completes("rep", 1)).text, EndsWith("<replay report>\n"));
-  EXPECT_THAT(bash(completes("run circ", 2)).text, EndsWith("<circle>\n"));
+  EXPECT_THAT(bash(completes("run puls", 2)).text, EndsWith("<pulses>\n"));
   EXPECT_THAT(bash(completes("run --car", 2)).text, EndsWith("<--carrier>\n"));
   EXPECT_THAT(bash(completes("nonsense x", 2)).text, EndsWith("<>\n"));
 }
