@@ -147,12 +147,14 @@ void publish(Controller& self) noexcept {
 void serve_pace(Controller& self) noexcept {
   constexpr std::uint32_t kOverflow = 2;
   word(am335x::kPaceTimer + am335x::kTimerStatus) = kOverflow;
-  self.board.clock.tick();
-  self.system.service(self.board.clock.service_ns());
-  if ((word(am335x::kPaceTimer + am335x::kTimerStatus) & kOverflow) != 0) {
-    bbmc_debug_port.late_services = bbmc_debug_port.late_services + 1;
+  for (std::uint32_t begun = self.board.clock.begun(); begun > 0; --begun) {
+    self.board.clock.tick();
+    self.system.service(self.board.clock.service_ns());
+    self.services = self.services + 1;
+    if (begun > 1) {
+      bbmc_debug_port.late_services = bbmc_debug_port.late_services + 1;
+    }
   }
-  self.services = self.services + 1;
 }
 
 [[noreturn]] void serve_console(Controller& self) noexcept {

@@ -69,21 +69,34 @@ void PaceClock::start() noexcept {
   if (first) {
     started_ = true;
     service_ns_ = -exchange_ns_;
+    word(am335x::kFreeTimer + am335x::kTimerReload) = 0;
+    word(am335x::kFreeTimer + am335x::kTimerControl) = 3;  // start, auto-reload
   }
   running_exchange_ns_ = exchange_ns_;
-  const auto ticks = static_cast<std::uint32_t>(exchange_ns_ * kTimerTicks / kTimerSpan_ns);
+  ticks_ = static_cast<std::uint32_t>(exchange_ns_ * kTimerTicks / kTimerSpan_ns);
   word(am335x::kPaceTimer + am335x::kTimerControl) = 0;
-  word(am335x::kPaceTimer + am335x::kTimerReload) = 0U - ticks;
+  word(am335x::kPaceTimer + am335x::kTimerReload) = 0U - ticks_;
   // The first exchange begins at once, the second one period later.
   constexpr std::uint32_t kAtOnce_ticks = 10;
-  word(am335x::kPaceTimer + am335x::kTimerCounter) = 0U - (first ? kAtOnce_ticks : ticks);
+  const std::uint32_t wait_ticks = first ? kAtOnce_ticks : ticks_;
+  word(am335x::kPaceTimer + am335x::kTimerCounter) = 0U - wait_ticks;
   word(am335x::kPaceTimer + am335x::kTimerEnableSet) = 2;
-  word(am335x::kPaceTimer + am335x::kTimerControl) = 3;  // start, auto-reload
+  // Read before the pace timer runs: an overflow is never seen before its exchange has begun here.
+  service_tick_ = word(am335x::kFreeTimer + am335x::kTimerCounter) + wait_ticks - ticks_;
+  word(am335x::kPaceTimer + am335x::kTimerControl) = 3;
+}
+
+std::uint32_t PaceClock::begun() const noexcept {
+  return (word(am335x::kFreeTimer + am335x::kTimerCounter) - service_tick_) / ticks_;
+}
+
+void PaceClock::tick() noexcept {
+  service_ns_ += running_exchange_ns_;
+  service_tick_ += ticks_;
 }
 
 core::Nanoseconds PaceClock::now_ns() const noexcept {
-  const std::uint32_t reload = word(am335x::kPaceTimer + am335x::kTimerReload);
-  const std::uint32_t since = word(am335x::kPaceTimer + am335x::kTimerCounter) - reload;
+  const std::uint32_t since = word(am335x::kFreeTimer + am335x::kTimerCounter) - service_tick_;
   return service_ns_ + static_cast<core::Nanoseconds>(since) * kTimerSpan_ns / kTimerTicks;
 }
 

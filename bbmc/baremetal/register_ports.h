@@ -14,14 +14,18 @@
 
 namespace towbench::bbmc {
 
-// The pace timer.
+// The pace timer calls; a free-running timer tells how often it should have been heard. The console
+// holds the call back while it serves a request: an exchange that passed meanwhile is served late,
+// not left out, as on a host by the wall clock.
 class PaceClock {
  public:
   // Takes effect with the next start.
   void set_exchange(core::Nanoseconds exchange_ns) noexcept { exchange_ns_ = exchange_ns; }
   void start() noexcept;
-  // In the timer's interrupt: one more exchange has begun.
-  void tick() noexcept { service_ns_ += running_exchange_ns_; }
+  // In the timer's interrupt: how many exchanges have begun and were not ticked.
+  [[nodiscard]] std::uint32_t begun() const noexcept;
+  // One of them is served now.
+  void tick() noexcept;
   [[nodiscard]] core::Nanoseconds service_ns() const noexcept { return service_ns_; }
   [[nodiscard]] core::Nanoseconds now_ns() const noexcept;
 
@@ -29,6 +33,8 @@ class PaceClock {
   core::Nanoseconds exchange_ns_ = core::kNanosecondsPerMillisecond;
   core::Nanoseconds running_exchange_ns_ = core::kNanosecondsPerMillisecond;
   core::Nanoseconds service_ns_ = 0;
+  std::uint32_t ticks_ = 24'000;    // of one exchange
+  std::uint32_t service_tick_ = 0;  // of the free timer, at service_ns_; it wraps
   bool started_ = false;
 };
 
