@@ -107,7 +107,8 @@ TEST(Board, ALoopThatChangesMemoryOnlyIsNotTakenForIdle) {
               });
   board.run_until(kTick_ns);
   const auto bytes = board.memory(kSmallImageAddress + 0x1C, 4);
-  const std::uint32_t count = bytes[0] | bytes[1] << 8U | bytes[2] << 16U;
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(bytes[i]); };
+  const std::uint32_t count = byte(0) | byte(1) << 8U | byte(2) << 16U;
   EXPECT_NEAR(count, kTick_ns / (5.0 * kInstruction_ns), 100);
 }
 
