@@ -5,6 +5,7 @@
 #include <string>
 #include <thread>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "harness/bench/in_process_plant.h"

@@ -4,6 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 #include "harness/commands/command.h"
 #include "harness/commands/exit_codes.h"
 #include "harness/commands/experiment_options.h"

@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include <CLI/CLI.hpp>
+
 #include "harness/bench/firmware_run.h"
 #include "harness/commands/progress_line.h"
 #include "harness/commands/stop_signal.h"

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 #include "harness/commands/command.h"
 #include "harness/commands/fixture_paths.h"
 #include "harness/experiment/experiment_fixture.h"
