@@ -126,7 +126,8 @@ std::unique_ptr<EmulatorProcess> EmulatorProcess::on_wire(const std::filesystem:
   process->quiet_ = quiet;
   process->again_ = without_record(arguments);
   constexpr std::string_view kCan = "can:";
-  process->bus_ = address.starts_with(kCan) ? address.substr(kCan.size()) : "";
+  process->bus_ =
+      address.starts_with(kCan) ? address.substr(kCan.size(), address.find('@') - kCan.size()) : "";
   process->child_ = spawn(program, std::move(arguments), -1, quiet);
   return process;
 }
@@ -162,6 +163,7 @@ core::ErrorCode EmulatorProcess::restart_peer() noexcept {
 
 core::ErrorCode EmulatorProcess::leave_bus() noexcept {
   struck_ = true;
+  ends_by_itself_ = true;  // its own driver tells it
   return send_bus_off(bus_) ? core::ErrorCode::kNone : core::ErrorCode::kTransportFailed;
 }
 
@@ -170,7 +172,7 @@ std::string EmulatorProcess::join() {
     return {};
   }
   stream_.reset();
-  if (struck_) {  // it waits for somebody who will not come
+  if (struck_ && !ends_by_itself_) {  // it waits for somebody who will not come
     end_child();
     return {};
   }
@@ -185,7 +187,7 @@ std::string EmulatorProcess::join() {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   child_ = -1;
-  return sentence_about(status);
+  return struck_ ? std::string{} : sentence_about(status);
 }
 
 }  // namespace towbench::harness

@@ -61,6 +61,7 @@ class EmulatorProcess final : public PeerControl {
   bool quiet_ = false;
   pid_t child_ = -1;
   bool struck_ = false;
+  bool ends_by_itself_ = false;
 };
 
 }  // namespace towbench::harness

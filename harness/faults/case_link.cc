@@ -55,6 +55,7 @@ void CaseLink::strike(core::Nanoseconds time_ns) noexcept {
         break;
       case FaultKind::kBusOff:
         lost_ = peer_.leave_bus();
+        is_off_bus_ = true;
         break;
       default:
         break;  // strikes by itself: no turn is understood any more
@@ -88,7 +89,7 @@ void CaseLink::ToPlant::handle(const protocol::PwmDuty& duty) noexcept {
     duty_sequence = duty.sequence;
     period_ticks = duty.period_ticks;
   }
-  if (!link.is_lost()) {
+  if (link.sends()) {
     disturber.pass(duty, link.now_ns_);
   }
 }
@@ -98,7 +99,7 @@ void CaseLink::ToPlant::handle(const protocol::DigitalOutputs& outputs) noexcept
     return;
   }
   outputs_sequence = outputs.sequence;
-  if (!link.is_lost()) {
+  if (link.sends()) {
     disturber.pass(outputs, link.now_ns_);
   }
 }
@@ -129,7 +130,7 @@ void CaseLink::ToPlant::handle(const protocol::Advance& advance) noexcept {
     link.watcher_->runs_to(advance.until_ns);
   }
   link.strike(advance.until_ns);
-  if (!link.is_lost() && !disturber.pass_turn(advance, link.now_ns_)) {
+  if (link.sends() && !disturber.pass_turn(advance, link.now_ns_)) {
     link.lost_ = core::ErrorCode::kPeerSilent;
   }
   link.now_ns_ = advance.until_ns;

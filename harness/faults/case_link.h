@@ -98,6 +98,8 @@ class CaseLink final : public PlantEnd {
   // What befalls the peer or the bus by then.
   void strike(core::Nanoseconds time_ns) noexcept;
   [[nodiscard]] bool is_lost() const noexcept { return lost_ != core::ErrorCode::kNone; }
+  // A node that is off its bus puts nothing on it, and hears of that from its driver.
+  [[nodiscard]] bool sends() const noexcept { return !is_lost() && !is_off_bus_; }
 
   PlantEnd& plant_;
   PeerControl& peer_;
@@ -105,6 +107,7 @@ class CaseLink final : public PlantEnd {
   TimeWatcher* watcher_ = nullptr;
   std::vector<LinkFault> blows_;  // not struck yet
   core::ErrorCode lost_ = core::ErrorCode::kNone;
+  bool is_off_bus_ = false;
   ToPlant to_plant_;
   ToController to_controller_;
   Witness witness_{*this};
