@@ -17,6 +17,7 @@ AxisControl::AxisControl(const AxisConfiguration& axis, const SafetyConfiguratio
       brake_(axis),
       end_stops_(axis),
       plausibility_(axis),
+      reckoning_(axis),
       speed_limits_(axis, safety.latency_s) {
   set_drive(axis.drive);
 }
@@ -33,6 +34,8 @@ void AxisControl::set_drive(const DriveConfiguration& drive) noexcept {
 core::ErrorCode AxisControl::judge_encoder() noexcept {
   // What the drive was told until now is what has moved the axis since the exchange before.
   observer_.change().torque_Nm = torque_Nm();
+  reckoning_.update(observer_.change().time_ns, observer_.speed_count_per_s(), torque_Nm(),
+                    observer_.change().elapsed_s);
   const auto scope = is_driven(mode_)              ? EncoderPlausibility::Scope::kEverything
                      : mode_ == AxisMode::kBraking ? EncoderPlausibility::Scope::kSignals
                                                    : EncoderPlausibility::Scope::kNothing;
@@ -112,6 +115,16 @@ void AxisControl::begin(AxisMode mode, core::Nanoseconds now_ns) noexcept {
 void AxisControl::begin_braking(core::Nanoseconds now_ns) noexcept {
   mode_ = AxisMode::kBraking;
   brake_.begin(now_ns, observer_.speed_count_per_s(), safety_.coasting_stop);
+}
+
+bool AxisControl::begin_blind_braking(core::Nanoseconds now_ns) noexcept {
+  const double speed_count_per_s = reckoning_.speed_count_per_s();
+  if (speed_count_per_s == 0 || safety_.coasting_stop) {
+    return false;
+  }
+  mode_ = AxisMode::kBraking;
+  brake_.begin_blind(now_ns, speed_count_per_s);
+  return true;
 }
 
 void AxisControl::power_off(AxisMode mode) noexcept {

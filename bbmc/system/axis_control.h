@@ -9,6 +9,7 @@
 #include "bbmc/system/configuration.h"
 #include "bbmc/system/control_law.h"
 #include "bbmc/system/control_sample.h"
+#include "bbmc/system/dead_reckoning.h"
 #include "bbmc/system/encoder_plausibility.h"
 #include "bbmc/system/end_stop_guard.h"
 #include "bbmc/system/stopping_distance.h"
@@ -56,6 +57,9 @@ class AxisControl {
   // Of the motion that begins (control_law.h).
   void allow_moving_reference(bool allowed) noexcept { law_.allow_moving(allowed); }
   void begin_braking(core::Nanoseconds now_ns) noexcept;
+  // Without the encoder. False when the speed is not known well enough, or braking is switched off:
+  // nothing has changed then.
+  [[nodiscard]] bool begin_blind_braking(core::Nanoseconds now_ns) noexcept;
   // No power from now on.
   void power_off(AxisMode mode) noexcept;
 
@@ -65,6 +69,9 @@ class AxisControl {
   [[nodiscard]] EndStopGuard& end_stops() noexcept { return end_stops_; }
   [[nodiscard]] const EndStopGuard& end_stops() const noexcept { return end_stops_; }
   [[nodiscard]] const SpeedLimits& speed_limits() const noexcept { return speed_limits_; }
+  [[nodiscard]] bool brakes_blind() const noexcept {
+    return mode_ == AxisMode::kBraking && brake_.blind();
+  }
   [[nodiscard]] bool stands_still() const noexcept;
   [[nodiscard]] double position_m() const noexcept {
     return settings_.position_m(observer_.count());
@@ -121,6 +128,7 @@ class AxisControl {
   Brake brake_;
   EndStopGuard end_stops_;
   EncoderPlausibility plausibility_;
+  DeadReckoning reckoning_;
   SpeedLimits speed_limits_;
   Reference reference_;
   AxisMode mode_ = AxisMode::kIdle;

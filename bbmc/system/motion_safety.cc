@@ -1,7 +1,11 @@
 // The safety subsystem: what stops the machine, how, and what stays latched afterwards.
 //
 //   kill switch, link lost            no power, both axes, at once
-//   encoder, amplifier of one axis    no power there (nothing to brake with), the other brakes
+//   link corrupt                      both axes brake blind, while messages come
+//   amplifier of one axis             no power there (nothing to brake with), the other brakes
+//   encoder of one axis               brakes blind if its speed is still known, else no power
+//   there;
+//                                     the other brakes
 //   index of an encoder lost          both axes brake: the speed can still be believed
 //   end-stop, limit, tracking         both axes brake
 #include <cmath>
@@ -95,14 +99,17 @@ void MotionControl::watch_axis(Axis which, const ControlSample& sample) noexcept
   }
   if (encoder == ErrorCode::kFaultEncoderIndex) {
     brake_all(encoder, which);  // the place is in doubt, the speed is not
-  } else if (encoder != ErrorCode::kNone) {
-    cut_one(encoder, which);
+  } else if (encoder != ErrorCode::kNone && !axis.brakes_blind()) {
+    give_up_encoder(encoder, which);
     return;
   }
   const bool ready = (sample.lines & mask_of(amplifier_ready_of(which))) != 0;
   if (axis.amplifier_failed(sample.time_ns, ready)) {
     cut_one(ErrorCode::kFaultAmplifierNotReady, which);
     return;
+  }
+  if (axis.brakes_blind()) {
+    return;  // it already does all it can
   }
   End end = End::kMin;
   if (axis.end_stops().moves_into(axis.observer().raw_count(), axis.observer().speed_count_per_s(),
@@ -165,6 +172,15 @@ void MotionControl::cut_one(ErrorCode code, Axis which) noexcept {
   brake_all(code, which);
 }
 
+void MotionControl::give_up_encoder(ErrorCode code, Axis which) noexcept {
+  if (axes_[which].begin_blind_braking(now_ns_)) {
+    set_mode_event(which);
+    brake_all(code, which);
+  } else {
+    cut_one(code, which);
+  }
+}
+
 void MotionControl::cut_all(ErrorCode code, Axis which) noexcept {
   latch(code, which);
   for (Axis each : core::kAxes) {
@@ -210,7 +226,18 @@ void MotionControl::clear_fault() noexcept {
 void MotionControl::link_lost(ErrorCode why, core::Nanoseconds now_ns) noexcept {
   now_ns_ = now_ns;
   post(Kind::kPeerLost, Axis::kY, why);
-  cut_all(why, Axis::kY);
+  if (why == ErrorCode::kFaultLinkCorrupt) {
+    // What came out of step says nothing sure of the encoders, but commands may still arrive.
+    latch(why, Axis::kY);
+    for (Axis which : core::kAxes) {
+      const AxisControl& axis = axes_[which];
+      if (is_driven(axis.mode()) || (axis.mode() == AxisMode::kBraking && !axis.brakes_blind())) {
+        give_up_encoder(why, which);
+      }
+    }
+  } else {
+    cut_all(why, Axis::kY);
+  }
   finish_motion_when_at_rest();
   publish();
 }

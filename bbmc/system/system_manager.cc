@@ -54,8 +54,10 @@ void SystemManager::serve_interrupts() noexcept {
 }
 
 void SystemManager::link_lost(ErrorCode why) noexcept {
-  io_.remove_drive();
   motion_.link_lost(why, motion_.status().time_ns);
+  if (!motion_.braking()) {
+    io_.remove_drive();
+  }
 }
 
 // ---- what is known ----

@@ -1,5 +1,6 @@
 // One case of a campaign as one line of JSON: the same on every machine and in every order.
 #include <algorithm>
+#include <exception>
 #include <optional>
 
 #include <nlohmann/json.hpp>
@@ -107,7 +108,7 @@ std::string run_campaign_case(const Campaign& campaign, const CampaignCase& one)
       }
     }
     line["rules"] = std::move(rules);
-  } catch (const FixtureError& error) {
+  } catch (const std::exception& error) {  // a fixture, or a record that cannot be read
     line["verdict"] = name_of(Verdict::kInvalid);
     line["fired"] = line["detected"] = line["handled"] = false;
     line["broken"].push_back({{"rule", "fault_fired"}, {"reason", error.what()}});

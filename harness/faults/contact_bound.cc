@@ -70,14 +70,14 @@ Nanoseconds could_know_ns(const CaseEvidence& evidence, const Contact& contact) 
   return encoder_lies ? std::min(known_ns, evidence.cause_ns + kDetection_ns) : known_ns;
 }
 
-// When the drive is taken away, braking included: a kill demands it; without a believable encoder
-// or a link it is the controller's policy (docs/safety.md says why).
+// When the drive is taken away, braking included: a kill demands it, and over a link that is lost
+// no command arrives. What a controller gives up on its own account is no excuse.
 struct DriveTaken {
   Nanoseconds from_ns = kNever;
   const char* why = "";
 };
 
-DriveTaken drive_taken(const CaseEvidence& evidence, const Contact& contact) {
+DriveTaken drive_taken(const CaseEvidence& evidence) {
   constexpr auto kKill = protocol::mask_of(protocol::InputLine::kKillSwitch);
   const auto& run = evidence.run;
   DriveTaken taken;
@@ -88,22 +88,10 @@ DriveTaken drive_taken(const CaseEvidence& evidence, const Contact& contact) {
       break;
     }
   }
-  // What the controller has given up, though it brakes for less: the plan must hold the reason.
-  const bool blind = std::any_of(
-      evidence.prepared.plan.begin(), evidence.prepared.plan.end(), [&](const Fault& fault) {
-        return fault.place.part == FaultPart::kEncoder && fault.place.axis == contact.axis &&
-               fault.kind != FaultKind::kIndexMissing;
-      });
   for (const auto& event : run.controller_events) {
-    if (event.kind != bbmc::ControllerEvent::Kind::kDutyZeroed || event.time_ns >= taken.from_ns) {
-      continue;
-    }
-    const auto code = core::number_of(event.code);
-    const auto between = [&](int low, int high) { return code >= low && code <= high; };
-    if (blind && event.axis == contact.axis && between(310, 315)) {
-      taken = {event.time_ns, "by policy: an axis without a believable encoder is not driven"};
-    } else if (has(evidence, FaultPart::kLink) && between(320, 321)) {
-      taken = {event.time_ns, "by policy: a machine whose link fails is not driven"};
+    if (event.kind == bbmc::ControllerEvent::Kind::kDutyZeroed && event.time_ns < taken.from_ns &&
+        event.code == core::ErrorCode::kFaultLinkLost && has(evidence, FaultPart::kLink)) {
+      taken = {event.time_ns, "unavoidable: over a lost link no command arrives"};
     }
   }
   return taken;
@@ -160,7 +148,7 @@ Check no_preventable_contact(const CaseEvidence& evidence) {
     unavoidable.reason = "unavoidable: nothing told a running controller in time";
     return unavoidable;
   }
-  const auto taken = drive_taken(evidence, contact);
+  const auto taken = drive_taken(evidence);
   if (touches_even_so(evidence, contact, known_ns + kReaction_ns, taken.from_ns)) {
     unavoidable.reason = taken.from_ns < contact.time_ns
                              ? fmt::format("{}; full reverse until then touches too", taken.why)
