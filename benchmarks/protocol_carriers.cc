@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "protocol/carriers/connection.h"
+#include "protocol/carriers/load.h"
 #include "protocol/carriers/local_socket.h"
 #include "protocol/carriers/lockstep_link.h"
 #include "protocol/carriers/serial_port.h"
@@ -182,6 +183,21 @@ int measure(End& end, const Blocks& blocks, const char* name) {
   return 0;
 }
 
+// What the wire must bear at worst, by the reckoning that refuses a run by the wall clock.
+void tell_worst_case(const CarrierAddress& address) {
+  const bool is_bus = address.scheme == Scheme::kCan;
+  constexpr std::uint32_t kFastestClassicCan = 1'000'000;
+  const auto named = named_bus(address.place);
+  const auto rate = named && named->bit_per_s > 0 ? named->bit_per_s : kFastestClassicCan;
+  const Load load = is_bus ? can_load({}, rate) : serial_load({.lockstep = true}, address.baud);
+  std::printf(
+      "worst case at 1 kHz, digest: %.0f kbit/s to the plant, %.0f to the controller, %.0f %% of "
+      "%.0f "
+      "bit/s\n",
+      load.to_plant_bit_per_s * 1e-3, load.to_controller_bit_per_s * 1e-3, 100 * load.fraction(),
+      load.capacity_bit_per_s);
+}
+
 int run(int argc, char** argv) {
   const std::string name = argc > 1 ? argv[1] : "local";
   Blocks blocks;
@@ -208,6 +224,7 @@ int run(int argc, char** argv) {
     }
     near = make_end(ends->controller, CanDirection::kToPlant);
     far = make_end(ends->plant, CanDirection::kToController);
+    tell_worst_case(ends->controller);
   }
   const pid_t child = ::fork();
   if (child == 0) {

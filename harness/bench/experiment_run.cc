@@ -21,6 +21,7 @@
 #include "harness/bench/pty_line.h"
 #include "harness/bench/real_lines.h"
 #include "harness/bench/run_carrier.h"
+#include "harness/bench/witnessed_plant.h"
 #include "harness/faults/case_link.h"
 #include "harness/faults/faulted_experiment.h"
 #include "harness/faults/record_faults.h"
@@ -28,14 +29,18 @@
 #include "harness/fixtures/fixture_error.h"
 #include "harness/realtime/realtime_plant.h"
 #include "harness/realtime/run_timing.h"
+#include "harness/realtime/wall_clock_carrier.h"
 #include "harness/record/can_log.h"
 #include "harness/record/controller_recorder.h"
 #include "harness/record/event_lines.h"
+#include "harness/record/message_record.h"
 #include "harness/record/plant_recorder.h"
 #include "harness/record/result_files.h"
 #include "harness/record/run_folder.h"
 #include "protocol/carriers/connection.h"
 #include "protocol/carriers/line_address.h"
+#include "protocol/carriers/paced_can.h"
+#include "protocol/tee_sink.h"
 
 namespace towbench::harness {
 namespace {
@@ -52,7 +57,7 @@ class Run {
     wire_ = options.wire;
     identity_.carrier = name_of_carrier(options);
     identity_.clock = options.clock == RunClock::kReal ? "real" : "lockstep";
-    identity_.fidelity = is_bus(options) ? "digest" : "edges";
+    identity_.fidelity = takes_edges(options) ? "edges" : "digest";
     identity_.seed = seed_of(fixture, options);
     identity_.started_utc = utc_now();
     constexpr std::size_t kShortHash = 8;
@@ -134,9 +139,10 @@ class Run {
     }
     return options.wire->controller.text() + lines;
   }
-  static bool is_bus(const RunOptions& options) {
-    return options.carrier == Carrier::kWire &&
-           options.wire->controller.scheme == protocol::Scheme::kCan;
+  static bool takes_edges(const RunOptions& options) {
+    const auto kind = kind_of(options);
+    return kind != CarrierKind::kCan &&
+           (kind != CarrierKind::kSerial || options.clock == RunClock::kLockstep);
   }
   static std::unique_ptr<FaultedExperiment> faults_of(const ExperimentFixture& fixture,
                                                       const RunOptions& options) {
@@ -239,12 +245,14 @@ class Run {
     }
     std::unique_ptr<CanLog> log;
     if (auto* can = (*connection)->can_link(); can != nullptr) {
-      log = std::make_unique<CanLog>(folder_ / "candump.log", wire_->controller.place);
+      log = std::make_unique<CanLog>(folder_ / "candump.log",
+                                     protocol::named_bus(wire_->controller.place)->interface);
       can->log_to(*log);
     }
     auto outcome = options_.clock == RunClock::kReal
-                       ? play_in_real_time(child, (*connection)->link())
+                       ? play_in_real_time(child, **connection, log.get())
                        : play_in_lockstep(child, (*connection)->link());
+    write_wire_use((*connection)->wire_use());
     if (log != nullptr) {
       log->flush();
       outcome.writes_succeeded = outcome.writes_succeeded && log->good();
@@ -252,10 +260,23 @@ class Run {
     return outcome;
   }
 
+  // What this run has put on its wire, for whoever compares carriers.
+  void write_wire_use(const protocol::WireUse& use) const {
+    const nlohmann::json bits{{"bits_to_plant", use.bits_sent},
+                              {"bits_to_controller", use.bits_received}};
+    write_atomically(folder_ / "wire.json", bits.dump(1) + "\n");
+  }
+
   RunOutcome play_in_lockstep(PeerControl& peer, protocol::TurnLink& link) {
     LinkedPlant plant(link);
+    return with_lines(plant, [&](PlantEnd& whole) { return play_against(whole, peer); });
+  }
+
+  // `play` with the plant, or with the plant and the real lines of the run.
+  template <typename Play>
+  RunOutcome with_lines(PlantEnd& plant, Play play) {
     if (options_.lines.controller.empty()) {
-      return play_against(plant, peer);
+      return play(plant);
     }
     const auto port =
         protocol::open_lines(options_.lines.controller, protocol::LineSide::kController);
@@ -265,13 +286,24 @@ class Run {
       return outcome;
     }
     RealLinesAtController with_lines(plant, **port);
-    return play_against(with_lines, peer);
+    return play(with_lines);
   }
 
-  RunOutcome play_in_real_time(PeerControl& peer, protocol::TurnLink& link) {
+  // `log` may be null.
+  RunOutcome play_in_real_time(PeerControl& peer, protocol::Connection& connection, CanLog* log) {
+    MessageRecord heard(folder_ / kControllerInputsFile);
+    CanLogClock log_clock(log);
+    protocol::TeeSink witness(log_clock, heard.sink());
+    go_by_the_wall_clock(connection);
     timing_.emplace(folder_, fixture_.controller.configuration);
-    RealtimePlantEnd plant(link, timing_->loop());
-    return play_against(plant, peer);
+    RealtimePlantEnd timed(connection.link(), timing_->loop(), takes_edges(options_));
+    auto outcome = with_lines(timed, [&](PlantEnd& whole) {
+      WitnessedPlant plant(whole, witness);
+      return play_against(plant, peer);
+    });
+    heard.flush();
+    outcome.writes_succeeded = outcome.writes_succeeded && heard.good();
+    return outcome;
   }
 
   RunOutcome play_firmware(PlantEnd& plant) {

@@ -17,7 +17,7 @@ void choose_carrier(const std::string& text, RunOptions& options) {
   } else {
     throw FixtureError({"command line", 0, "--carrier"}, '"' + text + '"',
                        "in-process, local, serial-pty, serial:DEVICE,DEVICE[@BAUD] or "
-                       "can:INTERFACE[,INTERFACE]");
+                       "can:INTERFACE[,INTERFACE][@BIT/S]");
   }
 }
 

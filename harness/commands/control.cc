@@ -21,6 +21,10 @@
 #include "harness/fixtures/controller_fixture.h"
 #include "harness/fixtures/rig_fixture.h"
 #include "harness/judge/check.h"
+#include "harness/realtime/realtime_plant.h"
+#include "harness/realtime/realtime_rights.h"
+#include "harness/realtime/tick_summary.h"
+#include "harness/realtime/wall_clock_carrier.h"
 #include "harness/record/controller_recorder.h"
 #include "harness/record/plant_recorder.h"
 #include "protocol/carriers/connection.h"
@@ -37,6 +41,9 @@ struct Options {
   std::string devices;
   std::string out;
   bool fast = false;
+  std::string clock = "lockstep";
+
+  [[nodiscard]] bool by_wall_clock() const { return clock == "real"; }
 };
 
 class Session {
@@ -107,6 +114,44 @@ std::unique_ptr<protocol::LinePort> open_the_lines(const std::string& address) {
   return std::move(*lines);
 }
 
+// The controller's loop by the wall clock, with its figures at the end.
+class WallClock {
+ public:
+  WallClock(protocol::Connection& connection, const std::string& carrier,
+            core::Nanoseconds exchange_ns)
+      : rights_(take_realtime_rights(kPriority, 1)),
+        loop_(std::make_unique<TickLoop>(
+            clock_, TickPolicy{.period_ns = exchange_ns, .max_behind = kMaxBehind})) {
+    for (const auto& warning : rights_.warnings) {
+      std::fprintf(stderr, "controller: %s\n", warning.c_str());
+    }
+    const auto address = carrier_address("--carrier", carrier);
+    if (const auto bears = bears_the_wall_clock(address, exchange_ns); !bears) {
+      throw FixtureError({"command line", 0, "--clock real"}, bears.error().message,
+                         "a carrier that bears the worst case");
+    }
+    go_by_the_wall_clock(connection);
+    plant_ = std::make_unique<RealtimePlantEnd>(connection.link(), *loop_,
+                                                bears_every_tick(address.scheme));
+  }
+  [[nodiscard]] PlantEnd& plant() noexcept { return *plant_; }
+  void tell() {
+    loop_->end_tick();
+    std::fputs(
+        text_of(summarise("controller", rights_.text(), loop_->policy(), loop_->record())).c_str(),
+        stderr);
+  }
+
+ private:
+  static constexpr int kPriority = 70;
+  static constexpr std::uint32_t kMaxBehind = 2;
+
+  HostTickClock clock_;
+  RealtimeRights rights_;
+  std::unique_ptr<TickLoop> loop_;
+  std::unique_ptr<RealtimePlantEnd> plant_;
+};
+
 int execute(const Options& options) {
   SourceFiles sources;
   const auto controller = load_controller(options.controller, sources);
@@ -122,27 +167,43 @@ int execute(const Options& options) {
   }
   std::unique_ptr<protocol::Connection> connection;
   std::unique_ptr<protocol::LinePort> lines;
-  std::unique_ptr<PlantEnd> wired;
-  std::unique_ptr<PlantEnd> plant;
+  std::unique_ptr<WallClock> wall_clock;
+  std::unique_ptr<PlantEnd> linked;
+  std::unique_ptr<PlantEnd> own;
+  PlantEnd* plant = nullptr;
   if (!options.carrier.empty()) {
     connection = connect_to(options.carrier);
-    plant = std::make_unique<LinkedPlant>(connection->link());
+    if (options.by_wall_clock()) {
+      wall_clock = std::make_unique<WallClock>(
+          *connection, options.carrier,
+          bbmc::exchange_period_ns(controller.configuration.control_period_ns()));
+      plant = &wall_clock->plant();
+    } else {
+      linked = std::make_unique<LinkedPlant>(connection->link());
+      plant = linked.get();
+    }
     if (!options.lines.empty()) {
       lines = open_the_lines(options.lines);
-      wired = std::move(plant);
-      plant = std::make_unique<RealLinesAtController>(*wired, *lines);
+      own = std::make_unique<RealLinesAtController>(*plant, *lines);
+      plant = own.get();
     }
   } else {
     const auto rig = load_rig(options.rig, sources);
     plant_recorder = options.out.empty() ? nullptr : std::make_unique<PlantRecorder>(options.out);
     emulator::PlantObserver& observer =
         plant_recorder ? static_cast<emulator::PlantObserver&>(*plant_recorder) : unrecorded;
-    plant = std::make_unique<InProcessPlant>(rig.parameters, 1,
-                                             std::span<const emulator::ScheduledEvent>{}, observer);
+    own = std::make_unique<InProcessPlant>(rig.parameters, 1,
+                                           std::span<const emulator::ScheduledEvent>{}, observer);
+    plant = own.get();
   }
   // The rig's hash is not known to somebody who only has the controller: 0 accepts any.
   LockstepBench bench(controller.configuration, 0, *plant, recorder.get());
-  return Session(bench, recorder.get(), !options.fast).run();
+  const bool paced = !options.fast && wall_clock == nullptr;
+  const int code = Session(bench, recorder.get(), paced).run();
+  if (wall_clock != nullptr) {
+    wall_clock->tell();
+  }
+  return code;
 }
 
 }  // namespace
@@ -159,13 +220,20 @@ void add_control(CLI::App& app, int& exit_code) {
   auto* lines =
       verb->add_option("--lines", options->lines, "digital lines on a GPIO chip: CHIP[+FIRST]")
           ->excludes(rig);
+  auto* clock = verb->add_option("--clock", options->clock,
+                                 "as the emulator's: lockstep, or real: by this host's clock, with "
+                                 "real-time rights")
+                    ->check(CLI::IsMember({"lockstep", "real"}))
+                    ->capture_default_str()
+                    ->excludes(rig);
   auto* devices = verb->add_option("--devices", options->devices,
                                    "instead: a real machine on this board's devices: linux:FILE "
                                    "(docs/beaglebone.md)");
-  devices->excludes(connect)->excludes(rig)->excludes(lines);
+  devices->excludes(connect)->excludes(rig)->excludes(lines)->excludes(clock);
   verb->add_option("--out", options->out, "folder for log.csv and the other records");
   verb->add_flag("--fast", options->fast, "as fast as it goes, not at the wall clock's pace")
-      ->excludes(devices);
+      ->excludes(devices)
+      ->excludes(clock);
   verb->footer(
       "Example: towbench control --controller fixtures/controllers/bbmc-tuned.toml "
       "--rig fixtures/rigs/macs-nominal.toml\n"

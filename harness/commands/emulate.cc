@@ -19,6 +19,8 @@
 #include "harness/judge/check.h"
 #include "harness/realtime/realtime_plant.h"
 #include "harness/realtime/run_timing.h"
+#include "harness/realtime/wall_clock_carrier.h"
+#include "harness/record/message_record.h"
 #include "harness/record/plant_recorder.h"
 #include "protocol/carriers/connection.h"
 #include "protocol/carriers/line_address.h"
@@ -45,10 +47,9 @@ struct Machine {
   std::uint64_t seed = 1;
 };
 
-CarrierKind kind_of(const Options& options) {
-  return options.stream_descriptor >= 0
-             ? CarrierKind::kLocal
-             : harness::kind_of(carrier_address("--carrier", options.carrier).scheme);
+protocol::Scheme scheme_of(const Options& options) {
+  return options.stream_descriptor >= 0 ? protocol::Scheme::kLocal
+                                        : carrier_address("--carrier", options.carrier).scheme;
 }
 
 Machine machine_of(const Options& options) {
@@ -63,7 +64,7 @@ Machine machine_of(const Options& options) {
     machine.seed = fixture.experiment.seed;
     if (!fixture.experiment.faults.empty()) {
       const FaultedExperiment faulted(fixture, options.seed.value_or(machine.seed),
-                                      kind_of(options));
+                                      harness::kind_of(scheme_of(options)));
       machine.rig = faulted.fixture().rig.parameters;
       machine.events = faulted.fixture().experiment.events;
     }
@@ -120,6 +121,27 @@ Caller wait_for_controller(const Options& options) {
   return caller;
 }
 
+core::Status serve_by_the_wall_clock(const Options& options, const Caller& caller,
+                                     emulator::PlantNode& plant, protocol::LinePort* lines,
+                                     bool& heard_is_written) {
+  std::optional<MessageRecord> heard;
+  if (!options.out.empty()) {
+    heard.emplace(std::filesystem::path(options.out) / kPlantInputsFile);
+  }
+  go_by_the_wall_clock(*caller.connection);
+  EmulatorTiming timing(options.out);
+  const auto ended =
+      timing.serve(plant, caller.connection->link(), caller.hello,
+                   {.lines = lines,
+                    .report_ns = report_period_ns(scheme_of(options), caller.hello.exchange_ns),
+                    .witness = heard ? &heard->sink() : nullptr});
+  if (heard) {
+    heard->flush();
+    heard_is_written = heard->good();
+  }
+  return ended;
+}
+
 int execute(const Options& options) {
   const auto machine = machine_of(options);
   UnrecordedPlant unrecorded;
@@ -138,16 +160,13 @@ int execute(const Options& options) {
     return kExitRuntime;
   }
   const bool real = options.clock == "real";
-  std::optional<EmulatorTiming> timing;
   ThinnedTruth thinned(observer, caller.hello.exchange_ns);
   emulator::PlantNode plant(machine.rig, machine.seed, machine.events,
                             real ? static_cast<emulator::PlantObserver&>(thinned) : observer);
-  if (real) {
-    timing.emplace(options.out);
-  }
-  const auto ended = real
-                         ? timing->serve(plant, caller.connection->link(), caller.hello)
-                         : serve_plant(plant, caller.connection->link(), caller.hello, lines.get());
+  bool heard_is_written = true;
+  const auto ended =
+      real ? serve_by_the_wall_clock(options, caller, plant, lines.get(), heard_is_written)
+           : serve_plant(plant, caller.connection->link(), caller.hello, lines.get());
   if (recorder) {
     recorder->flush();
   }
@@ -157,7 +176,7 @@ int execute(const Options& options) {
                  core::number_of(ended.error()));
     return kExitRuntime;
   }
-  if (recorder && !recorder->good()) {
+  if ((recorder && !recorder->good()) || !heard_is_written) {
     std::fprintf(stderr, "emulator: the record could not be written\n");
     return kExitRuntime;
   }
@@ -192,9 +211,6 @@ void add_emulate(CLI::App& app, int& exit_code) {
       "Example: towbench emulate --rig fixtures/rigs/macs-nominal.toml --listen "
       "local:/tmp/tb/plant");
   verb->callback([options, &exit_code] {
-    if (!options->lines.empty() && options->clock == "real") {
-      throw CLI::ExcludesError("--lines", "--clock real");
-    }
     if (options->carrier.empty() && options->stream_descriptor < 0) {
       throw CLI::RequiredError("--carrier");
     }

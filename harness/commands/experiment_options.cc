@@ -8,8 +8,8 @@
 #include "harness/commands/progress_line.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_error.h"
+#include "harness/realtime/wall_clock_carrier.h"
 #include "harness/report/report.h"
-#include "protocol/carriers/load.h"
 
 namespace towbench::harness {
 
@@ -37,23 +37,6 @@ void choose_clock(const std::string& clock, RunOptions& options) {
   if (options.carrier == Carrier::kInProcess) {
     options.carrier = Carrier::kLocal;
   }
-  if (options.carrier != Carrier::kWire) {
-    return;
-  }
-  // The emulator sends in each of its ticks.
-  const auto& end = options.wire->controller;
-  const bool is_bus = end.scheme == protocol::Scheme::kCan;
-  const protocol::Traffic traffic{
-      .fidelity = is_bus ? protocol::Fidelity::kDigest : protocol::Fidelity::kEdges,
-      .lockstep = true,
-      .exchange_ns = core::kPlantTick_ns};
-  constexpr std::uint32_t kFastestClassicCan = 1'000'000;
-  const auto load = is_bus ? protocol::can_load(traffic, kFastestClassicCan)
-                           : protocol::serial_load(traffic, end.baud);
-  if (const auto bearable = protocol::accept_load(load, end.text()); !bearable) {
-    throw FixtureError({"command line", 0, "--clock real"}, bearable.error().message,
-                       "a carrier that bears the worst case");
-  }
 }
 
 void choose_lines(const std::string& text, RunOptions& options) {
@@ -61,11 +44,8 @@ void choose_lines(const std::string& text, RunOptions& options) {
     return;
   }
   const auto comma = text.find(',');
-  const bool is_good = comma != std::string::npos && comma > 0 && comma + 1 < text.size() &&
-                       options.clock == RunClock::kLockstep;
-  if (!is_good) {
-    throw FixtureError({"command line", 0, "--lines"}, '"' + text + '"',
-                       "CONTROLLER,PLANT, by the clock of lockstep");
+  if (comma == std::string::npos || comma == 0 || comma + 1 == text.size()) {
+    throw FixtureError({"command line", 0, "--lines"}, '"' + text + '"', "CONTROLLER,PLANT");
   }
   options.lines = {text.substr(0, comma), text.substr(comma + 1)};
   if (options.carrier == Carrier::kInProcess) {
@@ -88,12 +68,30 @@ void choose_controller(const std::string& text, RunOptions& options) {
   check_firmware(options.firmware);
 }
 
+namespace {
+
+// By the wall clock a wire that cannot bear the worst case is refused before the run.
+void check_load(const ExperimentFixture& fixture, const RunOptions& options) {
+  if (options.clock != RunClock::kReal || options.carrier != Carrier::kWire) {
+    return;
+  }
+  const auto exchange_ns =
+      bbmc::exchange_period_ns(fixture.controller.configuration.control_period_ns());
+  if (const auto bears = bears_the_wall_clock(options.wire->controller, exchange_ns); !bears) {
+    throw FixtureError({"command line", 0, "--clock real"}, bears.error().message,
+                       "a carrier that bears the worst case");
+  }
+}
+
+}  // namespace
+
 RunResult run_with_options(const ExperimentFixture& fixture, const ExperimentOptions& options) {
   RunOptions run_options;
   run_options.out = options.out;
   run_options.seed = options.seed;
   choose_carrier(options.carrier, run_options);
   choose_clock(options.clock, run_options);
+  check_load(fixture, run_options);
   choose_lines(options.lines, run_options);
   choose_controller(options.controller, run_options);
   run_options.watchers.stop = &stop_requested();

@@ -12,10 +12,12 @@
 #include <unistd.h>
 
 #include "harness/bench/experiment_run.h"
+#include "harness/bench/wall_clock_replay.h"
 #include "harness/commands/command.h"
 #include "harness/commands/experiment_options.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/faults/shrink.h"
+#include "harness/record/temporary_folder.h"
 
 namespace towbench::harness {
 namespace {
@@ -30,6 +32,7 @@ struct Options {
 struct Recorded {
   std::filesystem::path experiment;
   std::uint64_t seed = 0;
+  bool by_wall_clock = false;
 };
 
 Recorded recorded_in(const std::filesystem::path& folder) {
@@ -45,7 +48,7 @@ Recorded recorded_in(const std::filesystem::path& folder) {
                          "\"complete\": a run that was cut short has no whole record to compare");
     }
     return {folder / result.at("experiment").at("file").get<std::string>(),
-            result.at("seed").get<std::uint64_t>()};
+            result.at("seed").get<std::uint64_t>(), result.at("clock") == "real"};
   } catch (const nlohmann::json::exception& error) {
     throw FixtureError({(folder / "result.json").string()}, error.what(), "a run's result.json");
   }
@@ -126,12 +129,31 @@ int shrink_run(const ExperimentFixture& fixture, std::uint64_t seed, const Optio
   return kExitFail;  // what was shrunk fails
 }
 
+// What a run by the wall clock heard decides what it did: it is played again from that.
+int replay_inputs(const ExperimentFixture& fixture, std::uint64_t seed, const Options& options) {
+  if (options.carrier != "in-process") {
+    throw FixtureError({"command line", 0, "--carrier"}, '"' + options.carrier + '"',
+                       "nothing: a run by the wall clock is replayed from what its sides heard");
+  }
+  TemporaryFolder temporary;
+  const auto out = options.out.empty() ? temporary.path() : std::filesystem::path(options.out);
+  const auto run = replay_by_inputs(fixture, seed, options.folder, out);
+  const int exit_code = compare(options.folder, run);
+  if (!options.out.empty()) {
+    std::printf("%s\n", run.folder.c_str());
+  }
+  return exit_code;
+}
+
 int execute(const Options& options) {
   const std::filesystem::path folder = options.folder;
   const auto recorded = recorded_in(folder);
   const auto fixture = load_experiment(recorded.experiment);
-  if (options.shrink) {
+  if (options.shrink && !recorded.by_wall_clock) {
     return shrink_run(fixture, recorded.seed, options);
+  }
+  if (recorded.by_wall_clock) {
+    return replay_inputs(fixture, recorded.seed, options);
   }
   const bool temporary = options.out.empty();
   RunOptions run_options;

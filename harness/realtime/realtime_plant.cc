@@ -1,39 +1,72 @@
 #include "harness/realtime/realtime_plant.h"
 
+#include <optional>
+
 #include "emulator/truth_row.h"
+#include "harness/bench/real_lines.h"
+#include "harness/realtime/report_thinner.h"
+#include "protocol/tee_sink.h"
 
 namespace towbench::harness {
 namespace {
 
 // Lets a controller do to the plant all but run its clock.
 struct Gate final : protocol::EachMessage<Gate> {
-  explicit Gate(emulator::PlantNode& node) noexcept : plant(node) {}
+  explicit Gate(protocol::MessageSink& plant) noexcept : to(plant) {}
   template <typename Message>
   void handle(const Message& message) noexcept {
     heard = true;
-    plant.on(message);
+    to.on(message);
   }
   void handle(const protocol::Advance& /*advance*/) noexcept { heard = true; }
   void handle(const protocol::Hello& /*hello*/) noexcept { heard = true; }
 
-  emulator::PlantNode& plant;
+  protocol::MessageSink& to;
   bool heard = false;
+};
+
+// From the wire to the plant, and back.
+class Path {
+ public:
+  Path(emulator::PlantNode& plant, protocol::TurnLink& link, const PlantSurroundings& around)
+      : witnessed_(around.witness != nullptr ? *around.witness : nobody_, plant) {
+    protocol::MessageSink* to_controller = &link.peer();
+    if (around.lines != nullptr) {
+      lines_.emplace(witnessed_, link.peer(), *around.lines);
+      to_controller = &lines_->to_controller();
+    }
+    plant.connect(thinner_.emplace(*to_controller, around.report_ns));
+  }
+  [[nodiscard]] protocol::MessageSink& to_plant() noexcept {
+    return lines_ ? lines_->from_controller() : witnessed_;
+  }
+  [[nodiscard]] core::ErrorCode lost_line() const noexcept {
+    return lines_ && !lines_->status() ? lines_->status().error() : core::ErrorCode::kNone;
+  }
+
+ private:
+  struct Nobody final : protocol::MessageSink {};
+  Nobody nobody_;
+  protocol::TeeSink witnessed_;
+  std::optional<RealLinesAtPlant> lines_;
+  std::optional<ReportThinner> thinner_;
 };
 
 }  // namespace
 
 core::Status serve_plant_in_real_time(emulator::PlantNode& plant, protocol::TurnLink& link,
-                                      const protocol::Hello& hello, TickLoop& loop) {
-  plant.connect(link.peer());
-  plant.on(hello);
-  Gate gate(plant);
+                                      const protocol::Hello& hello, TickLoop& loop,
+                                      const PlantSurroundings& around) {
+  Path path(plant, link, around);
+  path.to_plant().on(hello);
+  Gate gate(path.to_plant());
   core::Nanoseconds now_ns = 0;
   core::Nanoseconds heard_ns = 0;
   loop.start();
   while (!plant.finished()) {
     loop.wait();
     gate.heard = false;
-    auto lost = core::ErrorCode::kNone;
+    auto lost = path.lost_line();
     if (const auto status = link.listen(gate, 0); !status) {
       lost = status.error();
     }
@@ -50,7 +83,7 @@ core::Status serve_plant_in_real_time(emulator::PlantNode& plant, protocol::Turn
       return core::failure(lost);
     }
     now_ns += core::kPlantTick_ns;
-    plant.on(protocol::Advance{.until_ns = now_ns});
+    path.to_plant().on(protocol::Advance{.until_ns = now_ns});
   }
   loop.end_tick();
   return {};

@@ -1,7 +1,8 @@
 // Both ends of a run by the wall clock, on top of the same messages as lockstep.
 //
 // Each side has its own loop and its own monotonic clock. The plant steps at 10 kHz whatever the
-// controller does and sends what it measured at once; the controller is served each exchange with
+// controller does and sends what it measured at once (over a bus: once an exchange); the controller
+// is served each exchange with
 // what has arrived by then. Advance does not cross the wire: a heartbeat in each exchange shows
 // that the controller lives.
 #pragma once
@@ -10,6 +11,7 @@
 #include "emulator/plant_node.h"
 #include "harness/bench/plant_end.h"
 #include "harness/realtime/tick_loop.h"
+#include "protocol/carriers/line_port.h"
 #include "protocol/carriers/turn_link.h"
 #include "protocol/each_message.h"
 
@@ -18,11 +20,22 @@ namespace towbench::harness {
 // A side that was not heard for so long is lost.
 inline constexpr core::Nanoseconds kRealtimeSilence_ns = core::kNanosecondsPerSecond;
 
-// The emulator's side: serves until Bye (success) or until the controller is lost; then the drive
-// has been removed and the reason is returned. The loop's period is the plant's tick.
+// What stands around the plant; all outlives the service.
+struct PlantSurroundings {
+  protocol::LinePort* lines = nullptr;  // the machine's digital lines; null: they are messages
+  // A whole number of ticks: how often the plant reports. Each tick is the least delay; a bus bears
+  // one report an exchange.
+  core::Nanoseconds report_ns = core::kPlantTick_ns;
+  // Hears all that the plant hears, in that order: an Advance for each tick too. May be null.
+  protocol::MessageSink* witness = nullptr;
+};
+
+// The emulator's side: serves until Bye (success) or until the controller or a line is lost; then
+// the drive has been removed and the reason is returned. The loop's period is the plant's tick.
 [[nodiscard]] core::Status serve_plant_in_real_time(emulator::PlantNode& plant,
                                                     protocol::TurnLink& link,
-                                                    const protocol::Hello& hello, TickLoop& loop);
+                                                    const protocol::Hello& hello, TickLoop& loop,
+                                                    const PlantSurroundings& around = {});
 
 // Passes on the rows of truth at whole exchanges, as a lockstep run records them; every event.
 class ThinnedTruth final : public emulator::PlantObserver {
@@ -41,9 +54,10 @@ class ThinnedTruth final : public emulator::PlantObserver {
 // The controller's side. The loop's period is the exchange.
 class RealtimePlantEnd final : public PlantEnd {
  public:
-  // Both outlive this.
-  RealtimePlantEnd(protocol::TurnLink& link, TickLoop& loop) noexcept
-      : link_(link), loop_(loop), to_plant_(link.peer()) {}
+  // Both outlive this. Without `takes_edges` the plant is asked for the digest, whatever the
+  // controller could decode.
+  RealtimePlantEnd(protocol::TurnLink& link, TickLoop& loop, bool takes_edges = true) noexcept
+      : link_(link), loop_(loop), to_plant_(link.peer(), takes_edges) {}
 
   [[nodiscard]] protocol::MessageSink& sink() noexcept override { return to_plant_; }
   void connect(protocol::MessageSink& controller) noexcept override {
@@ -55,22 +69,30 @@ class RealtimePlantEnd final : public PlantEnd {
 
  private:
   struct ToPlant final : protocol::EachMessage<ToPlant> {
-    explicit ToPlant(protocol::MessageSink& link_to) noexcept : to(link_to) {}
+    ToPlant(protocol::MessageSink& link_to, bool edges) noexcept
+        : to(link_to), takes_edges(edges) {}
     template <typename Message>
     void handle(const Message& message) noexcept {
       to.on(message);
+    }
+    void handle(const protocol::Hello& hello) noexcept {
+      protocol::Hello asked = hello;
+      asked.capabilities &= takes_edges ? asked.capabilities : ~protocol::kCapabilityEdges;
+      to.on(asked);
     }
     void handle(const protocol::Advance& advance) noexcept {
       until_ns = advance.until_ns;
       to.on(protocol::Heartbeat{.time_ns = advance.until_ns, .sequence = heartbeats++});
     }
     protocol::MessageSink& to;
+    bool takes_edges;
     core::Nanoseconds until_ns = 0;
     std::uint32_t heartbeats = 0;
   };
   struct ToController final : protocol::EachMessage<ToController> {
     template <typename Message>
     void handle(const Message& message) noexcept {
+      heard = true;
       to->on(message);
     }
     void handle(const protocol::Advanced& /*advanced*/) noexcept { heard = true; }

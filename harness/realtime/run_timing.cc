@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/realtime/realtime_checks.h"
-#include "harness/realtime/realtime_plant.h"
 #include "harness/realtime/tick_summary.h"
 #include "harness/record/line_writer.h"
 
@@ -56,8 +55,8 @@ EmulatorTiming::EmulatorTiming(std::filesystem::path folder)
 }
 
 core::Status EmulatorTiming::serve(emulator::PlantNode& plant, protocol::TurnLink& link,
-                                   const protocol::Hello& hello) {
-  const auto ended = serve_plant_in_real_time(plant, link, hello, *loop_);
+                                   const protocol::Hello& hello, const PlantSurroundings& around) {
+  const auto ended = serve_plant_in_real_time(plant, link, hello, *loop_, around);
   if (!folder_.empty()) {
     const auto summary = summarise("emulator", rights_.text(), loop_->policy(), loop_->record());
     write(folder_ / kEmulatorFile, described(summary, loop_->record()));

@@ -12,6 +12,7 @@
 #include "core/result.h"
 #include "emulator/plant_node.h"
 #include "harness/judge/judge.h"
+#include "harness/realtime/realtime_plant.h"
 #include "harness/realtime/realtime_rights.h"
 #include "harness/realtime/tick_clock.h"
 #include "harness/realtime/tick_loop.h"
@@ -29,7 +30,7 @@ class EmulatorTiming {
 
   // As serve_plant_in_real_time(), and writes the file.
   [[nodiscard]] core::Status serve(emulator::PlantNode& plant, protocol::TurnLink& link,
-                                   const protocol::Hello& hello);
+                                   const protocol::Hello& hello, const PlantSurroundings& around);
 
  private:
   std::filesystem::path folder_;

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <utility>
 
+#include "protocol/carriers/paced_can.h"
+
 namespace towbench::protocol {
 namespace {
 
@@ -14,11 +16,14 @@ constexpr std::array kSchemes{std::pair{Scheme::kLocal, std::string_view("local:
 tl::unexpected<CarrierError> refuse(std::string_view text, std::string_view allowed) {
   return carrier_failure(
       core::ErrorCode::kTransportFailed,
-      '"' + std::string(text) + "\" is no carrier (allowed: " + std::string(allowed) + ")");
+      '"' + std::string(text) + "\" is no carrier (allowed: " + std::string(allowed) + "[@BIT/S])");
 }
 
-// Takes "@BAUD" off the end of a serial address. False when it is no rate.
+// Takes "@BAUD" off the end of a serial address. False when a rate is none.
 bool take_baud(CarrierAddress& address) {
+  if (address.scheme == Scheme::kCan) {
+    return named_bus(address.place).has_value();  // stays with its interface
+  }
   const auto at = address.place.rfind('@');
   if (address.scheme != Scheme::kSerial || at == std::string::npos) {
     return true;
@@ -65,7 +70,8 @@ CarrierResult<CarrierEnds> parse_carrier_ends(std::string_view text) {
   CarrierEnds ends{*both, *both};
   const auto comma = both->place.find(',');
   if (comma != std::string::npos) {
-    ends.controller.place.erase(comma);
+    const auto rate = both->place.find('@', comma);  // of a bus: of both its ends
+    ends.controller.place.erase(comma, rate == std::string::npos ? rate : rate - comma);
     ends.plant.place.erase(0, comma + 1);
   } else if (both->scheme == Scheme::kSerial) {
     return refuse(text, kAllowed);  // a line has two ends

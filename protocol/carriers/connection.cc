@@ -83,13 +83,24 @@ Opened Connection::open_port(const CarrierAddress& address, CanDirection directi
     }
     connection->stream_ = std::move(*port);
   } else {
-    auto bus = SocketCan::open(address.place, direction == CanDirection::kToPlant
-                                                  ? CanDirection::kToController
-                                                  : CanDirection::kToPlant);
+    const auto named = named_bus(address.place).value_or(NamedBus{.interface = address.place});
+    auto bus = SocketCan::open(named.interface, direction == CanDirection::kToPlant
+                                                    ? CanDirection::kToController
+                                                    : CanDirection::kToPlant);
     if (!bus) {
       return tl::unexpected<CarrierError>(bus.error());
     }
     connection->bus_ = std::move(*bus);
+    if (named.bit_per_s > 0 && !is_virtual_can(named.interface)) {
+      return carrier_failure(core::ErrorCode::kTransportFailed,
+                             address.text() +
+                                 ": a real interface has a rate of its own (ip link: "
+                                 "bitrate)");
+    }
+    if (named.bit_per_s > 0) {
+      connection->paced_bus_ =
+          std::make_unique<PacedCan>(*connection->bus_, connection->wire_clock_, named.bit_per_s);
+    }
   }
   connection->make_link();
   return connection;
@@ -97,7 +108,8 @@ Opened Connection::open_port(const CarrierAddress& address, CanDirection directi
 
 void Connection::make_link() {
   if (bus_ != nullptr) {
-    auto link = std::make_unique<CanLink>(*bus_, direction_);
+    CanPort& port = paced_bus_ ? static_cast<CanPort&>(*paced_bus_) : *bus_;
+    auto link = std::make_unique<CanLink>(port, direction_);
     can_link_ = link.get();
     link_ = std::move(link);
   } else if (is_local_) {
@@ -105,6 +117,19 @@ void Connection::make_link() {
   } else {
     link_ = std::make_unique<SerialLockstepLink>(*stream_);
   }
+}
+
+WireUse Connection::wire_use() const noexcept {
+  const auto bits = [](const auto& link, std::uint64_t bits_a_byte) {
+    return WireUse{link.bytes_sent() * bits_a_byte, link.bytes_received() * bits_a_byte};
+  };
+  if (can_link_ != nullptr) {
+    constexpr std::uint64_t kBitsAFrame = worst_can_bits(kCanDataSize);
+    return {can_link_->frames_sent() * kBitsAFrame, can_link_->frames_received() * kBitsAFrame};
+  }
+  constexpr std::uint64_t kBitsAByte = 8;
+  return is_local_ ? bits(static_cast<const LockstepLink&>(*link_), kBitsAByte)
+                   : bits(static_cast<const SerialLockstepLink&>(*link_), kBitsPerSerialByte);
 }
 
 core::Status Connection::await_heartbeat(core::Nanoseconds patience_ns) {

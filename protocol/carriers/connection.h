@@ -11,10 +11,18 @@
 #include "protocol/carriers/can_link.h"
 #include "protocol/carriers/carrier_address.h"
 #include "protocol/carriers/carrier_error.h"
+#include "protocol/carriers/paced_can.h"
 #include "protocol/carriers/socket_can.h"
 #include "protocol/carriers/turn_link.h"
 
 namespace towbench::protocol {
+
+// Bits that have crossed a wire: eight a byte on a socket, ten on a serial line, those of whole
+// frames with the worst stuffing on a bus.
+struct WireUse {
+  std::uint64_t bits_sent = 0;
+  std::uint64_t bits_received = 0;
+};
 
 class Connection {
  public:
@@ -43,6 +51,7 @@ class Connection {
   // Null unless this is a bus.
   [[nodiscard]] CanLink* can_link() noexcept { return can_link_; }
   [[nodiscard]] const SocketCan* bus() const noexcept { return bus_.get(); }
+  [[nodiscard]] WireUse wire_use() const noexcept;
 
  private:
   Connection() = default;
@@ -54,6 +63,8 @@ class Connection {
   CanDirection direction_ = CanDirection::kToPlant;
   std::unique_ptr<ByteStream> stream_;
   std::unique_ptr<SocketCan> bus_;
+  HostWireClock wire_clock_;
+  std::unique_ptr<PacedCan> paced_bus_;  // null: the bus has a rate of its own, or none
   std::unique_ptr<TurnLink> link_;
   CanLink* can_link_ = nullptr;
 };

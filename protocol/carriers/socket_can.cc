@@ -5,6 +5,8 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 #include <vector>
 
 #include <linux/can.h>
@@ -84,6 +86,12 @@ struct Batch {
 };
 
 }  // namespace
+
+bool is_virtual_can(const std::string& interface) {
+  std::error_code none;
+  return !interface.empty() && interface.find('/') == std::string::npos &&
+         std::filesystem::exists("/sys/devices/virtual/net/" + interface, none);
+}
 
 CarrierResult<std::unique_ptr<SocketCan>> SocketCan::open(const std::string& interface,
                                                           CanDirection heard) {

@@ -29,6 +29,10 @@ struct CanBusCounts {
   friend bool operator==(const CanBusCounts&, const CanBusCounts&) = default;
 };
 
+// Whether this interface of the host is a program's (vcan) and no controller's; false also when
+// there is none of this name.
+[[nodiscard]] bool is_virtual_can(const std::string& interface);
+
 class SocketCan final : public CanPort {
  public:
   // `heard` is the direction of the frames that are to be received. Refused, in words that name the

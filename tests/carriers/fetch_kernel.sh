@@ -20,7 +20,8 @@ image=$(apt-cache depends linux-image-amd64 2>/dev/null | sed -n 's/^ *Depends: 
 release=${image#linux-image-}
 series=$(sed -E 's/^([0-9]+\.[0-9]+).*/\1/' <<<"$release")
 
-if [[ -e $folder/complete && $(<"$folder/complete") == "$release" ]]; then exit 0; fi
+identity="$release $(wanted_modules | cksum)"
+if [[ -e $folder/complete && $(<"$folder/complete") == "$identity" ]]; then exit 0; fi
 rm -rf "$folder"
 mkdir -p "$folder/debs" "$folder/modules" "$folder/unpacked"
 echo "carriers: fetching Debian kernel $release (some 220 MB, once)"
@@ -56,4 +57,4 @@ while read -r module; do
   esac
 done < <(wanted_modules)
 rm -rf "$folder/unpacked"
-echo "$release" >"$folder/complete"
+echo "$identity" >"$folder/complete"

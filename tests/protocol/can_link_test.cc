@@ -84,6 +84,23 @@ TEST_F(CanLinkTest, OffersTheDigestOnlyWhateverItsSideCan) {
             text_of(HelloReply{.plant = {.role = Role::kPlant, .capabilities = 0}}));
 }
 
+TEST_F(CanLinkTest, ByTheWallClockATurnEndsWithoutAFrameButForASignOfLifeNowAndThen) {
+  controller_.go_by_the_wall_clock();
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    controller_.peer().on(PwmDuty{.channel_a_ticks = 7, .period_ticks = 100, .sequence = i});
+    controller_.peer().on(Heartbeat{.time_ns = 1'000'000 * core::Nanoseconds{i}, .sequence = i});
+  }
+  ASSERT_EQ(a_.sends.size(), 100U) << "each turn leaves at once";
+  EXPECT_EQ(controller_.frames_sent(), 102U);
+  ASSERT_TRUE(plant_.listen(heard_, 0).has_value());
+  ASSERT_TRUE(plant_.listen(heard_, 0).has_value());
+  ASSERT_EQ(heard_.texts.size(), 102U);
+  EXPECT_EQ(heard_.texts[1], text_of(Heartbeat{.time_ns = 0, .sequence = 0}));
+  EXPECT_EQ(heard_.texts[52], text_of(Heartbeat{.time_ns = 50'000'000, .sequence = 50}));
+  EXPECT_EQ(heard_.texts[101],
+            text_of(PwmDuty{.channel_a_ticks = 7, .period_ticks = 100, .sequence = 99}));
+}
+
 TEST_F(CanLinkTest, APeerThatBabblesWithoutEndingItsTurnIsSilent) {
   for (int i = 0; i < 10'000; ++i) {
     a_.waiting().push_back(can_frame(can_id::kLines + 1U, static_cast<std::uint64_t>(i)));
