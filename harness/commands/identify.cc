@@ -16,9 +16,11 @@
 #include "harness/judge/check.h"
 #include "harness/judge/recovery.h"
 #include "harness/procedures/chain.h"
+#include "harness/procedures/data_study.h"
 #include "harness/procedures/identified_plant.h"
 #include "harness/procedures/study_page.h"
 #include "harness/record/line_writer.h"
+#include "harness/results/identification_set.h"
 
 namespace towbench::harness {
 namespace {
@@ -38,6 +40,11 @@ struct Options {
   bool quiet = false;
   bool json = false;
   bool blind = false;
+  std::string data;
+  std::string columns;
+  std::uint64_t drawn = 0;
+  std::uint64_t seeds = 1;
+  std::size_t workers = 1;
 };
 
 void show_progress(const std::string& what, double share, bool wanted) {
@@ -132,54 +139,131 @@ int exit_code_of(const ChainResult& result, const std::vector<Recovery>& recover
   return code;
 }
 
-int execute(const Options& options) {
+// What the command line names, read.
+struct Bench {
+  RigFixture rig;
+  ControllerFixture controller;
+  std::filesystem::path settings;
+};
+
+Bench bench_of(const Options& options) {
   const auto fixtures = fixtures_directory();
   const auto named = [&](const std::string& given, const char* folder, const char* standard) {
     return given.empty() ? fixtures / folder / standard : std::filesystem::path(given);
   };
   SourceFiles sources;
-  const auto rig = load_rig(named(options.rig, "rigs", "tow-dry.toml"), sources);
-  const auto controller =
-      load_controller(named(options.controller, "controllers", "bbmc-tuned.toml"), sources);
-  const auto all = procedures::identification_procedures();
-  refuse_unknown(options.only, all);
+  return {.rig = load_rig(named(options.rig, "rigs", "tow-dry.toml"), sources),
+          .controller =
+              load_controller(named(options.controller, "controllers", "bbmc-tuned.toml"), sources),
+          .settings = options.settings.empty() ? fixtures / "identification"
+                                               : std::filesystem::path(options.settings)};
+}
+
+int tell_everything(const Options& options, const std::string& title,
+                    const procedures::Machine& machine, const ChainResult& result,
+                    const std::vector<Recovery>& recoveries) {
   const std::filesystem::path out = options.out;
-  std::filesystem::create_directories(out);
-
-  const LoopWatchers watchers{.stop = &stop_requested(), .progress = {}};
-  const procedures::Machine machine(rig, controller, options.seed, watchers);
-  const procedures::ChainOptions chain{
-      .only = options.only,
-      .axes = axes_of(options.axis),
-      .settings = named(options.settings, "identification", ""),
-      .out = out,
-      .fingerprint = fmt::format("{:016x}-{:016x}-{}", rig.hash, controller.hash, options.seed),
-      .resume = options.resume,
-      .progress = [&](const std::string& what, double share) {
-        show_progress(what, share, !options.quiet);
-      }};
-  const auto result = procedures::run_chain(machine, all, chain);
-  clear_progress(!options.quiet);
-
-  // Only now may anybody look at what the machine is.
-  const auto recoveries =
-      options.blind ? std::vector<Recovery>{} : judge_recovery(rig.parameters, result.estimates);
   identify::write_estimates(out / "estimates.json", result.estimates);
   if (const auto plant = procedures::identified_plant(machine, result.estimates); !plant.empty()) {
     write_plant(out / "identified_plant.toml", plant);
   }
-  write_atomically(out / "report.html",
-                   procedures::study_page("Identification of " + rig.name, result, recoveries));
+  write_atomically(out / "report.html", procedures::study_page(title, result, recoveries));
   if (options.json) {
     fmt::print("{}\n", identify::to_json(result.estimates).dump(2));
-  } else if (!options.quiet) {
-    tell_steps(result);
-    tell_estimates(result.estimates, recoveries);
-  }
-  if (!options.json) {
+  } else {
+    if (!options.quiet) {
+      tell_steps(result);
+      tell_estimates(result.estimates, recoveries);
+    }
     fmt::print("{}\n", (out / "report.html").string());
   }
   return exit_code_of(result, recoveries);
+}
+
+// Nothing is moved and no truth is near: the log is all there is.
+int execute_on_log(const Options& options, const Bench& bench) {
+  if (options.axis == "both") {
+    throw FixtureError({.file = "--axis"}, "nothing", "y or x: whose log it is");
+  }
+  const auto axis = axes_of(options.axis).front();
+  const procedures::Machine machine(bench.rig, bench.controller, options.seed);
+  const auto log =
+      procedures::read_brought_log(options.data, options.columns, axis, machine.nameplate(axis));
+  std::filesystem::create_directories(options.out);
+  show_progress("output error on " + log.source, 0, !options.quiet);
+  ChainResult result;
+  procedures::ChainStep step{.id = "log", .title = log.source};
+  step.axis = axis;
+  step.outcome = procedures::study_log({.machine = machine, .axis = axis}, log);
+  result.estimates = step.outcome.estimates;
+  result.steps.push_back(std::move(step));
+  clear_progress(!options.quiet);
+  return tell_everything(options, "Identification from " + options.data, machine, result, {});
+}
+
+int execute_set(const Options& options, const Bench& bench) {
+  IdentificationSet set{.rig = bench.rig,
+                        .controller = bench.controller,
+                        .settings = bench.settings,
+                        .out = options.out,
+                        .machines = options.drawn,
+                        .seeds = options.seeds,
+                        .workers = options.workers,
+                        .axes = axes_of(options.axis),
+                        .stop = &stop_requested(),
+                        .progress = [&](std::size_t done, std::size_t all) {
+                          show_progress(fmt::format("{} of {} runs", done, all),
+                                        static_cast<double>(done) / static_cast<double>(all),
+                                        !options.quiet);
+                        }};
+  const auto runs = run_set(set);
+  clear_progress(!options.quiet);
+  const auto page = set_page(set, runs);
+  write_atomically(set.out / "set.md", page);
+  fmt::print("{}{}\n", options.quiet ? "" : page, (set.out / "set.md").string());
+  int code = kExitPass;
+  for (const auto& run : runs) {
+    if (!run.done || !run.not_done.empty()) {
+      return kExitInvalid;
+    }
+    for (const auto& each : run.recoveries) {
+      code = each.agrees && each.narrow ? code : kExitFail;
+    }
+  }
+  return code;
+}
+
+int execute(const Options& options) {
+  const auto bench = bench_of(options);
+  if (!options.data.empty()) {
+    return execute_on_log(options, bench);
+  }
+  if (options.drawn > 0) {
+    return execute_set(options, bench);
+  }
+  const auto all = procedures::identification_procedures();
+  refuse_unknown(options.only, all);
+  std::filesystem::create_directories(options.out);
+  const LoopWatchers watchers{.stop = &stop_requested(), .progress = {}};
+  const procedures::Machine machine(bench.rig, bench.controller, options.seed, watchers);
+  const procedures::ChainOptions chain{
+      .only = options.only,
+      .axes = axes_of(options.axis),
+      .settings = bench.settings,
+      .out = options.out,
+      .fingerprint =
+          fmt::format("{:016x}-{:016x}-{}", bench.rig.hash, bench.controller.hash, options.seed),
+      .resume = options.resume,
+      .progress = [&](const std::string& what,
+                      double share) { show_progress(what, share, !options.quiet); },
+      .stop = &stop_requested()};
+  const auto result = procedures::run_chain(machine, all, chain);
+  clear_progress(!options.quiet);
+  // Only now may anybody look at what the machine is.
+  const auto recoveries = options.blind ? std::vector<Recovery>{}
+                                        : judge_recovery(bench.rig.parameters, result.estimates);
+  return tell_everything(options, "Identification of " + bench.rig.name, machine, result,
+                         recoveries);
 }
 
 }  // namespace
@@ -202,8 +286,23 @@ void add_identify(CLI::App& app, int& exit_code) {
   verb->add_flag("--blind", options->blind, "do not set the rig's own parameters beside");
   verb->add_flag("--quiet", options->quiet, "no progress, no tables");
   verb->add_flag("--json", options->json, "print estimates.json");
+  verb->add_option("--data", options->data,
+                   "estimate from this log instead: a run folder, BBMC's data log, a CSV file");
+  verb->add_option("--columns", options->columns, "which column of that CSV is what, TOML")
+      ->check(CLI::ExistingFile)
+      ->needs("--data");
+  verb->add_option("--drawn", options->drawn,
+                   "so many machines, the first nominal, the rest drawn within 40 %")
+      ->check(CLI::Range(1, 1000));
+  verb->add_option("--seeds", options->seeds, "with --drawn: seeds of each")
+      ->check(CLI::Range(1, 10000));
+  verb->add_option("--workers", options->workers, "with --drawn: processes at once")
+      ->check(CLI::Range(1, 256));
   verb->footer(
       "Example: towbench identify fixtures/rigs/tow-dry.toml --out identified\n"
+      "         towbench identify --data log.csv --axis y --columns map.toml\n"
+      "         towbench identify --drawn 10 --seeds 40 --workers 2 --out set   (hours; "
+      "continues)\n"
       "Writes estimates.json, identified_plant.toml, report.html. Exit: 0 all experiments done,\n"
       "1 an estimate misses the emulated machine's own value by more than its demand allows,\n"
       "2 bad arguments, 4 an experiment was refused or its data are no good.");

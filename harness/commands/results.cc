@@ -1,4 +1,5 @@
 // towbench results: docs/results.md, from one run of everything that has a table in the thesis.
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -9,11 +10,14 @@
 #include "harness/commands/command.h"
 #include "harness/commands/fixture_paths.h"
 #include "harness/commands/stop_signal.h"
+#include "harness/commands/study_progress.h"
 #include "harness/judge/check.h"
 #include "harness/judge/tow_recovery.h"
 #include "harness/procedures/chain.h"
+#include "harness/procedures/kept_outcome.h"
 #include "harness/procedures/procedures.h"
 #include "harness/record/line_writer.h"
+#include "harness/results/kept_tow.h"
 #include "harness/results/results_page.h"
 
 namespace towbench::harness {
@@ -37,50 +41,133 @@ std::vector<TrackedSpeed> tracked(const RigFixture& rig, const ControllerFixture
   return all;
 }
 
-int execute(const Options& options) {
-  const auto fixtures = fixtures_directory();
-  SourceFiles sources;
-  const auto dry = load_rig(fixtures / "rigs" / "tow-dry.toml", sources);
-  const auto wet = load_rig(fixtures / "rigs" / "tow-cylinder.toml", sources);
-  const auto controller = load_controller(fixtures / "controllers" / "bbmc-tuned.toml", sources);
-  const LoopWatchers watchers{.stop = &stop_requested(), .progress = {}};
+struct Bench {
+  RigFixture dry;
+  RigFixture wet;
+  ControllerFixture controller;
+  LoopWatchers watchers;
+  std::string fingerprint;  // of what is run, apart from the program and the settings
+};
 
-  Results results;
-  results.rig = dry.name;
-  results.truth = dry.parameters;
-  results.slow = tracked(dry, controller,
+void measure_tracking(const Bench& bench, Results& results) {
+  results.slow = tracked(bench.dry, bench.controller,
                          {0.005, 0.010, 0.020, 0.030, 0.040, 0.050, 0.060, 0.070, 0.080, 0.090,
                           0.100, 0.200, 0.300, 0.400},
                          {});
   const TrapezoidRun fast{.smooth_s = 0.243, .settle_s = 0.3};
-  results.fast_air = tracked(dry, controller, {0.05, 0.15, 0.25, 0.35, 0.45, 0.55}, fast);
-  results.fast_water = tracked(wet, controller, {0.05, 0.15, 0.25, 0.35, 0.45, 0.55}, fast);
+  results.fast_air =
+      tracked(bench.dry, bench.controller, {0.05, 0.15, 0.25, 0.35, 0.45, 0.55}, fast);
+  results.fast_water =
+      tracked(bench.wet, bench.controller, {0.05, 0.15, 0.25, 0.35, 0.45, 0.55}, fast);
+}
 
-  const procedures::Machine machine(dry, controller, options.seed, watchers);
-  procedures::ChainOptions options_of_chain;
-  options_of_chain.settings = fixtures / "identification";
-  options_of_chain.out = options.work;
-  options_of_chain.fingerprint =
-      fmt::format("{:016x}-{:016x}-{}", dry.hash, controller.hash, options.seed);
-  options_of_chain.resume = true;
-  const auto chain =
-      procedures::run_chain(machine, procedures::identification_procedures(), options_of_chain);
-  results.identified = chain.estimates;
-
-  const procedures::TowLoads loads(dry, controller, options.seed, fixtures / "rigs", watchers);
-  int code = kExitPass;
-  for (const auto& procedure : procedures::tow_procedures()) {
-    auto outcome = procedure->run({.loads = loads});
-    auto recoveries = judge_tow(loads.truth(procedure->load()), outcome);
-    if (outcome.status != procedures::ProcedureOutcome::Status::kDone) {
-      code = kExitInvalid;
-    }
-    results.tows.push_back({std::string(procedure->id()), std::string(procedure->title()),
-                            std::move(outcome), std::move(recoveries)});
+void identify_machine(const Bench& bench, const Options& options, StudyProgress& progress,
+                      Results& results) {
+  const procedures::Machine machine(bench.dry, bench.controller, options.seed, bench.watchers);
+  procedures::ChainOptions chain;
+  chain.settings = fixtures_directory() / "identification";
+  chain.out = options.work;
+  chain.fingerprint = bench.fingerprint;
+  chain.resume = true;
+  chain.stop = &stop_requested();
+  chain.progress = [&](const std::string& what, double share) { progress.show(what, share); };
+  results.identified =
+      procedures::run_chain(machine, procedures::identification_procedures(), chain);
+  for (const auto& step : results.identified.steps) {
+    results.partly_from_before = results.partly_from_before || step.from_before;
   }
+}
+
+procedures::TowOutcome tow_once(const procedures::TowLoads& loads,
+                                const procedures::TowProcedure& procedure,
+                                const std::filesystem::path& file, const std::string& fingerprint,
+                                StudyProgress& progress, Results& results) {
+  if (const auto before = procedures::kept_outcome(file, fingerprint)) {
+    results.partly_from_before = true;
+    return tow_from_json(*before);
+  }
+  const std::string id(procedure.id());
+  auto settings = fixtures_directory() / "tow" / (id + ".toml");
+  if (!std::filesystem::exists(settings)) {
+    settings.clear();
+  }
+  auto outcome =
+      procedure.run({.loads = loads, .settings = settings, .progress = [&](double share) {
+                       progress.show(id + " " + std::string(procedure.title()), share);
+                     }});
+  if (outcome.status != procedures::ProcedureOutcome::Status::kFailed) {
+    procedures::keep_outcome(file, fingerprint, tow_to_json(outcome));
+  }
+  return outcome;
+}
+
+void tow_everything(const Bench& bench, const Options& options, StudyProgress& progress,
+                    Results& results) {
+  const auto rigs = fixtures_directory() / "rigs";
+  const procedures::TowLoads loads(bench.dry, bench.controller, options.seed, rigs, bench.watchers);
+  for (const auto& procedure : procedures::tow_procedures()) {
+    if (stop_requested()) {
+      return;
+    }
+    const std::string id(procedure->id());
+    const auto fingerprint =
+        fmt::format("{}-{}-{}-{}", procedures::program_fingerprint(), bench.fingerprint,
+                    procedures::file_fingerprint(fixtures_directory() / "tow" / (id + ".toml")),
+                    procedures::file_fingerprint(rigs / (procedure->load().rig + ".toml")));
+    auto outcome = tow_once(loads, *procedure,
+                            std::filesystem::path(options.work) / "done" / ("tow-" + id + ".json"),
+                            fingerprint, progress, results);
+    auto recoveries = judge_tow(loads.truth(procedure->load()), outcome);
+    results.tows.push_back(
+        {id, std::string(procedure->title()), std::move(outcome), std::move(recoveries)});
+  }
+}
+
+int code_of(const Results& results) {
+  const auto is_done = [](const procedures::ProcedureOutcome& outcome) {
+    return outcome.status == procedures::ProcedureOutcome::Status::kDone;
+  };
+  for (const auto& step : results.identified.steps) {
+    if (!is_done(step.outcome)) {
+      return kExitInvalid;
+    }
+  }
+  for (const auto& tow : results.tows) {
+    if (!is_done(tow.outcome)) {
+      return kExitInvalid;
+    }
+  }
+  return kExitPass;
+}
+
+int execute(const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto fixtures = fixtures_directory();
+  SourceFiles sources;
+  Bench bench{.dry = load_rig(fixtures / "rigs" / "tow-dry.toml", sources),
+              .wet = load_rig(fixtures / "rigs" / "tow-cylinder.toml", sources),
+              .controller = load_controller(fixtures / "controllers" / "bbmc-tuned.toml", sources),
+              .watchers = {.stop = &stop_requested(), .progress = {}},
+              .fingerprint = {}};
+  bench.fingerprint =
+      fmt::format("{:016x}-{:016x}-{}", bench.dry.hash, bench.controller.hash, options.seed);
+  StudyProgress progress(true);
+  Results results;
+  results.rig = bench.dry.name;
+  results.truth = bench.dry.parameters;
+  progress.show("Tables 7.6 and 8.3", 0);
+  measure_tracking(bench, results);
+  identify_machine(bench, options, progress, results);
+  tow_everything(bench, options, progress, results);
+  progress.clear();
+  if (stop_requested()) {
+    fmt::print("interrupted; the same command continues\n");
+    return kExitInvalid;
+  }
+  results.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_atomically(options.out, results_page(results));
   fmt::print("{}\n", options.out);
-  return code;
+  return code_of(results);
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ struct Linear {
   double sum = 0;                                   // of weighted squares
 };
 
-Linear fit_at(const std::vector<SteadyRun>& runs, double stribeck, bool lorentz) {
+Linear fit_at(const std::vector<SteadyRun>& runs, double stribeck, bool lorentz,
+              const std::optional<double>& excess_Nm) {
   const auto n = static_cast<Eigen::Index>(runs.size());
   Eigen::MatrixXd x(n, 3);
   Eigen::VectorXd y(n);
@@ -28,20 +29,30 @@ Linear fit_at(const std::vector<SteadyRun>& runs, double stribeck, bool lorentz)
     y[i] = weight * std::fabs(run.torque_Nm);
   }
   Linear fit;
+  if (excess_Nm) {
+    y -= *excess_Nm * x.col(1);
+    x.col(1).setZero();
+    const Eigen::Vector3d rest = x.completeOrthogonalDecomposition().solve(y);
+    fit.theta << rest[0], *excess_Nm, rest[2];
+    fit.sum = (y - x * rest).squaredNorm();
+    return fit;
+  }
   fit.theta = x.colPivHouseholderQr().solve(y);
   fit.sum = (y - x * fit.theta).squaredNorm();
   return fit;
 }
 
 // Golden section on the logarithm of w_s; everything else is linear.
-double best_stribeck(const std::vector<SteadyRun>& runs, double first, bool lorentz) {
+double best_stribeck(const std::vector<SteadyRun>& runs, double first, bool lorentz,
+                     const std::optional<double>& excess_Nm) {
   constexpr double kGolden = 0.6180339887498949;
   double low = std::log(first / 6);
   double high = std::log(first * 6);
   for (int i = 0; i < 60; ++i) {
     const double a = high - kGolden * (high - low);
     const double b = low + kGolden * (high - low);
-    if (fit_at(runs, std::exp(a), lorentz).sum < fit_at(runs, std::exp(b), lorentz).sum) {
+    if (fit_at(runs, std::exp(a), lorentz, excess_Nm).sum <
+        fit_at(runs, std::exp(b), lorentz, excess_Nm).sum) {
       high = b;
     } else {
       low = a;
@@ -50,7 +61,8 @@ double best_stribeck(const std::vector<SteadyRun>& runs, double first, bool lore
   return std::exp(0.5 * (low + high));
 }
 
-void add_deviations(const std::vector<SteadyRun>& runs, FrictionLaw& law, double sum) {
+void add_deviations(const std::vector<SteadyRun>& runs, bool excess_is_known, FrictionLaw& law,
+                    double sum) {
   const auto n = static_cast<Eigen::Index>(runs.size());
   Eigen::MatrixXd jacobian(n, 4);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -64,8 +76,13 @@ void add_deviations(const std::vector<SteadyRun>& runs, FrictionLaw& law, double
     jacobian.row(i) << 1, shape(w / v, law.lorentz), w, slope;
     jacobian.row(i) /= run.deviation_Nm;
   }
-  const Eigen::Matrix4d covariance =
-      (jacobian.transpose() * jacobian).inverse() * std::max(1.0, sum / static_cast<double>(n - 4));
+  if (excess_is_known) {
+    jacobian.col(1).setZero();
+  }
+  const Eigen::Matrix4d covariance = Eigen::MatrixXd(jacobian.transpose() * jacobian)
+                                         .completeOrthogonalDecomposition()
+                                         .pseudoInverse() *
+                                     std::max(1.0, sum / static_cast<double>(n - 4));
   law.coulomb_deviation_Nm = std::sqrt(covariance(0, 0));
   law.excess_deviation_Nm = std::sqrt(covariance(1, 1));
   law.viscous_deviation = std::sqrt(covariance(2, 2));
@@ -79,15 +96,16 @@ double FrictionLaw::at(double speed_rad_per_s) const noexcept {
   return coulomb_Nm + excess_Nm * shape(w / stribeck_rad_per_s, lorentz) + viscous_Nm_s_per_rad * w;
 }
 
-FrictionLaw fit_friction_law(const std::vector<SteadyRun>& runs, double first_speed) {
+FrictionLaw fit_friction_law(const std::vector<SteadyRun>& runs, double first_speed,
+                             std::optional<double> excess_Nm) {
   FrictionLaw law;
   if (runs.size() < 6) {
     return law;
   }
   double best = 0;
   for (const bool lorentz : {false, true}) {
-    const double stribeck = best_stribeck(runs, first_speed, lorentz);
-    const auto fit = fit_at(runs, stribeck, lorentz);
+    const double stribeck = best_stribeck(runs, first_speed, lorentz, excess_Nm);
+    const auto fit = fit_at(runs, stribeck, lorentz, excess_Nm);
     if (!law.found || fit.sum < best) {
       best = fit.sum;
       law.lorentz = lorentz;
@@ -104,7 +122,7 @@ FrictionLaw fit_friction_law(const std::vector<SteadyRun>& runs, double first_sp
     square += e * e / static_cast<double>(runs.size());
   }
   law.residual_rms_Nm = std::sqrt(square);
-  add_deviations(runs, law, best);
+  add_deviations(runs, excess_Nm.has_value(), law, best);
   return law;
 }
 

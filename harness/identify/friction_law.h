@@ -6,6 +6,7 @@
 // leaves less is taken.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,9 @@ struct FrictionLaw {
   [[nodiscard]] double at(double speed_rad_per_s) const noexcept;
 };
 
-// At least six runs of different speed. `first_speed` seeds the search for w_s.
-[[nodiscard]] FrictionLaw fit_friction_law(const std::vector<SteadyRun>& runs, double first_speed);
+// At least six runs of different speed. `first_speed` seeds the search for w_s. `excess_Nm`: S - C
+// where it is known, from break-away: without runs well below w_s the two cannot be told apart.
+[[nodiscard]] FrictionLaw fit_friction_law(const std::vector<SteadyRun>& runs, double first_speed,
+                                           std::optional<double> excess_Nm = std::nullopt);
 
 }  // namespace towbench::harness::identify

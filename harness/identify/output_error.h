@@ -21,7 +21,8 @@ namespace towbench::harness::identify {
 struct TwoMassStart {
   emulator::AxisParameters axis;  // documents, and first guesses of what is estimated
   DrivePath path;
-  std::vector<double> knots_m{};  // ascending, at least one
+  std::vector<double> knots_m{};     // ascending, at least one
+  std::vector<double> coulomb_Nm{};  // first guess at each knot; empty: the axis's own
   // How well the first guess is known, as a standard deviation of its logarithm; 0: not at all.
   double stribeck_known = 0;
   double excess_known = 0;

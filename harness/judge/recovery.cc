@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <span>
 
 #include "core/axis.h"
@@ -63,14 +64,38 @@ double inertia_over_friction_s(const emulator::AxisParameters& p) {
   return p.inertia_kg_m2 / p.viscous_friction_Nm_s_per_rad;
 }
 
+// A step of torque k D for one time constant J/B, from rest, reaches (k D - C - tau_P)/B (1 - 1/e);
+// the least that reaches 98 % of the saturation speed w_s:
+//   D = (C + tau_P + 0.98 B w_s / (1 - 1/e)) / k
+double smallest_command_pct(const emulator::RigParameters& rig, const RigAxisParameters& axis,
+                            const Estimate& estimate) {
+  constexpr double kArrived = 0.98;
+  const auto& p = axis.plant;
+  const double speed =
+      saturation_speed_m_per_s(rig, axis, estimate) * p.gear_ratio / p.sprocket_radius_m;
+  const double torque_Nm =
+      p.coulomb_friction_Nm + position_friction_at(p, estimate) +
+      kArrived * p.viscous_friction_Nm_s_per_rad * speed / (1 - std::exp(-1.0));
+  return 100 * torque_Nm /
+         (p.torque_constant_Nm_per_A * p.amplifier_gain_A_per_V * axis.command.pwm_amplitude_V);
+}
+
+// experiments.md, EXP-P-5: within 10 counts, here as a share of the distance.
+double ten_counts_pct(const RigAxisParameters& axis) {
+  const double metres_per_count = 2 * std::numbers::pi /
+                                  static_cast<double>(axis.encoder.counts_per_turn) *
+                                  axis.plant.sprocket_radius_m / axis.plant.gear_ratio;
+  return 100 * 10 * metres_per_count / (axis.hall_max.position_m - axis.hall_min.position_m);
+}
+
 struct Demand {
   std::string_view quantity;
-  double tolerance_pct;
+  double tolerance_pct;  // 0: ten counts
   double (*truth)(const emulator::RigParameters&, const RigAxisParameters&, const Estimate&);
 };
 
 // experiments.md, "must show".
-const std::array<Demand, 13> kDemands{{
+const std::array<Demand, 18> kDemands{{
     {"torque_constant_Nm_per_A", 1,
      [](const auto&, const auto& a, const auto&) { return a.plant.torque_constant_Nm_per_A; }},
     {"amplifier_gain_A_per_V", 1,
@@ -94,10 +119,25 @@ const std::array<Demand, 13> kDemands{{
      [](const auto&, const auto& a, const auto& e) {
        return a.plant.coulomb_friction_Nm + position_friction_at(a.plant, e);
      }},
+    {"sliding_friction_Nm", 10,
+     [](const auto&, const auto& a, const auto& e) {
+       return a.plant.coulomb_friction_Nm + position_friction_at(a.plant, e);
+     }},
+    {"steady_viscous_Nm_s_per_rad", 10,
+     [](const auto&, const auto& a, const auto&) { return a.plant.viscous_friction_Nm_s_per_rad; }},
     {"chain_resonance_Hz", 2,
      [](const auto&, const auto& a, const auto&) { return a.plant.chain.resonance_Hz; }},
     {"chain_damping_ratio", 20,
      [](const auto&, const auto& a, const auto&) { return a.plant.chain.damping_ratio; }},
+    {"smallest_command_pct", 5, smallest_command_pct},
+    {"hall_distance_m", 0,
+     [](const auto&, const auto& a, const auto&) {
+       return a.hall_max.position_m - a.hall_min.position_m;
+     }},
+    {"map_stribeck_rad_per_s", 10,
+     [](const auto&, const auto& a, const auto&) {
+       return a.plant.friction.stribeck_speed_rad_per_s;
+     }},
     {"stribeck_speed_rad_per_s", 10,
      [](const auto&, const auto& a, const auto&) {
        return a.plant.friction.stribeck_speed_rad_per_s;
@@ -133,6 +173,10 @@ std::vector<Recovery> judge_recovery(const emulator::RigParameters& rig,
     Recovery recovery{.estimate = estimate, .truth = *truth};
     const double percent = 100 / std::fabs(*truth);
     recovery.tolerance_pct = demand_on(estimate)->tolerance_pct;
+    if (recovery.tolerance_pct == 0) {
+      const auto which = estimate.axis == "x" ? core::Axis::kX : core::Axis::kY;
+      recovery.tolerance_pct = ten_counts_pct(rig.axes[which]);
+    }
     recovery.error_pct = (estimate.value - *truth) * percent;
     recovery.width_pct = (estimate.high - estimate.low) * percent;
     recovery.agrees = std::fabs(recovery.error_pct) <= recovery.tolerance_pct;

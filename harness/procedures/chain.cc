@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
+#include <functional>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "harness/procedures/kept_outcome.h"
 #include "harness/procedures/outcome_json.h"
-#include "harness/record/line_writer.h"
 
 namespace towbench::harness::procedures {
 namespace {
@@ -18,47 +18,35 @@ std::filesystem::path kept_file(const ChainOptions& options, const Procedure& pr
   return options.out / "done" / fmt::format("{}-{}.json", core::name_of(axis), procedure.id());
 }
 
-std::optional<ProcedureOutcome> kept(const ChainOptions& options, const Procedure& procedure,
-                                     core::Axis axis) {
+std::optional<ProcedureOutcome> kept(const ChainOptions& options, const std::filesystem::path& file,
+                                     const std::string& fingerprint) {
   if (!options.resume || options.out.empty()) {
     return std::nullopt;
   }
-  std::ifstream stream(kept_file(options, procedure, axis));
-  if (!stream) {
+  try {
+    const auto json = kept_outcome(file, fingerprint);
+    return json ? std::optional(outcome_from_json(*json)) : std::nullopt;
+  } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   }
-  try {
-    const auto json = nlohmann::json::parse(stream);
-    if (json.at("fingerprint") != options.fingerprint) {
-      return std::nullopt;
-    }
-    return outcome_from_json(json.at("outcome"));
-  } catch (const nlohmann::json::exception&) {
-    return std::nullopt;  // torn or foreign: run again
-  }
-}
-
-void keep(const ChainOptions& options, const ChainStep& step, const Procedure& procedure) {
-  if (options.out.empty()) {
-    return;
-  }
-  const auto path = kept_file(options, procedure, step.axis);
-  std::filesystem::create_directories(path.parent_path());
-  const nlohmann::json json{{"fingerprint", options.fingerprint},
-                            {"outcome", to_json(step.outcome)}};
-  write_atomically(path, json.dump());
 }
 
 ChainStep run_one(const Machine& machine, const Procedure& procedure, core::Axis axis,
                   const ChainOptions& options, const identify::Estimates& known) {
   ChainStep step{.id = std::string(procedure.id()), .title = std::string(procedure.title())};
   step.axis = axis;
-  if (auto before = kept(options, procedure, axis)) {
+  const auto settings = options.settings / (step.id + ".toml");
+  // What it was found with: this program, machine, settings, and what was known before.
+  const auto fingerprint =
+      fmt::format("{}-{}-{}-{:016x}", program_fingerprint(), options.fingerprint,
+                  file_fingerprint(options.settings.empty() ? options.settings : settings),
+                  std::hash<std::string>{}(identify::to_json(known).dump()));
+  const auto file = kept_file(options, procedure, axis);
+  if (auto before = kept(options, file, fingerprint)) {
     step.outcome = std::move(*before);
     step.from_before = true;
     return step;
   }
-  const auto settings = options.settings / (step.id + ".toml");
   const auto what = fmt::format("{} {} ({})", step.id, procedure.title(), core::name_of(axis));
   const ProcedureContext context{
       .machine = machine,
@@ -78,7 +66,10 @@ ChainStep run_one(const Machine& machine, const Procedure& procedure, core::Axis
   step.outcome = procedure.run(context);
   step.outcome.simulated_s = machine.simulated_s() - simulated_s;
   step.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  keep(options, step, procedure);
+  // A failed one may have been interrupted: it is tried again.
+  if (!options.out.empty() && step.outcome.status != ProcedureOutcome::Status::kFailed) {
+    keep_outcome(file, fingerprint, to_json(step.outcome));
+  }
   return step;
 }
 
@@ -96,6 +87,9 @@ ChainResult run_chain(const Machine& machine,
     for (const auto axis : options.axes) {
       if (!machine.nameplate(axis).exists) {
         continue;
+      }
+      if (options.stop != nullptr && options.stop->load()) {
+        return result;
       }
       result.steps.push_back(run_one(machine, *procedure, axis, options, result.estimates));
       const auto& found = result.steps.back().outcome.estimates;

@@ -2,6 +2,7 @@
 // What is done stands in the folder, so that an interrupted chain continues where it stopped.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -17,9 +18,11 @@ struct ChainOptions {
   std::vector<core::Axis> axes{core::Axis::kY, core::Axis::kX};
   std::filesystem::path settings;  // folder of <id>.toml; a file that is absent means defaults
   std::filesystem::path out;       // done/<axis>-<id>.json; empty: nothing is kept
-  std::string fingerprint;         // of machine, controller, seed; what another left is not used
+  std::string fingerprint;         // of machine, controller, seed; what another left is not used,
+                                   // nor what another program, settings or knowledge found
   bool resume = false;
   std::function<void(const std::string& what, double share)> progress;
+  const std::atomic<bool>* stop = nullptr;  // set from outside: nothing more is begun
 };
 
 struct ChainStep {

@@ -11,6 +11,7 @@
 #include "harness/bench/in_process_plant.h"
 #include "harness/bench/unrecorded_plant.h"
 #include "harness/procedures/memory_recorder.h"
+#include "harness/procedures/recording_frames.h"
 
 namespace towbench::harness::procedures {
 namespace {
@@ -41,38 +42,6 @@ std::uint64_t seed_of(std::uint64_t session, const std::string& name) {
   return hash;
 }
 
-template <typename T>
-void drop_front(std::vector<T>& column, std::size_t rows) {
-  column.erase(column.begin(),
-               column.begin() + static_cast<std::ptrdiff_t>(std::min(rows, column.size())));
-}
-
-// Where the controller was told its position the count jumps, faster than any axis moves. Rows
-// before that are in another frame and nothing has been driven yet.
-void drop_other_frames(identify::Recording& recording) {
-  constexpr std::int64_t kJump = 2000;
-  std::size_t from = 0;
-  for (const auto& axis : recording.axes) {
-    for (std::size_t k = 1; k < recording.rows(); ++k) {
-      if (std::abs(axis.count[k] - axis.count[k - 1]) > kJump && axis.duty_pct[k] == 0) {
-        from = std::max(from, k);
-      }
-    }
-  }
-  for (const auto which : core::kAxes) {
-    auto& axis = recording.axes[which];
-    drop_front(axis.count, from);
-    drop_front(axis.duty_pct, from);
-    drop_front(axis.reference_m, from);
-    drop_front(axis.reference_velocity_m_per_s, from);
-    drop_front(axis.velocity_m_per_s, from);
-    drop_front(axis.mode, from);
-    drop_front(axis.current_A, from);
-    drop_front(recording.force_N[which], from);
-  }
-  drop_front(recording.time_s, from);
-}
-
 }  // namespace
 
 Machine::Machine(RigFixture rig, ControllerFixture controller, std::uint64_t seed,
@@ -85,6 +54,12 @@ Machine::Machine(RigFixture rig, ControllerFixture controller, std::uint64_t see
   for (const auto axis : core::kAxes) {
     nameplates_[axis] = nameplate_of(rig_.parameters, axis);
   }
+}
+
+Machine Machine::twin(core::Axis axis, const emulator::AxisParameters& known) const {
+  auto rig = rig_;
+  rig.parameters.axes[axis].plant = known;
+  return {std::move(rig), controller_, seed_, watchers_};
 }
 
 identify::Recording Machine::play(const Conversation& conversation) const {

@@ -53,6 +53,10 @@ class Machine {
   [[nodiscard]] identify::Recording play(const Conversation& conversation,
                                          const bbmc::Configuration& configuration) const;
 
+  // The same with an axis that is known, for what an experiment shows of it. Nothing of what this
+  // machine truly is on that axis is in it but its sensors and wires.
+  [[nodiscard]] Machine twin(core::Axis axis, const emulator::AxisParameters& known) const;
+
   [[nodiscard]] const bbmc::Configuration& configuration() const noexcept {
     return controller_.configuration;
   }

@@ -21,8 +21,8 @@ namespace towbench::harness::procedures {
 struct ProcedureContext {
   const Machine& machine;
   core::Axis axis = core::Axis::kY;
-  std::filesystem::path settings;  // the procedure's own file; what it leaves out has defaults
-  identify::Estimates known;       // by the procedures before, of all axes
+  std::filesystem::path settings{};  // the procedure's own file; what it leaves out has defaults
+  identify::Estimates known{};       // by the procedures before, of all axes
   // Says how far it is, 0 to 1. May be empty.
   std::function<void(double share)> progress{};
 

@@ -7,10 +7,16 @@ namespace towbench::harness::procedures {
 std::vector<std::unique_ptr<Procedure>> identification_procedures() {
   std::vector<std::unique_ptr<Procedure>> all;
   all.push_back(drive_calibration());
+  all.push_back(time_constant());
   all.push_back(saturation_speed());
+  all.push_back(smallest_command());
+  all.push_back(safe_range());
+  all.push_back(relay_tuning());
   all.push_back(break_away_map());
+  all.push_back(torque_place_map());
   all.push_back(pulse_responses());
   all.push_back(torque_speed_map());
+  all.push_back(validation());
   return all;
 }
 
@@ -29,8 +35,16 @@ core::PerAxis<double> middle_of_tracks(const Machine& machine) {
 }
 
 double value_or(const ProcedureContext& context, std::string_view quantity, double belief) {
-  const auto* known = context.find(quantity);
-  return known == nullptr ? belief : known->value;
+  if (const auto* known = context.find(quantity)) {
+    return known->value;
+  }
+  double value = belief;
+  for (const auto& each : context.known) {
+    if (each.quantity == quantity && each.axis == core::name_of(context.axis)) {
+      value = each.value;
+    }
+  }
+  return value;
 }
 
 Figure speed_figure(const identify::Recording& data, core::Axis axis, std::string title) {

@@ -5,17 +5,16 @@
 
 #include <fmt/format.h>
 
-#include "harness/identify/ordinary_least_squares.h"
 #include "harness/identify/output_error.h"
 #include "harness/procedures/believed_model.h"
 #include "harness/procedures/procedures.h"
 #include "harness/procedures/pulse_plan.h"
+#include "harness/procedures/pulse_start.h"
 #include "harness/procedures/settings.h"
+#include "harness/procedures/two_mass_report.h"
 
 namespace towbench::harness::procedures {
 namespace {
-
-using identify::Estimate;
 
 struct Settings {
   PulseWish wish;
@@ -39,11 +38,6 @@ struct Settings {
   }
 };
 
-// What quantisation leaves is 1/sqrt(12) of a count (a right model was seen to leave 0.285). A fit
-// that leaves more has bent its parameters round something that it does not know, and its
-// intervals, which suppose the model, say nothing.
-constexpr double kMostLeft_counts = 2;
-
 class PulseResponses final : public Procedure {
  public:
   [[nodiscard]] std::string_view id() const noexcept override { return "EXP-OL-2"; }
@@ -62,24 +56,22 @@ class PulseResponses final : public Procedure {
       return ProcedureOutcome::failed(data.trouble);
     }
     context.tell(0.2);
-    identify::TwoMassStart start{.axis = believed_axis(context), .path = believed_path(context)};
-    start.knots_m = knots_of(data, context.axis, settings.knot_spacing_m);
-    start.stribeck_known = 0.7;
-    start.excess_known = 0.5;
+    const auto start = pulse_start(context, data, settings.knot_spacing_m);
     const auto fit = identify::fit_two_mass(start, data, context.axis);
-    if (!fit.converged || fit.simulated_counts.empty()) {
-      return ProcedureOutcome::failed("output error did not converge: " + fit.message);
-    }
-    if (fit.residual_rms_counts > kMostLeft_counts) {
-      return ProcedureOutcome::failed(fmt::format(
-          "the two-mass model does not explain the pulses: {:.1f} counts RMS are left, a right one "
-          "leaves the encoder's own 0.29; try a finer knot_spacing_m",
-          fit.residual_rms_counts));
+    if (const auto why = unexplained(fit); !why.empty()) {
+      return ProcedureOutcome::failed("the two-mass model does not explain the pulses: " + why);
     }
     ProcedureOutcome outcome;
-    add_estimates(context, fit, start.knots_m, data, outcome);
-    add_ols(context, settings, plan, fit, data, outcome);
-    add_figures(context, fit, data, outcome);
+    report_two_mass(
+        {.context = context,
+         .data = data,
+         .fit = fit,
+         .knots_m = start.knots_m,
+         .knots_are_bends = !start.coulomb_Nm.empty(),
+         .cutoff_Hz = settings.cutoff_Hz,
+         .procedure = "EXP-OL-2",
+         .input = fmt::format("{} % duty, {} pulses each way", plan.duty_pct, plan.pulses)},
+        outcome);
     return outcome;
   }
 
@@ -113,138 +105,6 @@ class PulseResponses final : public Procedure {
     talk.limit_s = 300;
     return context.machine.play(talk, studied_configuration(context));
   }
-
-  static std::vector<double> knots_of(const identify::Recording& data, core::Axis axis,
-                                      double spacing_m) {
-    const auto& counts = data.axes[axis].count;
-    const auto [low, high] = std::minmax_element(counts.begin(), counts.end());
-    const double from = static_cast<double>(*low) * data.metres_per_count[axis];
-    const double to = static_cast<double>(*high) * data.metres_per_count[axis];
-    const int pieces = std::clamp(static_cast<int>(std::lround((to - from) / spacing_m)), 1, 12);
-    std::vector<double> knots;
-    for (int i = 0; i <= pieces; ++i) {
-      knots.push_back(from + (to - from) * i / pieces);
-    }
-    return knots;
-  }
-
-  static void add_estimates(const ProcedureContext& context, const identify::TwoMassFit& fit,
-                            const std::vector<double>& knots, const identify::Recording& data,
-                            ProcedureOutcome& outcome) {
-    const auto scale = torque_scale(context);
-    const auto rests = fmt::format(
-        "output error of the two-mass model over {} rows, residual {:.2f} counts; torque by {}",
-        data.rows(), fit.residual_rms_counts,
-        scale.measured ? "EXP-P-1" : "the believed K_T K_amp, whose error is not in the interval");
-    const auto add = [&](const char* quantity, double value, double deviation, const char* unit,
-                         bool scales) {
-      // The simulation is exact to about one part in a thousand of what it leaves out.
-      const double whole = std::hypot(
-          deviation, value * std::hypot(kModelError, scales ? scale.relative_deviation : 0.0));
-      outcome.estimates.push_back(
-          identify::with_deviation({.quantity = quantity,
-                                    .axis = std::string(core::name_of(context.axis)),
-                                    .value = value,
-                                    .unit = unit,
-                                    .rests_on = rests,
-                                    .procedure = "EXP-OL-2"},
-                                   whole));
-    };
-    add("inertia_kg_m2", fit.axis.inertia_kg_m2, fit.inertia_deviation, "kg m2", true);
-    add("viscous_friction_Nm_s_per_rad", fit.axis.viscous_friction_Nm_s_per_rad,
-        fit.viscous_deviation, "N m s/rad", true);
-    add("chain_resonance_Hz", fit.axis.chain.resonance_Hz, fit.resonance_deviation_Hz, "Hz", false);
-    add("chain_damping_ratio", fit.axis.chain.damping_ratio, fit.damping_deviation, "1", false);
-    add("friction_common_Nm", fit.axis.coulomb_friction_Nm, fit.common_deviation_Nm, "N m", true);
-    add("friction_carriage_share", fit.axis.friction.carriage_share, fit.share_deviation, "1",
-        false);
-    add("stribeck_speed_rad_per_s", fit.axis.friction.stribeck_speed_rad_per_s,
-        fit.stribeck_deviation, "rad/s", false);
-    add("stiction_excess_Nm", fit.excess_Nm, fit.excess_deviation_Nm, "N m", true);
-    for (std::size_t i = 0; i < knots.size(); ++i) {
-      // Between knots the map may bend where no knot is.
-      double bend = 0;
-      if (i > 0 && i + 1 < knots.size()) {
-        bend = std::fabs(fit.coulomb_Nm[i - 1] - 2 * fit.coulomb_Nm[i] + fit.coulomb_Nm[i + 1]) / 8;
-      }
-      add("coulomb_friction_Nm", fit.coulomb_Nm[i], std::hypot(fit.coulomb_deviation_Nm[i], bend),
-          "N m", true);
-      outcome.estimates.back().at = knots[i];
-    }
-  }
-
-  static void add_ols(const ProcedureContext& context, const Settings& settings,
-                      const PulsePlan& plan, const identify::TwoMassFit& fit,
-                      const identify::Recording& data, ProcedureOutcome& outcome) {
-    const auto& belief = context.machine.configuration().axes[context.axis];
-    const identify::OlsInput input{
-        .torque_per_duty_Nm = torque_scale(context).torque_per_duty_Nm,
-        .cutoff_Hz = settings.cutoff_Hz,
-        .saturation_speed_m_per_s =
-            value_or(context, "saturation_speed_m_per_s", belief.speed_limit_m_per_s),
-        .largest_duty_pct = 100 * belief.drive.current_limit_A /
-                            (belief.drive.amplifier_gain_A_per_V * belief.drive.pwm_amplitude_V)};
-    const auto ols = identify::fit_ordinary_least_squares(data, context.axis, input);
-    // The same processing of a machine whose parameters are known: what it adds is its bias.
-    std::vector<double> twin(fit.simulated_counts.size());
-    std::transform(fit.simulated_counts.begin(), fit.simulated_counts.end(), twin.begin(),
-                   [](double count) { return std::floor(count); });
-    const auto of_twin = identify::fit_ordinary_least_squares(data, context.axis, input, &twin);
-    double mean_friction = 0;
-    for (const double each : fit.coulomb_Nm) {
-      mean_friction += each / static_cast<double>(fit.coulomb_Nm.size());
-    }
-    ResultTable table{
-        .title = "Ordinary least squares (4.9) and output error",
-        .head = {"", "OLS", "output error", "OLS off by, %", "of which the method's bias, %"}};
-    const auto row = [&](const char* name, double biased, double value, double on_twin) {
-      table.rows.push_back({name, fmt::format("{:.4g}", biased), fmt::format("{:.4g}", value),
-                            fmt::format("{:+.1f}", 100 * (biased / value - 1)),
-                            fmt::format("{:+.1f}", 100 * (on_twin / value - 1))});
-    };
-    row("J, kg m2", ols.inertia_kg_m2, fit.axis.inertia_kg_m2, of_twin.inertia_kg_m2);
-    row("B, N m s/rad", ols.viscous_Nm_s_per_rad, fit.axis.viscous_friction_Nm_s_per_rad,
-        of_twin.viscous_Nm_s_per_rad);
-    row("C, mean of the map, N m", ols.coulomb_Nm, mean_friction, of_twin.coulomb_Nm);
-    outcome.tables.push_back(std::move(table));
-    ResultTable criteria{.title = fmt::format("Criteria at {} % duty, {} pulses each way",
-                                              plan.duty_pct, plan.pulses),
-                         .head = {"criterion", "demand", "measured", "met"}};
-    for (const auto& each : ols.criteria) {
-      criteria.rows.push_back({each.name, each.demand, each.measured, each.met ? "yes" : "NO"});
-    }
-    outcome.tables.push_back(std::move(criteria));
-  }
-
-  static void add_figures(const ProcedureContext& context, const identify::TwoMassFit& fit,
-                          const identify::Recording& data, ProcedureOutcome& outcome) {
-    auto figure = speed_figure(data, context.axis, "Pulse responses");
-    figure.curves[0].name = "measured";
-    figure.caption = "Measured and simulated with the estimates; compare Figs 7.4 to 7.6.";
-    Curve simulated{.name = "simulated"};
-    Curve residual{.name = "measured - simulated"};
-    constexpr std::size_t kSpan = 10;
-    const std::size_t every = std::max<std::size_t>(1, data.rows() / 2000);
-    for (std::size_t k = kSpan; k < data.rows(); k += every) {
-      simulated.x.push_back(data.time_s[k]);
-      simulated.y.push_back((fit.simulated_counts[k] - fit.simulated_counts[k - kSpan]) *
-                            data.metres_per_count[context.axis] /
-                            (data.time_s[k] - data.time_s[k - kSpan]));
-      residual.x.push_back(data.time_s[k]);
-      residual.y.push_back(
-          1e3 * data.metres_per_count[context.axis] *
-          (static_cast<double>(data.axes[context.axis].count[k]) + 0.5 - fit.simulated_counts[k]));
-    }
-    figure.curves.push_back(std::move(simulated));
-    outcome.figures.push_back(std::move(figure));
-    outcome.figures.push_back(
-        {.title = "What the model leaves, from one end of the run to the other",
-         .x_label = "time, s",
-         .y_label = "position, mm",
-         .curves = {std::move(residual)}});
-  }
-
-  static constexpr double kModelError = 1e-3;
 };
 
 }  // namespace

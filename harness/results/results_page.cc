@@ -6,76 +6,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/results/identification_tables.h"
+
 namespace towbench::harness {
 namespace {
-
-using core::Axis;
-
-constexpr const char* kMissing = "not measured";
-
-std::string bench_cell(const identify::Estimate* found) {
-  return found == nullptr
-             ? kMissing
-             : fmt::format("{:.4g} ({:.4g} .. {:.4g})", found->value, found->low, found->high);
-}
-
-// One row: quantity of the identification against the thesis and the truth.
-struct Row {
-  const char* words;
-  const char* quantity;
-  const char* axis;
-  const char* thesis;
-  double truth;
-};
-
-std::string table_of(const Results& results, std::initializer_list<Row> rows) {
-  std::string text = "| quantity | thesis | bench (95 %) | truth |\n| --- | --- | --- | --- |\n";
-  for (const auto& row : rows) {
-    text += fmt::format("| {} | {} | {} | {:.4g} |\n", row.words, row.thesis,
-                        bench_cell(identify::find(results.identified, row.quantity, row.axis)),
-                        row.truth);
-  }
-  return text;
-}
-
-std::string parameters(const Results& results) {
-  const auto& y = results.truth.axes[Axis::kY];
-  const auto& plant = y.plant;
-  std::string text = "## Table 7.1: actuator parameters\n\n";
-  text += table_of(
-      results,
-      {{"K_T, N m/A", "torque_constant_Nm_per_A", "y", "26.7e-3", plant.torque_constant_Nm_per_A},
-       {"K_amp, A/V", "amplifier_gain_A_per_V", "y", "0.37", plant.amplifier_gain_A_per_V},
-       {"I_max, A", "current_limit_A", "y", "3.7", plant.current_limit_A},
-       {"PWM amplitude, V", "pwm_amplitude_V", "y", "10", y.command.pwm_amplitude_V}});
-  text += "\n## Table 7.4: effective dynamics of Y, and (7.2)\n\n";
-  text += table_of(
-      results, {{"J_eff, kg m2", "inertia_kg_m2", "y", "1.714e-5", plant.inertia_kg_m2},
-                {"B_eff, N m s/rad", "viscous_friction_Nm_s_per_rad", "y", "1.106e-5",
-                 plant.viscous_friction_Nm_s_per_rad},
-                {"C_eff, N m", "coulomb_friction_Nm", "y", "2.26e-3", plant.coulomb_friction_Nm},
-                {"break-away, N m", "breakaway_Nm", "y", "3.7e-3", plant.friction.breakaway_Nm},
-                {"chain mode, Hz", "chain_resonance_Hz", "y", "seen, not identified",
-                 plant.chain.resonance_Hz},
-                {"its damping", "chain_damping_ratio", "y", "seen, not identified",
-                 plant.chain.damping_ratio},
-                {"Stribeck speed, rad/s", "stribeck_speed_rad_per_s", "y", "not reached",
-                 plant.friction.stribeck_speed_rad_per_s}});
-  text +=
-      "\nErratum: the table's unit of B, N s, is a misprint for N m s/rad. C and break-away "
-      "without a place are "
-      "those of the\nlowest place of the track; mid tank has up to 1.6e-3 N m more.\n";
-  text +=
-      "\n## Table 7.5: the thesis's hand adaptation\n\n"
-      "J/0.8, B/0.8 and 1.8/0.8 C of Table 7.4 (7.6), (7.7), an \"intuitive guess\" against the "
-      "missing friction by "
-      "place:\n2.1425e-5 kg m2, 1.3825e-5 N m s/rad, 5.085e-3 N m. The bench needs no such step: "
-      "the truth of the emulated "
-      "machine is\nTable 7.4's set with friction by place on top, and that is what the rows above "
-      "are compared with. "
-      "A machine with Table 7.5's\nown values is `fixtures/rigs/table-7.5.toml`.\n";
-  return text;
-}
 
 std::string tracking(const Results& results) {
   // Table 7.6: mean position error in "mm".
@@ -221,9 +155,12 @@ std::string results_page(const Results& results) {
       "# Results: the thesis's tables, the bench, the truth\n\n"
       "Machine `{}`, plain PID of `bbmc-tuned`. `./towbench results` writes this page. Bench: "
       "estimated from what a bench logs, with "
-      "95 %\nintervals. Truth: what the emulated machine is, which no estimator sees.\n\n",
-      results.rig);
-  text += parameters(results);
+      "95 %\nintervals. Truth: what the emulated machine is, which no estimator sees. {} of it "
+      "took "
+      "{:.0f} s of wall clock in one process.\n\n",
+      results.rig, results.partly_from_before ? "What was not there from before" : "All",
+      results.wall_s);
+  text += identification_tables(results.truth, results.identified);
   text += tracking(results);
   text += fast_tracking(results);
   text += drag_tables(results);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "harness/judge/recovery.h"
+#include "harness/procedures/chain.h"
 #include "harness/procedures/tow/tow_procedure.h"
 #include "harness/results/tracked_run.h"
 
@@ -25,12 +26,14 @@ struct TowResult {
 
 struct Results {
   std::string rig;
-  emulator::RigParameters truth;   // of the machine
-  identify::Estimates identified;  // by the procedures of the identification
+  emulator::RigParameters truth;  // of the machine
+  procedures::ChainResult identified;
   std::vector<TowResult> tows;
   std::vector<TrackedSpeed> slow;      // the 14 speeds of Table 7.6, thesis's trapezoids
   std::vector<TrackedSpeed> fast_air;  // the 6 speeds of Table 8.3
   std::vector<TrackedSpeed> fast_water;
+  double wall_s = 0;
+  bool partly_from_before = false;  // an interrupted set was continued
 };
 
 [[nodiscard]] std::string results_page(const Results& results);
