@@ -85,6 +85,15 @@ TEST(Identification, RecoversTheNominalXAxis) {
   expect_recovered(rig, identified(rig, core::Axis::kX, 1, {}));
 }
 
+// Inertia, friction, drive constants and chain by up to 40 % off: the controller believes another
+// machine.
+TEST(Identification, RecoversTheYAxisOfADrawnMachine) {
+  const auto rig = drawn_rig(1);
+  expect_recovered(rig, identified(rig, core::Axis::kY, 2,
+                                   {"EXP-P-1", "EXP-P-2", "EXP-P-3", "EXP-OL-1", "EXP-CL-2",
+                                    "EXP-OL-2", "EXP-CL-1", "validation"}));
+}
+
 TEST(Identification, WritesAPlantThatTheEmulatorLoads) {
   const auto rig = instrumented_rig();
   const Machine machine(rig, tuned_controller(), 1);
