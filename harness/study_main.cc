@@ -5,6 +5,6 @@
 
 int main(int argc, char** argv) {
   using namespace towbench::harness;
-  constexpr std::array<AddVerb, 3> kVerbs{add_identify, add_tow, add_results};
+  constexpr std::array<AddVerb, 4> kVerbs{add_identify, add_tow, add_results, add_diagnose};
   return run_command_line(kVerbs, argc, argv);
 }

@@ -23,7 +23,7 @@ void add_report(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_panel(CLI::App& app, int& exit_code);
 void add_completion(CLI::App& app, int& exit_code);
-void add_diagnose(CLI::App& app, int& exit_code);  // of towbench-diagnose alone
+void add_diagnose(CLI::App& app, int& exit_code);  // of towbench-study alone
 void add_identify(CLI::App& app, int& exit_code);  // of towbench-study alone
 void add_results(CLI::App& app, int& exit_code);   // of towbench-study alone
 void add_tow(CLI::App& app, int& exit_code);       // of towbench-study alone

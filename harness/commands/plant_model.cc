@@ -1,7 +1,5 @@
 #include "harness/commands/plant_model.h"
 
-#include <cmath>
-
 #include "core/axis.h"
 #include "emulator/plant/derived_mechanics.h"
 #include "harness/fixtures/rig_fixture.h"
@@ -9,7 +7,7 @@
 namespace towbench::harness {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
+constexpr double kDegrees = 57.29577951308232;  // of a radian
 
 void add_stated_terms(diagnose::NominalModel& m, const emulator::AxisParameters& p,
                       const toml::table& stated) {
@@ -26,10 +24,11 @@ void add_stated_terms(diagnose::NominalModel& m, const emulator::AxisParameters&
   }
   if (stated["chain"] && !p.chain.rigid) {
     const auto d = emulator::derive(p);
-    const double w = std::sqrt(d.chain_stiffness_N_per_m / d.carriage_mass_kg);
-    m.chain_load_kg = d.carriage_mass_kg;
-    m.chain_frequency_Hz = w / kTurn;
-    m.chain_damping_ratio = d.chain_damping_N_s_per_m / (2 * d.carriage_mass_kg * w);
+    m.chain = {.motor_kg = p.rotor_inertia_kg_m2 / (r * r),
+               .stiffness_N_per_m = d.chain_stiffness_N_per_m,
+               .damping_N_s_per_m = d.chain_damping_N_s_per_m,
+               .load_share = p.friction.carriage_share,
+               .play_m = p.gear.backlash_deg / kDegrees * p.sprocket_radius_m + p.chain.slack_m};
   }
 }
 

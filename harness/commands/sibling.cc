@@ -47,6 +47,7 @@ void add_identify_elsewhere(CLI::App& app, int& exit_code) {
   add_elsewhere(app, exit_code, "identify", "find a machine's parameters by experiments on it");
   add_elsewhere(app, exit_code, "tow", "the tow experiments of chapter 8, judged");
   add_elsewhere(app, exit_code, "results", "the thesis's tables: thesis, bench, truth");
+  add_elsewhere(app, exit_code, "diagnose", "name what a model gets wrong, from measured data");
 }
 
 }  // namespace towbench::harness

@@ -33,7 +33,7 @@ Candidates::Candidates(const Dataset& data, const Context& context)
 
 Eigen::MatrixXd Candidates::columns(const Term& term) const {
   return data_.stack(
-      [&](const Signals& s) { return term.effect->columns(s, context_, term.scales); });
+      [&](const Signals& s) { return effect_columns(*term.effect, s, context_, term.scales); });
 }
 
 const Eigen::MatrixXd& Candidates::cached(const Effect& effect, const Scales& scales) {

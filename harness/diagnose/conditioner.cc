@@ -14,7 +14,8 @@ std::vector<char> tainted(const Signals& signals, const std::vector<char>& missi
   std::vector<char> bad(static_cast<std::size_t>(n), 0);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    if (signals.standing[at] != 0 || missing[at] != 0) {
+    const bool lost = !signals.out_of_step.empty() && signals.out_of_step[at] != 0;
+    if (signals.standing[at] != 0 || missing[at] != 0 || lost) {
       const Eigen::Index from = std::max<Eigen::Index>(0, i - reach);
       const Eigen::Index to = std::min(n, i + reach + 1);
       std::fill(bad.begin() + from, bad.begin() + to, char{1});

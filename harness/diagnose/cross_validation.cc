@@ -10,7 +10,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kStretches = 12;  // of a run
+constexpr Index kFoldStretches = 12;  // of a run
 constexpr Index kFolds = 4;
 
 std::vector<Index> fold_of_each_row(const std::vector<Index>& starts) {
@@ -18,7 +18,7 @@ std::vector<Index> fold_of_each_row(const std::vector<Index>& starts) {
   for (std::size_t run = 0; run + 1 < starts.size(); ++run) {
     const Index rows = starts[run + 1] - starts[run];
     for (Index row = 0; row < rows; ++row) {
-      folds.push_back((row * kStretches / rows) % kFolds);
+      folds.push_back((row * kFoldStretches / rows) % kFolds);
     }
   }
   return folds;

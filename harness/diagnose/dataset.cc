@@ -3,12 +3,7 @@
 namespace towbench::harness::diagnose {
 
 Eigen::MatrixXd base_columns(const Signals& signals) {
-  Eigen::MatrixXd raw(signals.size(), static_cast<Eigen::Index>(kBaseColumns));
-  raw.col(kMass) = signals.acceleration_m_per_s2;
-  raw.col(kViscous) = signals.speed_m_per_s;
-  raw.col(kCoulomb) = signals.direction;
-  raw.col(kBias).setOnes();
-  return raw;
+  return signals.base;
 }
 
 Eigen::Index Dataset::rows() const noexcept {
@@ -53,10 +48,10 @@ Eigen::VectorXd Dataset::coordinate(
 }
 
 Dataset make_dataset(const std::vector<Run>& runs, const Conditioning& conditioning,
-                     bool input_is_held, const Conditioner::Wanted& wanted) {
-  Dataset data{.members = {}, .input_is_held = input_is_held, .conditioning = conditioning};
+                     const Baseline& baseline, const Conditioner::Wanted& wanted) {
+  Dataset data{.members = {}, .baseline = baseline, .conditioning = conditioning};
   for (const Run& run : runs) {
-    Signals signals = make_signals(run, conditioning, input_is_held);
+    Signals signals = make_signals(run, conditioning, baseline);
     Conditioner conditioner(signals, run.missing, conditioning, wanted);
     data.members.push_back({run, std::move(signals), std::move(conditioner)});
   }

@@ -5,15 +5,12 @@
 #include <functional>
 #include <vector>
 
+#include "harness/diagnose/baseline.h"
 #include "harness/diagnose/conditioner.h"
 #include "harness/diagnose/run.h"
 #include "harness/diagnose/signals.h"
 
 namespace towbench::harness::diagnose {
-
-// Base columns, in this order: F = M a + B v + C sgn v + b.
-enum BaseColumn : Eigen::Index { kMass, kViscous, kCoulomb, kBias, kBaseColumns };
-using Theta = Eigen::Matrix<double, kBaseColumns, 1>;
 
 // Raw base columns of one run at its full rate.
 [[nodiscard]] Eigen::MatrixXd base_columns(const Signals& signals);
@@ -25,7 +22,7 @@ struct Dataset {
     Conditioner conditioner;
   };
   std::vector<Member> members;
-  bool input_is_held = true;
+  Baseline baseline;
   Conditioning conditioning;
 
   [[nodiscard]] Eigen::Index rows() const noexcept;
@@ -40,6 +37,6 @@ struct Dataset {
 };
 
 [[nodiscard]] Dataset make_dataset(const std::vector<Run>& runs, const Conditioning& conditioning,
-                                   bool input_is_held, const Conditioner::Wanted& wanted);
+                                   const Baseline& baseline, const Conditioner::Wanted& wanted);
 
 }  // namespace towbench::harness::diagnose

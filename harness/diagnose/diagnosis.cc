@@ -19,22 +19,29 @@ constexpr Index kFewestRows = 60;
 
 // Of the only run of a diagnosis every fourth stretch is held out, to be scored on at the end.
 constexpr Index kStretches = 12;
-constexpr Index kTurn = 4;
+constexpr Index kEveryNth = 4;
+
+// Of an elastic axis's fit.
+constexpr int kMostRounds = 8;
+constexpr double kMoved = 0.01;    // relative; less is linear
+constexpr double kFarthest = 1.2;  // a round may move a coefficient by this factor
 
 bool everywhere(Index /*row*/, Index /*rows*/) {
   return true;
 }
 bool held_out(Index row, Index rows) {
-  return (row * kStretches / rows) % kTurn == kTurn - 1;
+  return (row * kStretches / rows) % kEveryNth == kEveryNth - 1;
 }
 bool not_held_out(Index row, Index rows) {
   return !held_out(row, rows);
 }
 
-void take_off_known_terms(std::vector<Run>& runs, const NominalModel& model,
+void take_off_known_terms(std::vector<Run>& runs, const Baseline& baseline,
                           const Conditioning& conditioning) {
   for (Run& run : runs) {
-    run.known_N = known_force_N(model, make_signals(run, conditioning, model.input_is_held));
+    if (!baseline.model.elastic()) {
+      run.known_N = known_force_N(baseline.model, make_signals(run, conditioning, baseline));
+    }
   }
 }
 
@@ -44,25 +51,50 @@ struct Split {
   bool same_session = false;
 };
 
-Split split(const Request& request) {
+Split split(const Request& request, const Baseline& baseline) {
   std::vector<Run> runs = request.runs;
   std::vector<Run> holdout = request.holdout;
   std::vector<Run> all = runs;
   all.insert(all.end(), holdout.begin(), holdout.end());
   const Conditioning conditioning = choose_conditioning(all, std::max(request.model.mass_kg, 1e-9));
-  const bool held = request.model.input_is_held;
-  take_off_known_terms(runs, request.model, conditioning);
-  take_off_known_terms(holdout, request.model, conditioning);
+  take_off_known_terms(runs, baseline, conditioning);
+  take_off_known_terms(holdout, baseline, conditioning);
   if (holdout.empty() && runs.size() > 1) {
     holdout.push_back(runs.back());
     runs.pop_back();
   }
   if (!holdout.empty()) {
-    return {make_dataset(runs, conditioning, held, everywhere),
-            make_dataset(holdout, conditioning, held, everywhere), false};
+    return {make_dataset(runs, conditioning, baseline, everywhere),
+            make_dataset(holdout, conditioning, baseline, everywhere), false};
   }
-  return {make_dataset(runs, conditioning, held, not_held_out),
-          make_dataset(runs, conditioning, held, held_out), true};
+  return {make_dataset(runs, conditioning, baseline, not_held_out),
+          make_dataset(runs, conditioning, baseline, held_out), true};
+}
+
+// An elastic axis is not linear in its mass: its base columns are taken again where the fit lies,
+// until that is where they were taken.
+Split split_around_the_fit(const Request& request) {
+  Baseline baseline = stated_baseline(request.model);
+  Split data = split(request, baseline);
+  for (int round = 0; request.model.elastic() && round < kMostRounds; ++round) {
+    if (data.fit.rows() < kFewestRows) {
+      break;
+    }
+    const Theta fitted = make_context(request.model, data.fit).theta;
+    const Theta off = (fitted - baseline.at).cwiseAbs();
+    if (off[kMass] < kMoved * baseline.at[kMass] &&
+        off[kCoulomb] < kMoved * baseline.at[kCoulomb] &&
+        off[kViscous] < kMoved * baseline.at[kViscous]) {
+      break;
+    }
+    for (const auto j : {kMass, kViscous, kCoulomb}) {
+      const double stated = baseline.at[j];
+      baseline.at[j] = std::clamp(fitted[j], stated / kFarthest, stated * kFarthest);
+    }
+    baseline.at[kBias] = fitted[kBias];
+    data = split(request, baseline);
+  }
+  return data;
 }
 
 // Force that repeats with the reference differs from lap to lap by noise alone.
@@ -96,7 +128,7 @@ std::optional<double> lap_noise_N(const Dataset& data) {
 // A log in the wrong unit looks like one without motion: its noise would drown a true one's forces.
 void explain_lack_of_rows(const Request& request, const Split& data, Findings& findings) {
   const Dataset plain =
-      make_dataset(request.runs, Conditioning{}, request.model.input_is_held, everywhere);
+      make_dataset(request.runs, Conditioning{}, stated_baseline(request.model), everywhere);
   if (plain.rows() >= kFewestRows) {
     check_against_model(plain, make_context(request.model, plain), findings);
   }
@@ -129,7 +161,7 @@ void conclude(Diagnosis& d) {
 
 Diagnosis diagnose(const Request& request) {
   Diagnosis d;
-  const Split data = split(request);
+  const Split data = split_around_the_fit(request);
   if (std::min(data.fit.rows(), data.heldout.rows()) < kFewestRows) {
     explain_lack_of_rows(request, data, d.findings);
     return d;
@@ -146,6 +178,11 @@ Diagnosis diagnose(const Request& request) {
   d.selection = select_causes(data.fit, data.same_session ? nullptr : &abroad, d.context,
                               request.seed, request.progress);
   refit_and_score(d.selection, data.fit, heldout, d.context, request.seed);
+  const Eigen::VectorXd supplied =
+      heldout.residual({{}, Eigen::VectorXd(stated_baseline(request.model).at)});
+  const Eigen::VectorXd extended =
+      heldout.residual({d.selection.terms(), d.selection.after.coefficients});
+  d.gain_over_supplied = heldout.gain(supplied, extended, request.seed);
   d.parameters = judge_parameters(request.model, d.selection.after, d.selection.terms());
   d.unexplained = find_unexplained(data.fit, d.selection.after);
   d.not_testable = find_not_testable(d.selection);

@@ -33,6 +33,8 @@ struct Diagnosis {
   std::optional<Unexplained> unexplained;
   std::vector<NotTestable> not_testable;
   std::vector<std::optional<NextExperiment>> separating;  // one a cause, where it has rivals
+  // Of refit and causes together over the model as it was supplied, on held-out data.
+  Gain gain_over_supplied;
   std::optional<double> lap_to_lap_rms_N;  // of repeats of the reference: a floor without a model
   double heldout_force_rms_N = 0;
   bool heldout_same_session = false;

@@ -107,6 +107,7 @@ Json heldout(const Diagnosis& d) {
   return {{"baseline", side(gain.before_rms_N)},
           {"extended", side(gain.after_rms_N)},
           {"gain_pct", total},
+          {"gain_over_supplied_pct", interval(d.gain_over_supplied.ci95, 100, "ci95")},
           {"same_session", d.heldout_same_session}};
 }
 
@@ -170,9 +171,11 @@ void write_series(const Diagnosis& d, const std::filesystem::path& folder) {
     return d.data.coordinate([=](const Signals& s) -> Eigen::VectorXd { return s.*member; });
   };
   const Evidence& e = d.selection.after;
+  const Eigen::VectorXd force =
+      d.data.stack([](const Signals& s) -> Eigen::MatrixXd { return s.force_N(); });
   Eigen::MatrixXd table(e.y.size(), 7 + static_cast<Eigen::Index>(d.selection.causes.size()));
   table.leftCols<7>() << at(&Signals::time_s), at(&Signals::position_m),
-      at(&Signals::speed_m_per_s), at(&Signals::acceleration_m_per_s2), e.y,
+      at(&Signals::speed_m_per_s), at(&Signals::acceleration_m_per_s2), force,
       d.selection.before.residual, e.residual;
   Eigen::Index column = kBaseColumns;
   for (std::size_t i = 0; i < d.selection.causes.size(); ++i) {

@@ -28,11 +28,16 @@ struct Context {
   double duration_s = 0;
 
   [[nodiscard]] Eigen::VectorXd model_force_N(const Signals& signals) const {
-    return base_columns(signals) * theta;
+    Eigen::VectorXd force = base_columns(signals) * theta;
+    if (signals.known_N.size() == signals.size()) {
+      force += signals.known_N;
+    }
+    return force;
   }
 };
 
 using Scales = std::vector<double>;
+enum class ActsOn { kMotor, kLoad, kBoth };
 enum class LineSearch { kNone, kPosition, kTime };
 
 struct Effect {
@@ -45,11 +50,18 @@ struct Effect {
   // The base column that the mean of its shape falls into, -1 for none: with the effect found, that
   // column's parameter is no longer comparable with the supplied one.
   int shares_mean_with = -1;
+  ActsOn acts_on = ActsOn::kMotor;
   LineSearch search = LineSearch::kNone;  // its one scale is a frequency sought in the residual
   std::string needs = {};                 // the data that would show it
   std::vector<Scales> (*grid)(const Context&) = nullptr;
   Eigen::MatrixXd (*columns)(const Signals&, const Context&, std::span<const double>) = nullptr;
 };
+
+// An effect's columns where it acts: as they are on a rigid axis and at the motor; what acts on the
+// load is computed from the load's motion and felt through the chain; friction is on both.
+[[nodiscard]] Eigen::MatrixXd effect_columns(const Effect& effect, const Signals& signals,
+                                             const Context& context,
+                                             std::span<const double> scales);
 
 using Library = std::vector<Effect>;
 

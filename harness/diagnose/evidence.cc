@@ -27,6 +27,10 @@ VectorXd least_squares(const MatrixXd& x, const VectorXd& y) {
   return scaled.colPivHouseholderQr().solve(y).cwiseQuotient(scale);
 }
 
+double rms(const VectorXd& x) {
+  return std::sqrt(x.squaredNorm() / static_cast<double>(std::max<Index>(1, x.size())));
+}
+
 struct Processed {
   VectorXd y;
   MatrixXd x;
@@ -45,11 +49,11 @@ Processed process_twins(const Dataset& data, const Context& context, const std::
     const Index extra_columns = raw.cols() - kBaseColumns;
     const VectorXd extra = raw.rightCols(extra_columns) * coefficients.tail(extra_columns);
     const Theta theta = coefficients.head<kBaseColumns>();
-    const Twin twin = simulate_twin(member, theta, extra, laws[i], data.input_is_held, seed + i);
+    const Twin twin = simulate_twin(member, theta, data.baseline, extra, laws[i], seed + i);
     if (twin.law == ControlLaw::Kind::kTracking) {
       out.law = twin.law;
     }
-    const Signals signals = make_signals(twin.run, data.conditioning, data.input_is_held);
+    const Signals signals = make_signals(twin.run, data.conditioning, data.baseline);
     const Index rows = member.conditioner.rows();
     out.y.segment(at, rows) = member.conditioner.column(signals.input_N);
     out.x.middleRows(at, rows) = member.conditioner.columns(raw_columns(signals, context, terms));
@@ -77,7 +81,7 @@ MatrixXd raw_columns(const Signals& signals, const Context& context,
   Index at = kBaseColumns;
   for (const Term& term : terms) {
     const auto count = static_cast<Index>(term.effect->coefficients.size());
-    raw.middleCols(at, count) = term.effect->columns(signals, context, term.scales);
+    raw.middleCols(at, count) = effect_columns(*term.effect, signals, context, term.scales);
     at += count;
   }
   return raw;
@@ -94,7 +98,9 @@ Evidence weigh(const Dataset& data, const Context& context, const std::vector<Te
   e.starts = data.starts();
   e.y = data.stack([](const Signals& s) -> MatrixXd { return s.input_N; });
   e.x = design_matrix(data, context, terms);
+  e.force_rms_N = rms(data.stack([](const Signals& s) -> MatrixXd { return s.force_N(); }));
   const VectorXd plain = least_squares(e.x, e.y);
+  const double left = rms(e.y - e.x * plain);
   e.coefficients = plain;
   VectorXd twin_residual = VectorXd::Zero(e.y.size());
   for (int round = 0; round < rounds; ++round) {
@@ -103,12 +109,17 @@ Evidence weigh(const Dataset& data, const Context& context, const std::vector<Te
     // theta <- theta + theta_hat(data) - theta_hat(twin(theta))
     const VectorXd bias = least_squares(twin.x, twin.y) - e.coefficients;
     twin_residual = twin.y - twin.x * e.coefficients;
+    if (twin.law == ControlLaw::Kind::kTracking && rms(twin_residual) > left) {
+      // Noisier than the log itself: no twin of it.
+      twin_residual.setZero();
+      e.coefficients = plain;
+      break;
+    }
     e.coefficients = plain - bias;
   }
   e.residual = e.y - e.x * e.coefficients;
   e.corrected = e.residual - twin_residual;
-  e.twin_rms_N = std::sqrt(twin_residual.squaredNorm() /
-                           static_cast<double>(std::max<Index>(1, twin_residual.size())));
+  e.twin_rms_N = rms(twin_residual);
   e.basis = orthonormal(e.x);
   e.covariance = hac_of_coefficients(e);
   return e;

@@ -25,6 +25,7 @@ struct Evidence {
   Eigen::MatrixXd basis;         // orthonormal, of x
   Eigen::VectorXd residual;      // y - x coefficients
   Eigen::VectorXd corrected;     // minus the same of the twin
+  double force_rms_N = 0;        // of what the command made
   double twin_rms_N = 0;         // what processing and quantisation alone leave
   std::vector<Eigen::Index> starts;
   ControlLaw::Kind law = ControlLaw::Kind::kTracking;

@@ -15,8 +15,9 @@ struct ExtendedPlant {
   std::vector<std::string> left_out;  // effects that the emulator's plant cannot express
 };
 
-// `plant`: the parsed file that the model came from, motor side or load side. Refitted parameters
-// replace the file's; stribeck, position_friction and command_saturation become keys.
+// `plant`: the parsed file that the model came from, motor side or load side. Where something
+// was found the refitted parameters replace the file's, and effects that the plant has keys for
+// become keys; a chain keeps its stiffness.
 [[nodiscard]] ExtendedPlant extend_plant(const toml::table& plant, const Diagnosis& diagnosis);
 
 }  // namespace towbench::harness::diagnose

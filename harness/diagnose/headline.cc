@@ -46,6 +46,12 @@ std::string what_is_wrong(const Diagnosis& d) {
 }
 
 std::string how_sure(const Diagnosis& d) {
+  if (d.selection.causes.empty() && !moved_parameters(d).empty()) {
+    return fmt::format(
+        "each more than 4 standard errors from the model; of {} groups of effects "
+        "none passed alpha = {:g} and the held-out test",
+        d.selection.tried, kAlpha);
+  }
   if (d.selection.causes.empty()) {
     return fmt::format("{} groups of effects tried, none passed alpha = {:g} and the held-out test",
                        d.selection.tried, kAlpha);
@@ -91,7 +97,8 @@ std::string headline(const Diagnosis& d) {
     }
     return out;
   }
-  const Gain& gain = d.selection.gain;
+  const bool refit_alone = d.selection.causes.empty() && !moved_parameters(d).empty();
+  const Gain& gain = refit_alone ? d.gain_over_supplied : d.selection.gain;
   std::string out = fmt::format("What is wrong: {}.\n", what_is_wrong(d));
   out += fmt::format("How sure:      {}.\n", how_sure(d));
   out += fmt::format(

@@ -75,7 +75,7 @@ VectorXd HeldOut::residual(const FittedModel& model) const {
 }
 
 double HeldOut::force_rms_N() const {
-  const VectorXd y = data_.stack([](const Signals& s) -> MatrixXd { return s.input_N; });
+  const VectorXd y = data_.stack([](const Signals& s) -> MatrixXd { return s.force_N(); });
   return std::sqrt(y.squaredNorm() / static_cast<double>(std::max<Index>(1, y.size())));
 }
 

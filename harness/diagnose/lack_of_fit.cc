@@ -125,8 +125,7 @@ std::optional<Unexplained> find_unexplained(const Dataset& data, const Evidence&
   const double speed = data.coordinate(all[1].raw).cwiseAbs().maxCoeff();
   shapes.push_back(line_along(data, e, all[0], data.conditioning.cutoff_Hz / speed));
   shapes.push_back(line_along(data, e, all[4], data.conditioning.cutoff_Hz * 0.9));
-  const double n = static_cast<double>(e.y.size());
-  const double force = std::sqrt(e.y.squaredNorm() / n);
+  const double force = e.force_rms_N;
   std::optional<Unexplained> worst;
   for (Unexplained& shape : shapes) {
     shape.p_value = std::min(1.0, shape.p_value * static_cast<double>(shapes.size()));

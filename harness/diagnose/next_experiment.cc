@@ -91,20 +91,22 @@ double separation(const Dataset& data, const Context& context, const Cause& caus
                   const Rival& rival) {
   const auto columns = [&](const Term& term) {
     return data.stack(
-        [&](const Signals& s) { return term.effect->columns(s, context, term.scales); });
+        [&](const Signals& s) { return effect_columns(*term.effect, s, context, term.scales); });
   };
   return left_of(data.stack(base_columns), columns(cause.term), cause.beta, columns(rival.term));
 }
 
-Dataset virtual_data(const Motion& motion, const Context& c, const Conditioning& conditioning) {
+Dataset virtual_data(const Motion& motion, const Context& c, const Conditioning& conditioning,
+                     Baseline baseline) {
+  baseline.model.input_is_held = false;
   Run run;
   run.period_s = 1 / kRate_Hz;
   run.position_m = motion.position_m;
   run.input_N = VectorXd::Zero(motion.position_m.size());
   run.missing.assign(static_cast<std::size_t>(run.size()), 0);
-  const Signals moved = make_signals(run, conditioning, false);
+  const Signals moved = make_signals(run, conditioning, baseline);
   run.input_N = c.model_force_N(moved);
-  return make_dataset({run}, conditioning, false, [](Index, Index) { return true; });
+  return make_dataset({run}, conditioning, baseline, [](Index, Index) { return true; });
 }
 
 }  // namespace
@@ -121,7 +123,7 @@ std::optional<NextExperiment> separate(const Dataset& data, const Context& conte
   const Conditioning conditioning{std::min(40.0, data.conditioning.cutoff_Hz),
                                   std::min(100.0, data.conditioning.smoothing_Hz)};
   for (const Motion& motion : menu(context, 3 * top_acceleration)) {
-    const Dataset made = virtual_data(motion, context, conditioning);
+    const Dataset made = virtual_data(motion, context, conditioning, data.baseline);
     if (made.rows() < 200) {
       continue;
     }

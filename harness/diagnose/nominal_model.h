@@ -9,6 +9,15 @@
 
 namespace towbench::harness::diagnose {
 
+// Motor and load as two bodies, (3.37)-(3.38): mass_kg and friction of the model are of both.
+struct ElasticChain {
+  double motor_kg = 0;  // what turns with the motor, (n/R)^2 of its inertia
+  double stiffness_N_per_m = 0;
+  double damping_N_s_per_m = 0;
+  double load_share = 0;  // of Coulomb, break-away and viscous friction
+  double play_m = 0;      // motor travel, seen at the load, from one flank to the other
+};
+
 struct NominalModel {
   std::string axis = "y";
   double mass_kg = 0;
@@ -29,11 +38,10 @@ struct NominalModel {
   bool stribeck_is_lorentz = false;   // (3.26)
   std::vector<double> friction_at_m;  // position friction, piecewise linear, (3.34)
   std::vector<double> friction_N;
-  double chain_frequency_Hz = 0;   // of the load against a held motor
-  double chain_damping_ratio = 0;  // of that mode
-  double chain_load_kg = 0;
+  ElasticChain chain;  // stiffness 0: rigid
   // True when mass, friction levels come from a file; false: fitted only, nothing was supplied.
   bool supplied = true;
+  [[nodiscard]] bool elastic() const noexcept { return chain.stiffness_N_per_m > 0; }
   // The log's input is held from its own sample to the next, so it acts half a period late.
   bool input_is_held = true;
 };

@@ -8,7 +8,7 @@ namespace towbench::harness::diagnose {
 namespace {
 
 constexpr double kErrors = 4;
-constexpr double kForceShare = 0.01;
+constexpr double kLeastForceShare = 0.01;
 
 // fitted / supplied with its standard error.
 struct Ratio {
@@ -39,8 +39,7 @@ std::vector<ParameterShift> judge_parameters(const NominalModel& model, const Ev
   const std::array<std::string, 4> units{"kg", "N s/m", "N", "N"};
   const std::array<double, 4> supplied{model.mass_kg, model.viscous_N_s_per_m, model.coulomb_N,
                                        model.bias_N};
-  const double force = std::sqrt(evidence.y.squaredNorm() /
-                                 static_cast<double>(std::max<Eigen::Index>(1, evidence.y.size())));
+  const double force = evidence.force_rms_N;
   std::vector<ParameterShift> shifts;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto j = static_cast<Eigen::Index>(i);
@@ -50,7 +49,7 @@ std::vector<ParameterShift> judge_parameters(const NominalModel& model, const Ev
     const double column =
         evidence.x.col(j).norm() / std::sqrt(static_cast<double>(evidence.y.size()));
     const bool moved = model.supplied && !shared(causes, j) && std::abs(off) > kErrors * error &&
-                       std::abs(off) * column > kForceShare * force;
+                       std::abs(off) * column > kLeastForceShare * force;
     shifts.push_back({names[i],
                       supplied[i],
                       {value, value - 1.96 * error, value + 1.96 * error},

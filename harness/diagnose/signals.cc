@@ -5,14 +5,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "harness/diagnose/direction.h"
+#include "harness/diagnose/elastic_axis.h"
 #include "harness/diagnose/zero_phase_filter.h"
 
 namespace towbench::harness::diagnose {
 namespace {
 
 constexpr double kNoiseShare = 0.03;
-constexpr double kStandingShare = 2e-3;  // of the largest speed
-constexpr double kDwell_s = 0.04;        // slower than that for this long is standing, not turning
 
 double rms_about_mean(const Eigen::VectorXd& x) {
   return std::sqrt((x.array() - x.mean()).square().mean());
@@ -24,47 +24,6 @@ double quantisation_force_N(const Run& run, double mass_kg, double cutoff_Hz) {
          omega * std::sqrt(std::pow(cutoff_Hz, 5) / 5);
 }
 
-std::vector<char> dwells(const Eigen::VectorXd& speed, double floor_m_per_s, double period_s) {
-  std::vector<char> standing(static_cast<std::size_t>(speed.size()), 0);
-  const auto shortest = static_cast<Eigen::Index>(kDwell_s / period_s);
-  Eigen::Index since = 0;
-  for (Eigen::Index i = 0; i <= speed.size(); ++i) {
-    const bool slow = i < speed.size() && std::abs(speed[i]) < floor_m_per_s;
-    if (slow) {
-      continue;
-    }
-    if (i - since > shortest) {
-      std::fill(standing.begin() + since, standing.begin() + i, char{1});
-    }
-    since = i + 1;
-  }
-  return standing;
-}
-
-void follow_direction(Signals& s, double floor_m_per_s) {
-  const Eigen::Index n = s.size();
-  s.direction.resize(n);
-  s.since_reversal_m.resize(n);
-  s.since_reversal_s.resize(n);
-  double direction = 0;
-  double path = 0;
-  double age = 0;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double v = s.speed_m_per_s[i];
-    const bool standing = s.standing[static_cast<std::size_t>(i)] != 0;
-    if (v * direction <= 0 && (!standing || std::abs(v) > floor_m_per_s) && v != 0) {
-      direction = v > 0 ? 1 : -1;
-      path = 0;
-      age = 0;
-    }
-    path += std::abs(v) * s.period_s;
-    age += s.period_s;
-    s.direction[i] = direction;
-    s.since_reversal_m[i] = path;
-    s.since_reversal_s[i] = age;
-  }
-}
-
 // The input acts from its sample to the next: at a sample it is the mean of the last two.
 Eigen::VectorXd held(const Eigen::VectorXd& u) {
   Eigen::VectorXd out = u;
@@ -72,6 +31,15 @@ Eigen::VectorXd held(const Eigen::VectorXd& u) {
     out[i] = 0.5 * (u[i] + u[i - 1]);
   }
   return out;
+}
+
+Eigen::MatrixXd rigid_columns(const Signals& s) {
+  Eigen::MatrixXd base(s.size(), static_cast<Eigen::Index>(kBaseColumns));
+  base.col(kMass) = s.acceleration_m_per_s2;
+  base.col(kViscous) = s.speed_m_per_s;
+  base.col(kCoulomb) = s.direction;
+  base.col(kBias).setOnes();
+  return base;
 }
 
 }  // namespace
@@ -97,7 +65,7 @@ Conditioning choose_conditioning(const std::vector<Run>& runs, double mass_kg) {
   return chosen;
 }
 
-Signals make_signals(const Run& run, const Conditioning& conditioning, bool input_is_held) {
+Signals make_signals(const Run& run, const Conditioning& conditioning, const Baseline& baseline) {
   Signals s;
   s.period_s = run.period_s;
   const Eigen::Index n = run.size();
@@ -106,7 +74,7 @@ Signals make_signals(const Run& run, const Conditioning& conditioning, bool inpu
   s.position_m = smooth.apply(run.position_m);
   s.speed_m_per_s = central_difference(s.position_m, run.period_s);
   s.acceleration_m_per_s2 = central_difference(s.speed_m_per_s, run.period_s);
-  s.input_N = input_is_held ? held(run.input_N) : run.input_N;
+  s.input_N = baseline.model.input_is_held ? held(run.input_N) : run.input_N;
   if (run.known_N.size() == n) {
     s.input_N -= run.known_N;
   }
@@ -114,10 +82,13 @@ Signals make_signals(const Run& run, const Conditioning& conditioning, bool inpu
     s.other_speed_m_per_s = central_difference(smooth.apply(run.other_position_m), run.period_s);
     s.other_acceleration_m_per_s2 = central_difference(s.other_speed_m_per_s, run.period_s);
   }
-  const double floor = std::max(kStandingShare * s.speed_m_per_s.cwiseAbs().maxCoeff(),
-                                0.5 * run.resolution_m / kDwell_s);
-  s.standing = dwells(s.speed_m_per_s, floor, run.period_s);
-  follow_direction(s, floor);
+  find_direction(s, run.resolution_m);
+  if (baseline.model.elastic()) {
+    put_on_chain(s, baseline);
+    s.input_N -= s.known_N;
+  } else {
+    s.base = rigid_columns(s);
+  }
   return s;
 }
 

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
-#include "harness/diagnose/nominal_model.h"
+#include "harness/diagnose/baseline.h"
 #include "harness/diagnose/run.h"
 
 namespace towbench::harness::diagnose {
+
+struct LoadSide;
 
 struct Signals {
   double period_s = 0;
@@ -21,8 +24,21 @@ struct Signals {
   Eigen::VectorXd since_reversal_s;
   Eigen::VectorXd other_speed_m_per_s;  // of the other axis; empty when unknown
   Eigen::VectorXd other_acceleration_m_per_s2;
+  // Of F = base theta + known: of a rigid axis a, v, sgn v, 1 and nothing; of an elastic one the
+  // derivatives at the point of linearisation and what they leave of its force there.
+  Eigen::MatrixXd base;
+  Eigen::VectorXd known_N;  // empty: none
+  // What the load does while the motor does this; null for a rigid axis.
+  std::shared_ptr<const LoadSide> load;
+  // 1 where the load's swing hangs on its whole past: it keeps itself going (stick-slip at low
+  // speed), and a percent of stiffness long ago decides where it is now. Rigid: empty.
+  std::vector<char> out_of_step;
   std::vector<char> standing;  // 1 while the axis dwells: friction is not determined there
 
+  // What the command made, terms of the model that are not in the columns included.
+  [[nodiscard]] Eigen::VectorXd force_N() const {
+    return known_N.size() == input_N.size() ? Eigen::VectorXd(input_N + known_N) : input_N;
+  }
   [[nodiscard]] Eigen::Index size() const noexcept { return time_s.size(); }
 };
 
@@ -38,6 +54,6 @@ struct Conditioning {
 [[nodiscard]] Conditioning choose_conditioning(const std::vector<Run>& runs, double mass_kg);
 
 [[nodiscard]] Signals make_signals(const Run& run, const Conditioning& conditioning,
-                                   bool input_is_held);
+                                   const Baseline& baseline);
 
 }  // namespace towbench::harness::diagnose

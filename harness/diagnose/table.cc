@@ -41,7 +41,7 @@ double number(std::string_view text) {
   return whole ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
-void fatal(Findings& findings, std::string name, std::string sentence) {
+void tell_fatal(Findings& findings, std::string name, std::string sentence) {
   findings.push_back({Finding::Kind::kFatal, std::move(name), std::move(sentence)});
 }
 
@@ -74,7 +74,7 @@ Table read_table(const std::filesystem::path& path, Findings& findings) {
   std::ifstream file(path);
   std::string line;
   if (!file || !std::getline(file, line)) {
-    fatal(findings, "file_unreadable",
+    tell_fatal(findings, "file_unreadable",
           fmt::format("{}: cannot be opened, or is empty", path.string()));
     return table;
   }
@@ -82,7 +82,7 @@ Table read_table(const std::filesystem::path& path, Findings& findings) {
     table.names.emplace_back(cell);
   }
   if (table.names.size() < 3 || table.names.size() > kMostColumns) {
-    fatal(findings, "header_unusable",
+    tell_fatal(findings, "header_unusable",
           fmt::format("{}: the first line has {} columns; a log names time, position and input",
                       path.string(), table.names.size()));
     return table;
@@ -93,14 +93,14 @@ Table read_table(const std::filesystem::path& path, Findings& findings) {
       add_row(table, line);
     }
     if (table.rows() > kMostRows) {
-      fatal(findings, "too_long",
+      tell_fatal(findings, "too_long",
             fmt::format("{}: more than {} rows; cut it into runs of some minutes", path.string(),
                         kMostRows));
       return table;
     }
   }
   if (table.rows() == 0) {
-    fatal(findings, "no_rows", fmt::format("{}: a header, and nothing below it", path.string()));
+    tell_fatal(findings, "no_rows", fmt::format("{}: a header, and nothing below it", path.string()));
   }
   return table;
 }

@@ -26,6 +26,13 @@ bool accepted(const Selection& s, const Effect& effect) {
                      [&](const Cause& cause) { return cause.term.effect == &effect; });
 }
 
+// Of two effects of one name (chain_elasticity) the model has a use for one.
+bool stated_in_another_way(const Selection& s, const Effect& effect) {
+  return tried(s, effect) == nullptr &&
+         std::any_of(s.last_round.begin(), s.last_round.end(),
+                     [&](const Candidate& c) { return c.term.effect->name == effect.name; });
+}
+
 // Rms of the projected group when its coefficient is just detected.
 double detectable_rms_N(const Candidate& c) {
   if (c.test.beta.size() == 0 || c.test.projected_rms <= 0) {
@@ -40,9 +47,9 @@ double detectable_rms_N(const Candidate& c) {
 
 std::vector<NotTestable> find_not_testable(const Selection& s) {
   std::vector<NotTestable> out;
-  const double force = std::sqrt(s.after.y.squaredNorm() / static_cast<double>(s.after.y.size()));
+  const double force = s.after.force_rms_N;
   for (const Effect& effect : effect_library()) {
-    if (accepted(s, effect)) {
+    if (accepted(s, effect) || stated_in_another_way(s, effect)) {
       continue;
     }
     const Candidate* c = tried(s, effect);

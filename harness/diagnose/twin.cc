@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "core/random.h"
+#include "harness/diagnose/two_bodies.h"
 
 namespace towbench::harness::diagnose {
 namespace {
 
-constexpr double kLongestStep_s = 2.5e-4;
 constexpr double kTrackingBandwidth_Hz = 15;
 // A fitted law whose twin strays further than this from the log, relative to the stroke, is
 // dropped.
@@ -23,7 +24,7 @@ double rounded(double x, double step) {
   return step > 0 ? std::round(x / step) * step : x;
 }
 
-struct Body {
+struct RigidBody {
   double position_m;
   double speed_m_per_s;
 
@@ -40,41 +41,72 @@ struct Body {
   }
 };
 
+// The axis of the model, seen at the motor.
+class Body {
+ public:
+  Body(const Baseline& baseline, const Theta& theta, const Motion& start)
+      : theta_(theta), motor_(start), load_(start) {
+    if (baseline.model.elastic()) {
+      bodies_.emplace(baseline.model, theta);
+    }
+  }
+  void step(double force_N, double h_s) {
+    if (bodies_) {
+      bodies_->step(motor_, load_, force_N, h_s);
+      return;
+    }
+    RigidBody rigid{motor_.position_m, motor_.speed_m_per_s};
+    rigid.step(theta_, force_N, h_s);
+    motor_ = {rigid.position_m, rigid.speed_m_per_s};
+  }
+  [[nodiscard]] const Motion& motor() const noexcept { return motor_; }
+
+ private:
+  const Theta& theta_;
+  Motion motor_;
+  Motion load_;
+  std::optional<TwoBodies> bodies_;
+};
+
 class Simulation {
  public:
-  Simulation(const Dataset::Member& member, const Theta& theta, const Eigen::VectorXd& extra_N,
-             bool input_is_held, std::uint64_t seed)
+  Simulation(const Dataset::Member& member, const Theta& theta, const Baseline& baseline,
+             const Eigen::VectorXd& extra_N, std::uint64_t seed)
       : log_(member.run),
         signals_(member.signals),
         theta_(theta),
+        baseline_(baseline),
         extra_(extra_N),
-        held_(input_is_held) {
+        held_(baseline.model.input_is_held) {
     core::Random random(seed);
     phase_ = random.uniform();
     if (log_.known_N.size() == log_.size()) {
       extra_ += log_.known_N;
     }
     feed_forward_ = base_columns(signals_) * theta_ + extra_;
+    if (signals_.known_N.size() == log_.size()) {
+      feed_forward_ += signals_.known_N;
+    }
   }
 
   Run through(const ControlLaw& law) {
     Run twin = log_;
-    Body body{signals_.position_m[0], signals_.speed_m_per_s[0]};
+    Body body(baseline_, theta_, {signals_.position_m[0], signals_.speed_m_per_s[0]});
     LawState state;
     const auto steps = std::max(1, static_cast<int>(std::ceil(log_.period_s / kLongestStep_s)));
     const double h = log_.period_s / steps;
     for (Eigen::Index k = 0; k < log_.size(); ++k) {
-      twin.position_m[k] = quantised(body.position_m, log_.resolution_m, phase_);
+      twin.position_m[k] = quantised(body.motor().position_m, log_.resolution_m, phase_);
       const double demand = law.kind == ControlLaw::Kind::kFitted
                                 ? law.gains.dot(state.terms(log_, k, twin.position_m[k]))
-                                : tracking(body, k);
+                                : tracking(body.motor(), k);
       twin.input_N[k] = rounded(demand, log_.input_step_N);
       const double slope = held_ || k == 0 ? 0.0 : twin.input_N[k] - twin.input_N[k - 1];
       const Eigen::Index next = std::min(k + 1, log_.size() - 1);
       for (int i = 0; i < steps; ++i) {
         const double w = (i + 0.5) / steps;
         const double extra = (1 - w) * extra_[k] + w * extra_[next];
-        body.step(theta_, twin.input_N[k] + w * slope - extra, h);
+        body.step(twin.input_N[k] + w * slope - extra, h);
       }
     }
     return twin;
@@ -82,7 +114,7 @@ class Simulation {
 
  private:
   // The model's force along the measured motion, and a spring and damper that holds the twin to it.
-  [[nodiscard]] double tracking(const Body& body, Eigen::Index k) const {
+  [[nodiscard]] double tracking(const Motion& body, Eigen::Index k) const {
     const double w = 2 * std::numbers::pi * std::min(kTrackingBandwidth_Hz, 0.05 / log_.period_s);
     const double mass = theta_[kMass];
     return feed_forward_[k] + mass * w * w * (signals_.position_m[k] - body.position_m) +
@@ -92,6 +124,7 @@ class Simulation {
   const Run& log_;
   const Signals& signals_;
   const Theta& theta_;
+  const Baseline& baseline_;
   Eigen::VectorXd extra_;
   bool held_;
   Eigen::VectorXd feed_forward_;
@@ -106,10 +139,9 @@ bool strays(const Run& twin, const Run& log) {
 
 }  // namespace
 
-Twin simulate_twin(const Dataset::Member& member, const Theta& theta,
-                   const Eigen::VectorXd& extra_N, const ControlLaw& law, bool input_is_held,
-                   std::uint64_t seed) {
-  Simulation simulation(member, theta, extra_N, input_is_held, seed);
+Twin simulate_twin(const Dataset::Member& member, const Theta& theta, const Baseline& baseline,
+                   const Eigen::VectorXd& extra_N, const ControlLaw& law, std::uint64_t seed) {
+  Simulation simulation(member, theta, baseline, extra_N, seed);
   if (law.kind == ControlLaw::Kind::kFitted) {
     Twin twin{simulation.through(law), law.kind};
     if (!strays(twin.run, member.run)) {

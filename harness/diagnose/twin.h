@@ -5,6 +5,7 @@
 //   r_c = (Y - X theta) - (Y_twin - X_twin theta).
 //
 // Dry friction acts as a clamp on the step's speed, so the twin truly sticks:
+// An elastic axis is two bodies (two_bodies.h). Of a rigid one:
 //   v* = v + h (F - B v - b) / M,  v' = sgn(v*) max(|v*| - h C / M, 0).
 #pragma once
 
@@ -25,7 +26,7 @@ struct Twin {
 // motion. An input that the baseline does not hold is continued along its last slope: no delay to
 // first order. `seed` places the encoder's grating under the start.
 [[nodiscard]] Twin simulate_twin(const Dataset::Member& member, const Theta& theta,
-                                 const Eigen::VectorXd& extra_N, const ControlLaw& law,
-                                 bool input_is_held, std::uint64_t seed);
+                                 const Baseline& baseline, const Eigen::VectorXd& extra_N,
+                                 const ControlLaw& law, std::uint64_t seed);
 
 }  // namespace towbench::harness::diagnose

@@ -36,12 +36,14 @@ void add_friction_effects(Library& library) {
   library.push_back({.name = "coulomb_asymmetry",
                      .cause = "dry friction that differs between the two directions",
                      .coefficients = {"half_difference_N"},
+                     .acts_on = ActsOn::kBoth,
                      .needs = "motion in both directions",
                      .grid = no_scale,
                      .columns = coulomb_asymmetry});
   library.push_back({.name = "viscous_asymmetry",
                      .cause = "viscous friction that differs between the two directions",
                      .coefficients = {"half_difference_N_s_per_m"},
+                     .acts_on = ActsOn::kBoth,
                      .needs = "both directions, each at two or more speeds",
                      .grid = no_scale,
                      .columns = viscous_asymmetry});
@@ -49,12 +51,14 @@ void add_friction_effects(Library& library) {
                      .cause = "drag growing with the square of speed",
                      .coefficients = {"drag_N_s2_per_m2"},
                      .first_is_positive = true,
+                     .acts_on = ActsOn::kLoad,
                      .needs = "steady speeds up to the highest used",
                      .grid = no_scale,
                      .columns = quadratic_drag});
   library.push_back({.name = "cubic_viscous",
                      .cause = "friction growing with the cube of speed",
                      .coefficients = {"coefficient_N_s3_per_m3"},
+                     .acts_on = ActsOn::kLoad,
                      .needs = "steady speeds up to the highest used",
                      .grid = no_scale,
                      .columns = cubic_viscous});
@@ -62,6 +66,7 @@ void add_friction_effects(Library& library) {
                      .cause = "friction growing with the transmitted force",
                      .coefficients = {"friction_per_load_ratio"},
                      .first_is_positive = true,
+                     .acts_on = ActsOn::kLoad,
                      .needs = "accelerating and coasting at the same speed",
                      .grid = no_scale,
                      .columns = load_dependent_friction});

@@ -56,15 +56,6 @@ MatrixXd presliding(const Signals& s, const Context& /*c*/, std::span<const doub
   return (-(-x).exp() * s.direction.array()).matrix();
 }
 
-// Inside the gap after a reversal the motor moves alone: load's inertia and friction are missing.
-MatrixXd backlash(const Signals& s, const Context& /*c*/, std::span<const double> scale) {
-  const ArrayXd inside = (s.since_reversal_m.array() < scale[0]).cast<double>();
-  MatrixXd columns(s.size(), 2);
-  columns.col(0) = -inside * s.direction.array();
-  columns.col(1) = -inside * s.acceleration_m_per_s2.array();
-  return columns;
-}
-
 }  // namespace
 
 void add_low_speed_effects(Library& library) {
@@ -74,6 +65,7 @@ void add_low_speed_effects(Library& library) {
                      .coefficients = {"rise_N"},
                      .scales = {"stribeck_speed_m_per_s"},
                      .first_is_positive = true,
+                     .acts_on = ActsOn::kBoth,
                      .needs = slow,
                      .grid = speed_grid,
                      .columns = stribeck});
@@ -82,6 +74,7 @@ void add_low_speed_effects(Library& library) {
                      .coefficients = {"fall_N"},
                      .scales = {"speed_scale_m_per_s"},
                      .first_is_positive = true,
+                     .acts_on = ActsOn::kBoth,
                      .needs = slow,
                      .grid = speed_grid,
                      .columns = low_speed_rolloff});
@@ -90,6 +83,7 @@ void add_low_speed_effects(Library& library) {
                      .coefficients = {"excess_N"},
                      .scales = {"speed_scale_m_per_s"},
                      .first_is_positive = true,
+                     .acts_on = ActsOn::kBoth,
                      .needs = "many starts from rest, with slow ramps",
                      .grid = speed_grid,
                      .columns = stiction});
@@ -98,17 +92,10 @@ void add_low_speed_effects(Library& library) {
                      .coefficients = {"missing_at_reversal_N"},
                      .scales = {"travel_m"},
                      .first_is_positive = true,
+                     .acts_on = ActsOn::kBoth,
                      .needs = "small reversals at two speeds",
                      .grid = travel_grid,
                      .columns = presliding});
-  library.push_back({.name = "backlash",
-                     .cause = "play: after a reversal the motor moves without its load",
-                     .coefficients = {"missing_friction_N", "missing_mass_kg"},
-                     .scales = {"gap_m"},
-                     .first_is_positive = true,
-                     .needs = "reversals, or a sensor on the load",
-                     .grid = travel_grid,
-                     .columns = backlash});
 }
 
 }  // namespace towbench::harness::diagnose

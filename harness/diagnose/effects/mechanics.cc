@@ -1,8 +1,10 @@
 // Masses that are not where the rigid model has them.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "harness/diagnose/effect.h"
+#include "harness/diagnose/elastic_axis.h"
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -12,48 +14,107 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 MatrixXd added_mass(const Signals& s, const Context& /*c*/, std::span<const double>) {
-  return s.acceleration_m_per_s2;
+  return s.base.col(kMass);
 }
 
-// (3.37): the load follows the motor through spring and damper,
-//   H(s) = (2 z w s + w^2) / (s^2 + 2 z w s + w^2),  w: the carriage against a held motor,
-// so the motor feels M_load (H - 1) a more than the rigid model says. Tustin's rule.
-MatrixXd chain_elasticity(const Signals& s, const Context& /*c*/, std::span<const double> scale) {
-  const double w = 2 * std::numbers::pi * scale[0];
-  const double z = scale[1];
-  const double k = 2 / s.period_s;
-  const double d = 2 * z * w * k;
+// A chain that the model states, but otherwise: by its stiffness and its damping.
+MatrixXd stated_chain(const Signals& s, const Context& /*c*/, std::span<const double>) {
+  return s.load == nullptr ? MatrixXd::Zero(s.size(), 2) : s.load->by_chain;
+}
+
+std::vector<Scales> where_stated(const Context& c) {
+  return c.model.elastic() ? std::vector<Scales>{{}} : std::vector<Scales>{};
+}
+
+// (H - 1) x by Tustin's rule, for a carriage on spring and damper against a held motor:
+//   H(s) = (2 z w s + w^2) / (s^2 + 2 z w s + w^2)
+VectorXd through_mode(const VectorXd& x, double period_s, std::span<const double> mode) {
+  const double w = 2 * std::numbers::pi * mode[0];
+  const double k = 2 / period_s;
+  const double d = 2 * mode[1] * w * k;
   const double a0 = k * k + d + w * w;
   const double a1 = 2 * (w * w - k * k) / a0;
   const double a2 = (k * k - d + w * w) / a0;
   const double b0 = (d + w * w) / a0;
   const double b1 = 2 * w * w / a0;
   const double b2 = (w * w - d) / a0;
-  const VectorXd& a = s.acceleration_m_per_s2;
-  VectorXd column(s.size());
-  double x1 = a[0];
-  double x2 = a[0];
-  double y1 = a[0];
-  double y2 = a[0];
-  for (Index i = 0; i < s.size(); ++i) {
-    const double y = b0 * a[i] + b1 * x1 + b2 * x2 - a1 * y1 - a2 * y2;
-    column[i] = y - a[i];
+  VectorXd out(x.size());
+  double x1 = x[0];
+  double x2 = x[0];
+  double y1 = x[0];
+  double y2 = x[0];
+  for (Index i = 0; i < x.size(); ++i) {
+    const double y = b0 * x[i] + b1 * x1 + b2 * x2 - a1 * y1 - a2 * y2;
+    out[i] = y - x[i];
     x2 = x1;
-    x1 = a[i];
+    x1 = x[i];
     y2 = y1;
     y1 = y;
   }
-  return column;
+  return out;
+}
+
+// (3.37): what resists the load, its inertia and its friction, is felt through the chain, so the
+// motor feels (H - 1) (M_load a + C_load sgn v) more than the rigid model says.
+MatrixXd chain_elasticity(const Signals& s, const Context& /*c*/, std::span<const double> mode) {
+  MatrixXd columns(s.size(), 2);
+  columns.col(0) = through_mode(s.acceleration_m_per_s2, s.period_s, mode);
+  columns.col(1) = through_mode(s.direction, s.period_s, mode);
+  return columns;
 }
 
 std::vector<Scales> mode_grid(const Context& c) {
   std::vector<Scales> grid;
+  if (c.model.elastic()) {
+    return grid;
+  }
   for (const double frequency : {3.0, 4.5, 6.5, 9.0, 13.0, 19.0, 28.0, 40.0}) {
     if (frequency > 1.5 * c.cutoff_Hz) {
       break;
     }
     grid.push_back({frequency, 0.03});
     grid.push_back({frequency, 0.12});
+  }
+  return grid;
+}
+
+// Play: a flank lets go where the load's own force changes sign, not where the motion does, and
+// until the other one touches the motor moves alone. The load is made to follow the measured motor
+// (elastic_axis.h); of a rigid model it is a guessed share, on flanks that are stiff in its band.
+MatrixXd backlash(const Signals& s, const Context& c, std::span<const double> scale) {
+  constexpr double kFlank_Hz = 50;
+  constexpr double kFlankDamping = 0.4;
+  constexpr double kFrictionShare = 0.65;
+  const VectorXd none;
+  NominalModel model = c.model;
+  if (!model.elastic()) {
+    const double load_kg = scale[1] * std::max(1e-9, c.theta[kMass]);
+    const double w = 2 * std::numbers::pi * kFlank_Hz;
+    model.chain = {.motor_kg = c.theta[kMass] - load_kg,
+                   .stiffness_N_per_m = load_kg * w * w,
+                   .damping_N_s_per_m = 2 * kFlankDamping * load_kg * w,
+                   .load_share = kFrictionShare};
+  }
+  const auto chain_N = [&] {
+    return follow_motor(model, c.theta, s.position_m, s.speed_m_per_s, s.period_s, none).chain_N;
+  };
+  const VectorXd without = chain_N();
+  model.chain.play_m += scale[0];
+  return chain_N() - without;
+}
+
+// Plays from what the encoder resolves to a twentieth of the stroke.
+std::vector<Scales> play_grid(const Context& c) {
+  std::vector<Scales> grid;
+  const double stroke = c.stroke_max_m - c.stroke_min_m;
+  for (double play = std::max({4 * c.resolution_m, 1e-4 * stroke, 1e-6}); play < stroke / 20;
+       play *= 2) {
+    if (c.model.elastic()) {
+      grid.push_back({play});
+      continue;
+    }
+    grid.push_back({play, 0.5});
+    grid.push_back({play, 0.8});
   }
   return grid;
 }
@@ -81,12 +142,26 @@ void add_mechanical_effects(Library& library) {
                      .columns = added_mass});
   library.push_back({.name = "chain_elasticity",
                      .cause = "an elastic chain between motor and load",
-                     .coefficients = {"load_mass_kg"},
+                     .coefficients = {"load_mass_kg", "load_friction_N"},
                      .scales = {"held_motor_frequency_Hz", "damping_ratio"},
                      .first_is_positive = true,
                      .needs = "accelerations fast enough to excite it, finely resolved",
                      .grid = mode_grid,
                      .columns = chain_elasticity});
+  library.push_back({.name = "chain_elasticity",
+                     .cause = "a chain stiffer or softer, or damped otherwise, than stated",
+                     .coefficients = {"relative_stiffness_ratio", "relative_damping_ratio"},
+                     .needs = "accelerations fast enough to excite it, finely resolved",
+                     .grid = where_stated,
+                     .columns = stated_chain});
+  library.push_back({.name = "backlash",
+                     .cause = "play: after the load lets go of a flank the motor moves without it",
+                     .coefficients = {"agreement_ratio"},
+                     .scales = {"play_m", "load_mass_share_ratio"},
+                     .first_is_positive = true,
+                     .needs = "reversals, or a sensor on the load",
+                     .grid = play_grid,
+                     .columns = backlash});
   library.push_back({.name = "cross_axis_coupling",
                      .cause = "forces from the other axis's motion",
                      .coefficients = {"mass_kg", "viscous_N_s_per_m"},

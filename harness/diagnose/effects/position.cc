@@ -52,6 +52,7 @@ void add_position_effects(Library& library) {
                      .cause = "a force that depends on position, the same in both directions",
                      .coefficients = newtons,
                      .shares_mean_with = kBias,
+                     .acts_on = ActsOn::kLoad,
                      .needs = both,
                      .grid = no_scale,
                      .columns = position_force});
@@ -59,6 +60,7 @@ void add_position_effects(Library& library) {
                      .cause = "a force growing with position, as a cable or a tilt change makes",
                      .coefficients = {"stiffness_N_per_m"},
                      .shares_mean_with = kBias,
+                     .acts_on = ActsOn::kLoad,
                      .needs = both,
                      .grid = no_scale,
                      .columns = cable_spring});
@@ -66,6 +68,7 @@ void add_position_effects(Library& library) {
                      .cause = "dry friction that depends on position",
                      .coefficients = newtons,
                      .shares_mean_with = kCoulomb,
+                     .acts_on = ActsOn::kLoad,
                      .needs = both,
                      .grid = no_scale,
                      .columns = position_friction});
@@ -73,6 +76,7 @@ void add_position_effects(Library& library) {
                      .cause = "viscous friction that depends on position",
                      .coefficients = viscous,
                      .shares_mean_with = kViscous,
+                     .acts_on = ActsOn::kLoad,
                      .needs = both,
                      .grid = no_scale,
                      .columns = position_viscous});

@@ -1,4 +1,6 @@
 // What changes in the course of a run, and what a count that is lost does to the scale.
+#include <cmath>
+
 #include "harness/diagnose/effect.h"
 
 namespace towbench::harness::diagnose {
@@ -7,10 +9,15 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::MatrixXd;
 
-// Friction that falls as grease warms up: C (1 + k t) sgn v, to first order in the run's length.
-MatrixXd thermal_drift(const Signals& s, const Context& c, std::span<const double>) {
-  const ArrayXd age = s.time_s.array() / c.duration_s - 0.5;
-  return (age * s.direction.array()).matrix();
+// Friction that falls as grease warms up: C + dC exp(-t / tau); a straight line where tau is long.
+MatrixXd thermal_drift(const Signals& s, const Context& c, std::span<const double> tau) {
+  const ArrayXd gone =
+      (1 - (-s.time_s.array() / tau[0]).exp()) / (1 - std::exp(-c.duration_s / tau[0]));
+  return (-gone * s.direction.array()).matrix();
+}
+
+std::vector<Scales> warming_grid(const Context& c) {
+  return {{0.12 * c.duration_s}, {0.3 * c.duration_s}, {0.7 * c.duration_s}, {5 * c.duration_s}};
 }
 
 // A constant share of the edges is lost: position, speed and acceleration read small alike.
@@ -23,10 +30,12 @@ MatrixXd encoder_count_loss(const Signals& s, const Context& c, std::span<const 
 void add_session_effects(Library& library) {
   library.push_back({.name = "thermal_drift",
                      .cause = "friction that changes in the course of the run",
-                     .coefficients = {"change_over_run_N"},
+                     .coefficients = {"fall_over_run_N"},
+                     .scales = {"time_constant_s"},
                      .shares_mean_with = kCoulomb,
+                     .acts_on = ActsOn::kBoth,
                      .needs = "the same motion cold and warm",
-                     .grid = no_scale,
+                     .grid = warming_grid,
                      .columns = thermal_drift});
   library.push_back({.name = "encoder_count_loss",
                      .cause = "an encoder that loses a share of its counts",

@@ -36,8 +36,10 @@ Gains gains_of_memory() {
   const Run first = run_of(axis, make_hidden_log(axis, 1));
   const Run other = run_of(axis, make_hidden_log(axis, 2));
   const Conditioning conditioning;
-  const Dataset fit = make_dataset({first}, conditioning, true, everywhere);
-  const Dataset unseen = make_dataset({other}, conditioning, true, everywhere);
+  const Dataset fit =
+      make_dataset({first}, conditioning, stated_baseline(nominal_of(axis)), everywhere);
+  const Dataset unseen =
+      make_dataset({other}, conditioning, stated_baseline(nominal_of(axis)), everywhere);
   const Context context = make_context(nominal_of(axis), fit);
   const auto terms = memorising_terms();
   const FittedModel plain{{}, weigh(fit, context, {}, {}, 0, 1).coefficients};
@@ -58,7 +60,8 @@ TEST(HeldOut, LeakageWouldBeNoticed) {
 TEST(HeldOut, AnUnchangedResidualGainsNothing) {
   HiddenAxis axis;
   axis.duration_s = 10;
-  const Dataset data = make_dataset({run_of(axis, make_hidden_log(axis, 1))}, {}, true, everywhere);
+  const Dataset data = make_dataset({run_of(axis, make_hidden_log(axis, 1))}, {},
+                                    stated_baseline(nominal_of(axis)), everywhere);
   const Context context = make_context(nominal_of(axis), data);
   const HeldOut judge(data, context, kSameSession);
   const Eigen::VectorXd r = judge.residual({{}, weigh(data, context, {}, {}, 0, 1).coefficients});

@@ -1,6 +1,7 @@
 // Hides every effect under many seeds and prints what the diagnosis calls it.
 //
-//   diagnose_campaign [SEEDS [STRENGTH [EFFECT...]]]
+//   diagnose_campaign [SEEDS [STRENGTH [EFFECT...]]]        in a rigid axis, by another generator
+//   diagnose_campaign bench [SEEDS [STRENGTH [EFFECT...]]]  in the emulator, under BBMC
 #include <cstdlib>
 #include <map>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "tests/harness/diagnose/bench_case.h"
 #include "tests/harness/diagnose/hidden_case.h"
 
 namespace {
@@ -61,13 +63,15 @@ struct Tally {
   std::map<std::string, int> names;
 };
 
-Tally run(const std::string& effect, double strength, int seeds) {
+Tally run(const std::string& effect, double strength, int seeds, bool on_bench) {
   Tally tally;
   for (int seed = 1; seed <= seeds; ++seed) {
+    const auto drawn = static_cast<std::uint64_t>(seed);
     HiddenAxis axis;
     axis.effect = effect;
     axis.strength = strength;
-    const auto d = towbench::tests::diagnose_hidden(axis, static_cast<std::uint64_t>(seed));
+    const auto d = on_bench ? towbench::tests::diagnose_bench({effect, strength, drawn})
+                            : towbench::tests::diagnose_hidden(axis, drawn);
     bool found = false;
     bool wrong = false;
     for (const auto& names : towbench::tests::named(d)) {
@@ -86,14 +90,22 @@ Tally run(const std::string& effect, double strength, int seeds) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const bool on_bench = argc > 1 && std::string_view(argv[1]) == "bench";
+  if (on_bench) {
+    --argc;
+    ++argv;
+  }
   const int seeds = argc > 1 ? std::atoi(argv[1]) : 3;
   const double strength = argc > 2 ? std::atof(argv[2]) : 1.0;
   std::vector<std::string> effects(argv + std::min(argc, 3), argv + argc);
-  if (effects.empty()) effects = kAll;
+  if (effects.empty()) {
+    effects = on_bench ? towbench::tests::bench_effects() : kAll;
+    if (on_bench) effects.insert(effects.begin(), std::string());
+  }
   fmt::print(
       "| hidden | right and alone | other names | unexplained | named |\n|---|---|---|---|---|\n");
   for (const auto& effect : effects) {
-    const Tally t = run(effect, strength, seeds);
+    const Tally t = run(effect == "nothing" ? "" : effect, strength, seeds, on_bench);
     std::string names;
     for (const auto& [name, count] : t.names) names += fmt::format("{} x{}; ", name, count);
     fmt::print("| {} | {}/{} | {} | {} | {} |\n", effect.empty() ? "nothing" : effect, t.hit, seeds,

@@ -1,0 +1,21 @@
+// What a run is judged against: the stated model, and where it is linearised.
+//
+// A rigid axis is linear in its coefficients. An elastic one is not: its base columns are the
+// derivatives of its force at `at`, which follows the fit (diagnosis.cc).
+#pragma once
+
+#include "harness/diagnose/nominal_model.h"
+#include "harness/diagnose/theta.h"
+
+namespace towbench::harness::diagnose {
+
+struct Baseline {
+  NominalModel model;
+  Theta at = Theta::Zero();
+};
+
+[[nodiscard]] inline Baseline stated_baseline(const NominalModel& model) {
+  return {model, Theta(model.mass_kg, model.viscous_N_s_per_m, model.coulomb_N, model.bias_N)};
+}
+
+}  // namespace towbench::harness::diagnose
