@@ -23,7 +23,7 @@ constexpr Index kEveryNth = 4;
 
 // Of an elastic axis's fit.
 constexpr int kMostRounds = 8;
-constexpr double kMoved = 0.01;    // relative; less is linear
+constexpr double kMoved = 0.002;   // relative; less is linear
 constexpr double kFarthest = 1.2;  // a round may move a coefficient by this factor
 
 bool everywhere(Index /*row*/, Index /*rows*/) {

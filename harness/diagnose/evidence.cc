@@ -27,6 +27,9 @@ VectorXd least_squares(const MatrixXd& x, const VectorXd& y) {
   return scaled.colPivHouseholderQr().solve(y).cwiseQuotient(scale);
 }
 
+// A twin's own noise adds to the log's; a correction that leaves more than both is none.
+constexpr double kWorstCorrection = 1.6;
+
 double rms(const VectorXd& x) {
   return std::sqrt(x.squaredNorm() / static_cast<double>(std::max<Index>(1, x.size())));
 }
@@ -116,6 +119,11 @@ Evidence weigh(const Dataset& data, const Context& context, const std::vector<Te
       break;
     }
     e.coefficients = plain - bias;
+  }
+  if (rms(e.y - e.x * e.coefficients - twin_residual) > kWorstCorrection * left) {
+    // The columns are so alike that the twin's noise moved the coefficients: the plain fit stands.
+    twin_residual.setZero();
+    e.coefficients = plain;
   }
   e.residual = e.y - e.x * e.coefficients;
   e.corrected = e.residual - twin_residual;

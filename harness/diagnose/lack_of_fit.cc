@@ -125,12 +125,13 @@ std::optional<Unexplained> find_unexplained(const Dataset& data, const Evidence&
   const double speed = data.coordinate(all[1].raw).cwiseAbs().maxCoeff();
   shapes.push_back(line_along(data, e, all[0], data.conditioning.cutoff_Hz / speed));
   shapes.push_back(line_along(data, e, all[4], data.conditioning.cutoff_Hz * 0.9));
-  const double force = e.force_rms_N;
+  const double least_N =
+      (data.baseline.model.elastic() ? kElasticFloor : kForceShare) * e.force_rms_N;
   std::optional<Unexplained> worst;
   for (Unexplained& shape : shapes) {
     shape.p_value = std::min(1.0, shape.p_value * static_cast<double>(shapes.size()));
-    const bool fires = shape.p_value < kQuiet && shape.rms_N > kForceShare * force &&
-                       shape.rms_N > 0.3 * e.twin_rms_N;
+    const bool fires =
+        shape.p_value < kQuiet && shape.rms_N > least_N && shape.rms_N > 0.3 * e.twin_rms_N;
     if (fires && (!worst || shape.rms_N > worst->rms_N)) {
       worst = shape;
     }

@@ -49,7 +49,8 @@ std::vector<ParameterShift> judge_parameters(const NominalModel& model, const Ev
     const double column =
         evidence.x.col(j).norm() / std::sqrt(static_cast<double>(evidence.y.size()));
     const bool moved = model.supplied && !shared(causes, j) && std::abs(off) > kErrors * error &&
-                       std::abs(off) * column > kLeastForceShare * force;
+                       std::abs(off) * column > kLeastForceShare * force &&
+                       !(model.elastic() && std::abs(off) < kElasticFloor * std::abs(supplied[i]));
     shifts.push_back({names[i],
                       supplied[i],
                       {value, value - 1.96 * error, value + 1.96 * error},

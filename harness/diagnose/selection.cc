@@ -88,9 +88,11 @@ class Selector {
   // Significant and plausible ones, best first, the best of them refined.
   std::vector<Candidate> shortlist(const Selection& s) {
     std::vector<Candidate> list;
+    const double least_N = context_.model.elastic() ? kElasticFloor * s.before.force_rms_N : 0.0;
     for (const Candidate& c : s.last_round) {
       const double p = c.test.p_value * static_cast<double>(s.tried);
-      if (c.plausible && c.test.left_of_group > kLeastLeft && p < kAlpha) {
+      const bool matters = c.test.projected_rms > least_N;
+      if (matters && c.plausible && c.test.left_of_group > kLeastLeft && p < kAlpha) {
         list.push_back(c);
       }
     }

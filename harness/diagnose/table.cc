@@ -75,16 +75,17 @@ Table read_table(const std::filesystem::path& path, Findings& findings) {
   std::string line;
   if (!file || !std::getline(file, line)) {
     tell_fatal(findings, "file_unreadable",
-          fmt::format("{}: cannot be opened, or is empty", path.string()));
+               fmt::format("{}: cannot be opened, or is empty", path.string()));
     return table;
   }
   for (const auto cell : cells_of(line)) {
     table.names.emplace_back(cell);
   }
   if (table.names.size() < 3 || table.names.size() > kMostColumns) {
-    tell_fatal(findings, "header_unusable",
-          fmt::format("{}: the first line has {} columns; a log names time, position and input",
-                      path.string(), table.names.size()));
+    tell_fatal(
+        findings, "header_unusable",
+        fmt::format("{}: the first line has {} columns; a log names time, position and input",
+                    path.string(), table.names.size()));
     return table;
   }
   table.columns.resize(table.names.size());
@@ -94,13 +95,14 @@ Table read_table(const std::filesystem::path& path, Findings& findings) {
     }
     if (table.rows() > kMostRows) {
       tell_fatal(findings, "too_long",
-            fmt::format("{}: more than {} rows; cut it into runs of some minutes", path.string(),
-                        kMostRows));
+                 fmt::format("{}: more than {} rows; cut it into runs of some minutes",
+                             path.string(), kMostRows));
       return table;
     }
   }
   if (table.rows() == 0) {
-    tell_fatal(findings, "no_rows", fmt::format("{}: a header, and nothing below it", path.string()));
+    tell_fatal(findings, "no_rows",
+               fmt::format("{}: a header, and nothing below it", path.string()));
   }
   return table;
 }
