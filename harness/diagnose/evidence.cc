@@ -120,7 +120,7 @@ Evidence weigh(const Dataset& data, const Context& context, const std::vector<Te
     }
     e.coefficients = plain - bias;
   }
-  if (rms(e.y - e.x * e.coefficients - twin_residual) > kWorstCorrection * left) {
+  if (rms(e.y - e.x * e.coefficients) > kWorstCorrection * left) {
     // The columns are so alike that the twin's noise moved the coefficients: the plain fit stands.
     twin_residual.setZero();
     e.coefficients = plain;

@@ -7,7 +7,7 @@ run_packages=(
   libboost-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libexpected-dev libgpiod-dev
   libunicorn-dev
 )
-# What the experiments that estimate need besides: `identify` alone.
+# What the experiments that estimate need besides: `identify`, `diagnose` and their like.
 study_packages=(libeigen3-dev libceres-dev)
 # To build and test the bench in every way that CI does.
 test_packages=(

@@ -33,7 +33,8 @@ TEST_P(BenchEffect, HiddenInTheEmulatorIsNamedAndNothingElse) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BenchEffect,
-                         testing::Values("viscous", "coulomb", "added_mass", "coulomb_asymmetry"),
+                         testing::Values("viscous", "coulomb", "added_mass", "coulomb_asymmetry",
+                                         "constant_bias", "torque_ripple"),
                          [](const auto& parameter) { return std::string(parameter.param); });
 
 }  // namespace

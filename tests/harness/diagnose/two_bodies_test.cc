@@ -85,7 +85,7 @@ TEST(TwoBodies, InsideItsPlayTheChainNeitherPushesNorPulls) {
 // Slow against the mode, the two bodies are one: F = M a.
 TEST(ElasticAxis, SlowMotionNeedsTheRigidForceAndAStiffChainIsRigid) {
   const NominalModel m = frictionless(40, 0.3);
-  Run run;
+  harness::diagnose::Run run;
   run.period_s = 1e-3;
   run.position_m.resize(6000);
   for (Eigen::Index i = 0; i < run.size(); ++i) {
