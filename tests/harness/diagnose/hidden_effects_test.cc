@@ -30,14 +30,13 @@ TEST_P(HiddenEffect, IsNamedFromTheLogAndTheNominalModelAlone) {
 
 INSTANTIATE_TEST_SUITE_P(All, HiddenEffect,
                          testing::Values("coulomb_asymmetry", "viscous_asymmetry", "stribeck",
-                                         "low_speed_rolloff", "presliding", "quadratic_drag",
-                                         "cubic_viscous", "added_mass", "transport_delay",
-                                         "chain_elasticity", "thermal_drift", "amplifier_gain",
-                                         "amplifier_deadband", "command_saturation",
-                                         "voltage_saturation", "load_dependent_friction",
-                                         "position_force", "torque_ripple", "sprocket_eccentricity",
-                                         "chain_polygon", "constant_bias", "encoder_count_loss",
-                                         "periodic_force"),
+                                         "low_speed_rolloff", "presliding", "added_mass",
+                                         "transport_delay", "chain_elasticity", "thermal_drift",
+                                         "amplifier_gain", "amplifier_deadband",
+                                         "command_saturation", "voltage_saturation",
+                                         "load_dependent_friction", "position_force",
+                                         "torque_ripple", "sprocket_eccentricity", "chain_polygon",
+                                         "constant_bias", "encoder_count_loss", "periodic_force"),
                          [](const auto& parameter) { return std::string(parameter.param); });
 
 TEST(NothingHidden, NothingIsNamed) {
