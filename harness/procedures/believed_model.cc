@@ -60,6 +60,15 @@ bbmc::Configuration studied_configuration(const ProcedureContext& context) {
     of("torque_constant_Nm_per_A", axis.drive.torque_constant_Nm_per_A);
     of("amplifier_gain_A_per_V", axis.drive.amplifier_gain_A_per_V);
     axis.plausibility.worst_breakaway_Nm *= kFrictionRoom;
+    // With a weaker motor than believed the voltage is used up at a higher speed; the guard against
+    // running away shall know of it.
+    const auto& plate = context.machine.nameplate(which);
+    if (identify::find(context.known, "torque_constant_Nm_per_A", core::name_of(which)) !=
+        nullptr) {
+      axis.speed_limit_m_per_s = std::max(
+          axis.speed_limit_m_per_s,
+          plate.output_limit_V / axis.drive.torque_constant_Nm_per_A * plate.metres_per_rad());
+    }
   }
   return configuration;
 }

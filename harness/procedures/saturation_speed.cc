@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
 #include "harness/identify/plateau.h"
 #include "harness/procedures/believed_model.h"
 #include "harness/procedures/procedures.h"
@@ -57,31 +56,19 @@ class SaturationSpeed final : public Procedure {
     // J v / (tau - S) to speed, then as long again.
     const double rise_s = belief.feed_forward.inertia_kg_m2 * limit_m_per_s /
                           plate.metres_per_rad() / (torque_Nm - worst_Nm);
-    std::string trouble;
-    // A machine that is far from what its controller believes may run on further than that thinks:
-    // its guard stops it, and it is tried over less of the track.
-    for (const double share : {1.0, 0.7, 0.5}) {
-      const double way_m = share * settings.longest_share * track.length_m();
-      const double time_s = std::min(way_m / limit_m_per_s, 60.0);
-      if (time_s < 1.2 * rise_s) {
-        return trouble.empty()
-                   ? ProcedureOutcome::refused(fmt::format(
-                         "no travel: {:.2f} m take {:.2f} s at {:.2f} m/s, reaching it takes "
-                         "{:.2f} s",
-                         way_m, time_s, limit_m_per_s, rise_s))
-                   : ProcedureOutcome::failed(trouble);
-      }
-      const auto data = play(context, settings, track, time_s);
-      if (data.trouble.empty()) {
-        return judged(context, identify::find_plateaus(data, context.axis, settings.duty_pct),
-                      limit_m_per_s, data);
-      }
-      trouble = data.trouble;
-      if (trouble.find(core::describe(core::ErrorCode::kFaultSoftLimit)) == std::string::npos) {
-        break;
-      }
+    const double way_m = settings.longest_share * track.length_m();
+    const double time_s = std::min(way_m / limit_m_per_s, 60.0);
+    if (time_s < 1.2 * rise_s) {
+      return ProcedureOutcome::refused(
+          fmt::format("no travel: {:.2f} m take {:.2f} s at {:.2f} m/s, reaching it takes {:.2f} s",
+                      way_m, time_s, limit_m_per_s, rise_s));
     }
-    return ProcedureOutcome::failed(trouble);
+    const auto data = play(context, settings, track, time_s);
+    if (!data.trouble.empty()) {
+      return ProcedureOutcome::failed(data.trouble);
+    }
+    return judged(context, identify::find_plateaus(data, context.axis, settings.duty_pct),
+                  limit_m_per_s, data);
   }
 
  private:
