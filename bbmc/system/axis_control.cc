@@ -117,6 +117,12 @@ void AxisControl::begin_braking(core::Nanoseconds now_ns) noexcept {
   brake_.begin(now_ns, observer_.speed_count_per_s(), safety_.coasting_stop);
 }
 
+bool AxisControl::encoder_keeps_up() const noexcept {
+  constexpr double kLeastRatio = 0.25;
+  return std::fabs(observer_.speed_count_per_s()) >=
+         kLeastRatio * std::fabs(reckoning_.speed_count_per_s());
+}
+
 bool AxisControl::begin_blind_braking(core::Nanoseconds now_ns) noexcept {
   const double speed_count_per_s = reckoning_.speed_count_per_s();
   if (speed_count_per_s == 0 || safety_.coasting_stop) {

@@ -4,8 +4,8 @@
 //   omega = omega(t - 64 ms) + 1/J integral of tau_motor dt      friction left out: a few per cent
 //
 // A lying encoder is found within 50 ms (60 ms on a machine that is not the one configured), so
-// what it said 64 ms ago is true, unless it has lied from the start. Then it is found before the
-// axis is fast (within 5 mm), and no speed below kLeast is believed here.
+// what it said 64 ms ago is true, unless it has lied from the start. Then it is found within 5 mm,
+// which at more than 0.078 m/s takes less than 64 ms: slower speeds are not believed here.
 #pragma once
 
 #include <algorithm>
@@ -51,7 +51,7 @@ class DeadReckoning {
   }
 
  private:
-  static constexpr double kLeast_m_per_s = 0.1;
+  static constexpr double kLeast_m_per_s = 0.08;
   static constexpr core::Nanoseconds kStep_ns = 8 * core::kNanosecondsPerMillisecond;
   static constexpr std::size_t kSteps = 9;  // the oldest of them is 64 to 72 ms old
 

@@ -90,6 +90,7 @@ class MotionControl {
   void brake_all(core::ErrorCode code, core::Axis which) noexcept;
   void cut_one(core::ErrorCode code, core::Axis which) noexcept;
   void give_up_encoder(core::ErrorCode code, core::Axis which) noexcept;
+  void give_up_encoders(core::ErrorCode code) noexcept;
   void cut_all(core::ErrorCode code, core::Axis which) noexcept;
   void settle_after_fault() noexcept;
   void power_off(core::Axis which, AxisMode mode, core::ErrorCode why) noexcept;

@@ -1,9 +1,10 @@
 // The safety subsystem: what stops the machine, how, and what stays latched afterwards.
 //
-//   kill switch, link lost            no power, both axes, at once
-//   link corrupt                      both axes brake blind, while messages come
-//   amplifier of one axis             no power there (nothing to brake with), the other brakes
-//   encoder of one axis               brakes blind if its speed is still known, else no power
+//   kill switch, peer gone            no power, both axes, at once
+//   link silent or corrupt, clock     both axes brake blind: commands may still arrive
+//   set back
+//   amplifier of one axis             both axes brake: one that comes back in time may still stop
+//   it encoder of one axis               brakes blind if its speed is still known, else no power
 //   there;
 //                                     the other brakes
 //   index of an encoder lost          both axes brake: the speed can still be believed
@@ -79,8 +80,13 @@ void MotionControl::watch_clock(core::Nanoseconds time_ns) noexcept {
     return;
   }
   if (time_ns < before_ns) {
-    // The clock has gone back: speeds and ages cannot be believed, the next tick is far away.
-    cut_all(ErrorCode::kFaultControlOverrun, Axis::kY);
+    // The clock has gone back: speeds and ages cannot be believed, the next tick is far away. Not
+    // twice: the end of a blind brake is a time too.
+    if (axes_[Axis::kY].brakes_blind() || axes_[Axis::kX].brakes_blind()) {
+      cut_all(ErrorCode::kFaultControlOverrun, Axis::kY);
+    } else {
+      give_up_encoders(ErrorCode::kFaultControlOverrun);
+    }
   } else if (time_ns - before_ns - exchange_ns_ > kOverrun_ns) {
     brake_all(ErrorCode::kFaultControlOverrun, Axis::kY);
   }
@@ -93,23 +99,25 @@ void MotionControl::watch_axis(Axis which, const ControlSample& sample) noexcept
     return;
   }
   const core::Nanoseconds age_ns = sample.time_ns - sample.encoder[which].time_ns;
+  if (axis.brakes_blind()) {
+    return;  // it already does all it can
+  }
   if (age_ns > core::nanoseconds(configuration_.safety.link_timeout_s)) {
-    cut_all(ErrorCode::kFaultLinkLost, which);
+    // Silence, or a clock that leapt ahead. Commands may still arrive; where they do not, the plant
+    // takes the drive away itself.
+    give_up_encoders(ErrorCode::kFaultLinkLost);
     return;
   }
   if (encoder == ErrorCode::kFaultEncoderIndex) {
     brake_all(encoder, which);  // the place is in doubt, the speed is not
-  } else if (encoder != ErrorCode::kNone && !axis.brakes_blind()) {
+  } else if (encoder != ErrorCode::kNone) {
     give_up_encoder(encoder, which);
     return;
   }
   const bool ready = (sample.lines & mask_of(amplifier_ready_of(which))) != 0;
-  if (axis.amplifier_failed(sample.time_ns, ready)) {
-    cut_one(ErrorCode::kFaultAmplifierNotReady, which);
+  if (is_driven(axis.mode()) && axis.amplifier_failed(sample.time_ns, ready)) {
+    brake_all(ErrorCode::kFaultAmplifierNotReady, which);
     return;
-  }
-  if (axis.brakes_blind()) {
-    return;  // it already does all it can
   }
   End end = End::kMin;
   if (axis.end_stops().moves_into(axis.observer().raw_count(), axis.observer().speed_count_per_s(),
@@ -160,8 +168,12 @@ void MotionControl::latch(ErrorCode code, Axis which) noexcept {
 void MotionControl::brake_all(ErrorCode code, Axis which) noexcept {
   latch(code, which);
   for (Axis each : core::kAxes) {
-    if (is_driven(axes_[each].mode())) {
-      axes_[each].begin_braking(now_ns_);
+    AxisControl& axis = axes_[each];
+    if (is_driven(axis.mode())) {
+      // A frozen encoder that nothing has noticed yet would say that there is nothing to brake.
+      if (axis.encoder_keeps_up() || !axis.begin_blind_braking(now_ns_)) {
+        axis.begin_braking(now_ns_);
+      }
       set_mode_event(each);
     }
   }
@@ -178,6 +190,16 @@ void MotionControl::give_up_encoder(ErrorCode code, Axis which) noexcept {
     brake_all(code, which);
   } else {
     cut_one(code, which);
+  }
+}
+
+void MotionControl::give_up_encoders(ErrorCode code) noexcept {
+  latch(code, Axis::kY);
+  for (Axis which : core::kAxes) {
+    const AxisMode mode = axes_[which].mode();
+    if (is_driven(mode) || (mode == AxisMode::kBraking && !axes_[which].brakes_blind())) {
+      give_up_encoder(code, which);
+    }
   }
 }
 
@@ -228,13 +250,7 @@ void MotionControl::link_lost(ErrorCode why, core::Nanoseconds now_ns) noexcept 
   post(Kind::kPeerLost, Axis::kY, why);
   if (why == ErrorCode::kFaultLinkCorrupt) {
     // What came out of step says nothing sure of the encoders, but commands may still arrive.
-    latch(why, Axis::kY);
-    for (Axis which : core::kAxes) {
-      const AxisControl& axis = axes_[which];
-      if (is_driven(axis.mode()) || (axis.mode() == AxisMode::kBraking && !axis.brakes_blind())) {
-        give_up_encoder(why, which);
-      }
-    }
+    give_up_encoders(why);
   } else {
     cut_all(why, Axis::kY);
   }

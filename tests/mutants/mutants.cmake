@@ -19,8 +19,12 @@ mutant(weak_brake system/brake.cc
 mutant(kill_brakes_instead system/motion_safety.cc
   "cut_all(ErrorCode::kFaultKillSwitch, Axis::kY)" "brake_all(ErrorCode::kFaultKillSwitch, Axis::kY)")
 mutant(only_the_other_axis_brakes system/motion_safety.cc
-  "    if (is_driven(axes_[each].mode())) {\n      axes_[each].begin_braking"
-  "    if (each != which && is_driven(axes_[each].mode())) {\n      axes_[each].begin_braking")
+  "    if (is_driven(axis.mode())) {\n      // A frozen"
+  "    if (each != which && is_driven(axis.mode())) {\n      // A frozen")
+mutant(no_blind_brake system/motion_safety.cc
+  "  if (axes_[which].begin_blind_braking(now_ns_)) {" "  if (false) {")
+mutant(blind_brake_pushes_on system/brake.cc
+  "-blind_direction_ * limit_Nm_" "blind_direction_ * limit_Nm_")
 
 # ---- who is heard
 mutant(hall_ends_swapped system/motion_safety.cc

@@ -205,7 +205,7 @@ TEST(DeadReckoning, KnowsNothingOfSlowAxesAndOfThoseThatTurnedRound) {
   const bbmc::AxisConfiguration settings = bbmc::Configuration().axes[Axis::kY];
   bbmc::DeadReckoning slow(settings);
   bbmc::DeadReckoning turned(settings);
-  const double slow_count_per_s = 0.09 * settings.counts_per_m();
+  const double slow_count_per_s = 0.07 * settings.counts_per_m();
   for (int ms = 1; ms <= 100; ++ms) {
     slow.update(ms * kNanosecondsPerMillisecond, slow_count_per_s, 0.0, 1e-3);
     turned.update(ms * kNanosecondsPerMillisecond, 60'000.0, -0.09, 1e-3);

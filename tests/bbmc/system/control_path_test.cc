@@ -138,11 +138,29 @@ TEST(SystemStates, AMotionWalksFromIdleThroughItsModeBackToIdle) {
                                               static_cast<std::int64_t>(AxisMode::kIdle)}));
 }
 
-TEST(LinkLost, NoSamplesForLongerThanTheTimeOutRemoveTheDrive) {
+TEST(LinkLost, NoSamplesForLongerThanTheTimeOutBrakeBlindAndThenRemoveTheDrive) {
   Machine machine;
   ASSERT_TRUE(machine.system().request_motion(trapezoid(machine, Axis::kY, 0.5, 0.3)));
-  machine.run_for(0.5);
+  machine.run_for(0.7);
   ASSERT_TRUE(machine.status(Axis::kY).amplifier_enabled);
+  core::Nanoseconds now_ns = core::nanoseconds(machine.time_s());
+  bool braked = false;
+  for (int k = 0; k < 100; ++k) {  // 20 ms of patience, 56 ms from 0.3 m/s, a tenth more
+    now_ns += core::kNanosecondsPerMillisecond;
+    machine.board().set_time(now_ns);
+    machine.system().service(now_ns);
+    braked = braked || machine.status(Axis::kY).duty_pct < 0.0;
+  }
+  EXPECT_NE(machine.system().status().fault, ErrorCode::kNone);
+  EXPECT_TRUE(braked);
+  EXPECT_FALSE(machine.status(Axis::kY).amplifier_enabled);
+  EXPECT_EQ(machine.status(Axis::kY).duty_pct, 0.0);
+}
+
+TEST(LinkLost, NoSamplesAtALowSpeedRemoveTheDriveAtOnce) {
+  Machine machine;
+  ASSERT_TRUE(machine.system().request_motion(trapezoid(machine, Axis::kY, 0.1, 0.05)));
+  machine.run_for(0.7);
   core::Nanoseconds now_ns = core::nanoseconds(machine.time_s());
   for (int k = 0; k < 25; ++k) {
     now_ns += core::kNanosecondsPerMillisecond;
