@@ -1,14 +1,13 @@
 // The safety subsystem: what stops the machine, how, and what stays latched afterwards.
 //
 //   kill switch, peer gone            no power, both axes, at once
-//   link silent or corrupt, clock     both axes brake blind: commands may still arrive
-//   set back
+//   link silent, clock set back       both axes brake blind: commands may still arrive
+//   encoder of one axis               it brakes blind if its speed is still known, else no power
+//                                     there; the other brakes
 //   amplifier of one axis             both axes brake: one that comes back in time may still stop
-//   it encoder of one axis               brakes blind if its speed is still known, else no power
-//   there;
-//                                     the other brakes
 //   index of an encoder lost          both axes brake: the speed can still be believed
-//   end-stop, limit, tracking         both axes brake
+//   end-stop, limit, tracking, link   both axes brake
+//   corrupt
 #include <cmath>
 
 #include "bbmc/system/motion_control.h"
@@ -249,8 +248,9 @@ void MotionControl::link_lost(ErrorCode why, core::Nanoseconds now_ns) noexcept 
   now_ns_ = now_ns;
   post(Kind::kPeerLost, Axis::kY, why);
   if (why == ErrorCode::kFaultLinkCorrupt) {
-    // What came out of step says nothing sure of the encoders, but commands may still arrive.
-    give_up_encoders(why);
+    // Motion was missed, but commands may still arrive. What came out of step may make an encoder
+    // unbelievable; then its axis goes on braking blind.
+    brake_all(why, Axis::kY);
   } else {
     cut_all(why, Axis::kY);
   }
