@@ -9,6 +9,8 @@ constexpr core::Nanoseconds kPeripheralClock_ns = 10;  // 100 MHz
 constexpr std::uint8_t kLevelA = 1;
 constexpr std::uint8_t kLevelB = 2;
 constexpr std::uint8_t kLevelIndex = 4;
+// A message that comes again or too late; further back it is a plant that has started anew.
+constexpr std::uint32_t kRecent = 16;
 constexpr auto kIndexLine = static_cast<std::uint32_t>(protocol::EncoderLine::kIndex);
 
 }  // namespace
@@ -26,6 +28,12 @@ bool QuadratureDecoder::configure(const Eqep::Settings& settings) noexcept {
 
 void QuadratureDecoder::load_position(std::uint32_t position) noexcept {
   counter_.count = static_cast<std::int64_t>(position);
+}
+
+// Its motion has been counted already, or was missed and would be counted out of place.
+bool QuadratureDecoder::is_old(std::uint32_t sequence) const noexcept {
+  const std::uint32_t behind = next_sequence_ - 1 - sequence;
+  return started_ && behind < kRecent;
 }
 
 bool QuadratureDecoder::continues(std::uint32_t sequence, core::Nanoseconds start_ns) noexcept {
@@ -122,6 +130,9 @@ void QuadratureDecoder::adopt_levels(std::uint8_t levels, core::Nanoseconds time
 }
 
 bool QuadratureDecoder::take(const protocol::EncoderEdges& message) noexcept {
+  if (is_old(message.sequence)) {
+    return false;
+  }
   const bool good = continues(message.sequence, message.start_ns);
   adopt_levels(message.start_levels, message.start_ns);
   started_ = true;
@@ -159,6 +170,9 @@ bool QuadratureDecoder::take(const protocol::EncoderEdges& message) noexcept {
 }
 
 bool QuadratureDecoder::take(const protocol::EncoderReport& report) noexcept {
+  if (is_old(report.sequence)) {
+    return false;
+  }
   const bool good = !started_ || report.sequence == next_sequence_;
   next_sequence_ = report.sequence + 1;
   started_ = true;

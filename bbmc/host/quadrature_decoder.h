@@ -40,6 +40,7 @@ class QuadratureDecoder {
   [[nodiscard]] std::uint64_t edges_seen() const noexcept { return counter_.edges; }
 
  private:
+  [[nodiscard]] bool is_old(std::uint32_t sequence) const noexcept;
   [[nodiscard]] bool continues(std::uint32_t sequence, core::Nanoseconds start_ns) noexcept;
   void adopt_levels(std::uint8_t levels, core::Nanoseconds time_ns) noexcept;
   [[nodiscard]] std::uint32_t wrapped(std::int64_t count) const noexcept;

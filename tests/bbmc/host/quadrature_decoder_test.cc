@@ -176,6 +176,19 @@ TEST(QuadratureDecoder, ReportsAMissingMessageByNumberAndByTime) {
   EXPECT_FALSE(decoder.take(skipped));
 }
 
+TEST(QuadratureDecoder, AMessageThatComesAgainIsToldAndNotCountedTwice) {
+  EdgeWriter writer(0);
+  QuadratureDecoder decoder;
+  ASSERT_TRUE(decoder.take(writer.message(0, 1'000'000, {{100, 1}, {200, 2}, {300, 3}})));
+  const EncoderEdges again = writer.message(1'000'000, 2'000'000, {{1'000'100, 4}, {1'000'200, 5}});
+  ASSERT_TRUE(decoder.take(again));
+  ASSERT_EQ(position(decoder), 5);
+  EXPECT_FALSE(decoder.take(again));
+  EXPECT_EQ(position(decoder), 5);
+  EXPECT_TRUE(decoder.take(writer.message(2'000'000, 3'000'000, {{2'000'100, 6}})));
+  EXPECT_EQ(position(decoder), 6);
+}
+
 TEST(QuadratureDecoder, PositionWrapsAtItsMaximumAsQPosMaxDoes) {
   EdgeWriter writer(0);
   QuadratureDecoder decoder;
