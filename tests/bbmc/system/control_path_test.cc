@@ -145,7 +145,7 @@ TEST(LinkLost, NoSamplesForLongerThanTheTimeOutBrakeBlindAndThenRemoveTheDrive) 
   ASSERT_TRUE(machine.status(Axis::kY).amplifier_enabled);
   core::Nanoseconds now_ns = core::nanoseconds(machine.time_s());
   bool braked = false;
-  for (int k = 0; k < 100; ++k) {  // 20 ms of patience, 56 ms from 0.3 m/s, a tenth more
+  for (int k = 0; k < 150; ++k) {  // 20 ms of patience; 0.1 s of braking from 0.3 m/s is enough
     now_ns += core::kNanosecondsPerMillisecond;
     machine.board().set_time(now_ns);
     machine.system().service(now_ns);
