@@ -1,5 +1,5 @@
-// Verbs of the sibling program `towbench-study`, which needs libraries that a first demo should not
-// wait for: named here, carried out there.
+// Verbs of the sibling programs `towbench-study` and `towbench-panel`, which need libraries that a
+// first demo should not wait for: named here, carried out there.
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -18,9 +18,9 @@ namespace towbench::harness {
 namespace {
 
 // Returns only when the sibling cannot be started.
-int hand_over(const std::string& verb, const std::vector<std::string>& rest) {
-  const auto program =
-      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "towbench-study";
+int hand_over(const std::string& sibling, const std::string& verb,
+              const std::vector<std::string>& rest) {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / sibling;
   std::vector<std::string> words{program.string(), verb};
   words.insert(words.end(), rest.begin(), rest.end());
   std::vector<char*> arguments;
@@ -34,11 +34,14 @@ int hand_over(const std::string& verb, const std::vector<std::string>& rest) {
   return kExitRuntime;
 }
 
-void add_elsewhere(CLI::App& app, int& exit_code, const std::string& name, const char* what) {
+void add_elsewhere(CLI::App& app, int& exit_code, const std::string& name, const char* what,
+                   const std::string& sibling = "towbench-study") {
   auto* verb = app.add_subcommand(name, what);
   verb->prefix_command();
   verb->set_help_flag();  // --help is the sibling's to answer
-  verb->callback([verb, name, &exit_code] { exit_code = hand_over(name, verb->remaining()); });
+  verb->callback([verb, sibling, name, &exit_code] {
+    exit_code = hand_over(sibling, name, verb->remaining());
+  });
 }
 
 }  // namespace
@@ -48,6 +51,10 @@ void add_identify_elsewhere(CLI::App& app, int& exit_code) {
   add_elsewhere(app, exit_code, "tow", "the tow experiments of chapter 8, judged");
   add_elsewhere(app, exit_code, "results", "the thesis's tables: thesis, bench, truth");
   add_elsewhere(app, exit_code, "diagnose", "name what a model gets wrong, from measured data");
+}
+
+void add_panel_elsewhere(CLI::App& app, int& exit_code) {
+  add_elsewhere(app, exit_code, "panel", "watch and steer runs in the browser", "towbench-panel");
 }
 
 }  // namespace towbench::harness

@@ -4,6 +4,8 @@
 # shellcheck disable=SC2034,SC2154  # used by ./towbench; set by it
 bench_program=$root/build/release/harness/towbench-bench
 # shellcheck disable=SC2034  # used by ./towbench
+panel_program=$root/build/release/harness/towbench-panel
+# shellcheck disable=SC2034  # used by ./towbench
 study_program=$root/build/release/harness/towbench-study
 
 # What one clone has compiled serves the next one, wherever it lies.
@@ -63,6 +65,14 @@ build_bench() {
   if configured_with TOWBENCH_STUDY; then preset=study; fi
   if configured_with TOWBENCH_TESTS; then preset=release; fi
   build_preset "$preset" release towbench-bench check_includes
+}
+
+# The panel, and the bench beside it.
+build_panel() {
+  local preset=user
+  if configured_with TOWBENCH_STUDY; then preset=study; fi
+  if configured_with TOWBENCH_TESTS; then preset=release; fi
+  build_preset "$preset" release towbench-panel towbench-bench check_includes
 }
 
 # The experiments that estimate, and the bench beside them.
