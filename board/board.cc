@@ -9,26 +9,13 @@
 
 #include "board/clock_control.h"
 #include "board/control_module.h"
+#include "board/kept_blocks.h"
 
 namespace towbench::board {
 namespace {
 
 constexpr std::uint32_t kSelectSlowClock = 2;
 constexpr core::Nanoseconds kLookEvery_ns = core::kNanosecondsPerMillisecond;
-
-struct NamedPlace {
-  const char* name;
-  std::uint32_t address;
-  std::uint32_t size;
-};
-// Known blocks whose registers are kept and do nothing here: what start-up code of a board sets.
-constexpr std::array kKept{
-    NamedPlace{"watchdog", kWatchdogAddress, 0x1000},
-    NamedPlace{"i2c0", 0x44E0'B000, 0x1000},
-    NamedPlace{"rtc", 0x44E3'E000, 0x1000},
-    NamedPlace{"l3 interconnect", 0x4400'0000, 0x1000},
-    NamedPlace{"emif0", 0x4C00'0000, 0x1000},
-};
 
 bool lies_in(const Place& place, std::uint32_t address, std::uint32_t size) noexcept {
   return address >= place.address && size <= place.size &&
@@ -104,8 +91,8 @@ void Board::make_peripherals() {
           pwm_[n]->set_gate((gates >> n & 1U) != 0);
         }
       })));
-  for (const NamedPlace& place : kKept) {
-    map(place.address, *own(std::make_unique<PlainBlock>(place.name, place.size, bus_)));
+  for (const KeptBlock& kept : kKeptBlocks) {
+    map(kept.address, *own(std::make_unique<PlainBlock>(kept.name, kept.size, bus_)));
   }
 }
 
@@ -167,6 +154,7 @@ void Board::reset() {
   verdict_.reset();
   on_ = true;
   waiting_ = false;
+  profile_.restart();
   last_access_ns_ = last_unmasked_ns_ = next_look_ns_ = time_ns_;
 }
 
@@ -194,12 +182,23 @@ std::uint32_t Board::load(std::uint32_t address, unsigned bytes) {
     return 0;
   }
   block->advance(bus_.now_ns);
-  std::uint32_t value = block->load(offset, bytes);
+  if (block->is_configuration()) {
+    polled_ = address;
+  } else {
+    ++signs_of_life_;
+  }
+  const std::uint32_t value = block->load(offset, bytes);
+  return stuck_.empty() ? value : as_stuck(address, bytes, value);
+}
+
+std::uint32_t Board::as_stuck(std::uint32_t address, unsigned bytes, std::uint32_t value) {
   for (const StuckBit& stuck : stuck_) {
     const std::uint32_t first = stuck.address + stuck.bit / 8;
     if (first >= address && first < address + bytes) {
       const std::uint32_t bit = 1U << (8 * (first - address) + stuck.bit % 8);
-      value = stuck.high ? value | bit : value & ~bit;
+      const std::uint32_t seen = stuck.high ? value | bit : value & ~bit;
+      stuck_reads_ += seen != value ? 1U : 0U;
+      value = seen;
     }
   }
   return value;
@@ -212,6 +211,7 @@ void Board::store(std::uint32_t address, unsigned bytes, std::uint32_t value) {
     return;
   }
   block->advance(bus_.now_ns);
+  ++signs_of_life_;
   block->store(offset, bytes, value);
   processor_->hasten(next_event_ns());
 }
@@ -271,73 +271,6 @@ void Board::run_until(core::Nanoseconds until_ns) {
   if (on_ && !verdict_ && until_ns >= next_look_ns_) {
     next_look_ns_ = until_ns + kLookEvery_ns;
     watch_for_life();
-  }
-}
-
-void Board::watch_for_life() {
-  const bool masked = processor_->interrupts_masked();
-  if (bus_.accesses != accesses_seen_) {
-    accesses_seen_ = bus_.accesses;
-    last_access_ns_ = time_ns_;
-  }
-  if (!masked) {
-    last_unmasked_ns_ = time_ns_;
-  }
-  if (time_ns_ - last_access_ns_ < kSilence_ns) {
-    return;
-  }
-  const std::uint32_t pc = processor_->pc();
-  if (time_ns_ - last_unmasked_ns_ >= kSilence_ns && !waiting_) {
-    fail(BoardFailure::kSpinsMasked, pc,
-         fmt::format("the image hangs: it spins at {} with interrupts masked, and has touched no "
-                     "peripheral for {} s",
-                     at(pc), core::seconds(kSilence_ns)));
-  } else if (!aintc_->anything_enabled()) {
-    fail(BoardFailure::kWaitsForNothing, pc,
-         fmt::format("the image hangs: at {} it has touched no peripheral for {} s, and no "
-                     "interrupt is enabled that could wake it",
-                     at(pc), core::seconds(kSilence_ns)));
-  }
-}
-
-std::string Board::at(std::uint32_t pc) const {
-  return fmt::format("0x{:08x} ({})", pc, image_.describe(pc));
-}
-
-void Board::fail(BoardFailure failure, std::uint32_t pc, std::string sentence) {
-  verdict_ = BoardVerdict{failure, bus_.now_ns, pc, std::move(sentence)};
-  for (PwmSubsystem* subsystem : pwm_) {
-    subsystem->advance(bus_.now_ns);
-  }
-}
-
-void Board::fail_with_crash() {
-  const Crash& crash = processor_->crash();
-  const auto told = [&](BoardFailure failure, const std::string& what) {
-    fail(failure, crash.pc, fmt::format("the image stopped at {}: {}", at(crash.pc), what));
-  };
-  switch (crash.kind) {
-    case CrashKind::kUnmappedRead:
-    case CrashKind::kUnmappedWrite:
-      told(BoardFailure::kUnmappedAccess,
-           fmt::format("it {} 0x{:08x}, where the board has nothing",
-                       crash.kind == CrashKind::kUnmappedRead ? "reads" : "writes", crash.address));
-      break;
-    case CrashKind::kUnmappedFetch:
-      told(BoardFailure::kUnmappedAccess, "it jumped there, and the board has no memory there");
-      break;
-    case CrashKind::kUndefinedInstruction:
-      told(BoardFailure::kUndefinedInstruction, "undefined instruction");
-      break;
-    case CrashKind::kBreakpoint:
-      told(BoardFailure::kUndefinedInstruction, "breakpoint, and no debugger is there");
-      break;
-    case CrashKind::kAbort:
-      told(BoardFailure::kUndefinedInstruction, "data or prefetch abort");
-      break;
-    case CrashKind::kEmulator:
-      told(BoardFailure::kEmulator, fmt::format("the CPU emulator gave up ({})", crash.address));
-      break;
   }
 }
 

@@ -37,6 +37,7 @@ enum class BoardFailure : std::uint8_t {
   kUndefinedInstruction,  // also a breakpoint or an abort
   kSpinsMasked,           // kSilence_ns with interrupts masked and no access to a peripheral
   kWaitsForNothing,       // kSilence_ns without access, and no interrupt is enabled
+  kPollsWhatStands,       // kSilence_ns with nothing but reads of registers that are merely kept
   kEmulator,
 };
 
@@ -93,6 +94,8 @@ class Board final : private PeripheralBus {
   // Faults of the board.
   void stick(const StuckBit& bit) { stuck_.push_back(bit); }
   void free_stuck_bits() { stuck_.clear(); }
+  // Reads whose value a stuck bit has changed, so far.
+  [[nodiscard]] std::uint64_t stuck_reads() const noexcept { return stuck_reads_; }
 
  private:
   struct Mapped {
@@ -114,6 +117,9 @@ class Board final : private PeripheralBus {
   void fail(BoardFailure failure, std::uint32_t pc, std::string sentence);
   void fail_with_crash();
   [[nodiscard]] std::string at(std::uint32_t pc) const;
+  [[nodiscard]] std::string name_of(std::uint32_t address) const;
+  [[nodiscard]] std::uint32_t code_at(std::uint32_t address);
+  [[nodiscard]] std::uint32_t as_stuck(std::uint32_t address, unsigned bytes, std::uint32_t value);
 
   Bus bus_;
   ExecutionProfile profile_;
@@ -138,7 +144,11 @@ class Board final : private PeripheralBus {
   bool on_ = false;
   bool started_ = false;
   bool waiting_ = false;
+  std::uint64_t stuck_reads_ = 0;
+  std::uint64_t signs_of_life_ = 0;  // accesses but to registers that are merely kept
+  std::uint64_t life_seen_ = 0;
   std::uint64_t accesses_seen_ = 0;
+  std::uint32_t polled_ = 0;  // the last of those
   core::Nanoseconds last_access_ns_ = 0;
   core::Nanoseconds last_unmasked_ns_ = 0;
   core::Nanoseconds next_look_ns_ = 0;

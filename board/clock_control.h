@@ -22,6 +22,7 @@ class ClockControl final : public RegisterBlock {
 
   ClockControl(Bus& bus, TimerClock timer_clock);
   void reset() override;
+  [[nodiscard]] bool is_configuration() const noexcept override { return true; }
 
  protected:
   std::uint32_t read_word(std::uint32_t offset, std::uint32_t lanes) override;

@@ -24,6 +24,7 @@ class ControlModule final : public RegisterBlock {
     preset();
     gates_(0);
   }
+  [[nodiscard]] bool is_configuration() const noexcept override { return true; }
 
  protected:
   void write_word(std::uint32_t offset, std::uint32_t value, std::uint32_t lanes) override {

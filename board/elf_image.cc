@@ -59,7 +59,10 @@ void check_identity(const Bytes& file) {
   const auto identity = file.part(0, kHeaderSize, "the ELF header");
   constexpr std::uint8_t kMagic[4] = {0x7F, 'E', 'L', 'F'};
   if (std::memcmp(identity.data(), kMagic, sizeof kMagic) != 0) {
-    throw Damaged{"it is no ELF file"};
+    throw Damaged{
+        "it is no ELF file (a raw image for a boot loader lacks its addresses: give the ELF that "
+        "it "
+        "was made from)"};
   }
   if (identity[4] != 1 || identity[5] != 1) {
     throw Damaged{"it is no 32-bit little-endian ELF file"};
@@ -231,11 +234,14 @@ int ElfImage::function_at(std::uint32_t address) const {
 }
 
 std::string ElfImage::describe(std::uint32_t address) const {
+  if (symbols_.empty()) {
+    return "no symbols";
+  }
   const auto after =
       std::upper_bound(symbols_.begin(), symbols_.end(), address,
                        [](std::uint32_t a, const ElfSymbol& s) { return a < s.address; });
   if (after == symbols_.begin()) {
-    return "?";
+    return "before every symbol";
   }
   const int function = function_at(address);
   const ElfSymbol& nearest = *std::prev(after);

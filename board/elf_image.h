@@ -44,7 +44,7 @@ class ElfImage {
   [[nodiscard]] std::span<const ElfSymbol> symbols() const noexcept { return symbols_; }
   [[nodiscard]] std::optional<ElfSymbol> find(std::string_view name) const;
   // The function or object that holds an address, or else the nearest below it: "main+0x1c".
-  // "?" without symbols.
+  // "no symbols" in a stripped image, "before every symbol" below the first.
   [[nodiscard]] std::string describe(std::uint32_t address) const;
   // Index into symbols() of the function that holds an address; -1 for none.
   [[nodiscard]] int function_at(std::uint32_t address) const;

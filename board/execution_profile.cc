@@ -19,10 +19,10 @@ void ExecutionProfile::enter(unsigned interrupt, std::uint32_t return_pc, std::u
   frames_.push_back({interrupt % kInterrupts, return_pc, return_sp, instructions_, 0, now_ns});
 }
 
-void ExecutionProfile::left(std::uint32_t sp) {
+bool ExecutionProfile::left(std::uint32_t sp) {
   const Frame frame = frames_.back();
   if (frame.sp != sp) {
-    return;
+    return false;
   }
   frames_.pop_back();
   const std::uint64_t all = instructions_ - frame.before;
@@ -37,6 +37,7 @@ void ExecutionProfile::left(std::uint32_t sp) {
     cost.worst = own;
     cost.worst_at_ns = frame.time_ns;
   }
+  return true;
 }
 
 }  // namespace towbench::board

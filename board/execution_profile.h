@@ -49,7 +49,10 @@ class ExecutionProfile {
   [[nodiscard]] bool may_leave(std::uint32_t address) const noexcept {
     return !frames_.empty() && frames_.back().pc == address;
   }
-  void left(std::uint32_t sp);
+  // False: the stack says that it goes on.
+  bool left(std::uint32_t sp);
+  // The processor starts again: nothing is in an interrupt. What was counted stays.
+  void restart() noexcept { frames_.clear(); }
 
   [[nodiscard]] std::uint64_t instructions() const noexcept { return instructions_; }
   [[nodiscard]] const InterruptCost& interrupt(unsigned n) const { return interrupts_[n]; }

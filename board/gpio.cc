@@ -44,7 +44,7 @@ void Gpio::reset() {
   RegisterBlock::reset();
   stored(kRevision) = 0x5060'0801U;
   inputs_ = 0xFFFF'FFFFU;
-  data_out_ = 0;
+  data_out_ = chosen_ = 0;
   for (unsigned line = 0; line < 2; ++line) {
     raw_[line] = enabled_[line] = 0;
   }
@@ -179,12 +179,15 @@ void Gpio::write_word(std::uint32_t offset, std::uint32_t value, std::uint32_t l
       inputs_ = (inputs_ & ~lanes) | value;
       break;
     case kDataOut:
+      chosen_ |= (data_out_ ^ value) & lanes;
       data_out_ = (data_out_ & ~lanes) | value;
       break;
     case kClearDataOut:
+      chosen_ |= value;
       data_out_ &= ~value;
       break;
     case kSetDataOut:
+      chosen_ |= value;
       data_out_ |= value;
       break;
     default:

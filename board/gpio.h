@@ -32,6 +32,10 @@ class Gpio final : public RegisterBlock {
   [[nodiscard]] bool output(unsigned pin) const noexcept {
     return drives(pin) && (data_out_ >> pin & 1U) != 0;
   }
+  // An output whose level the program has chosen since reset, by name or by a change.
+  [[nodiscard]] bool has_chosen(unsigned pin) const noexcept {
+    return drives(pin) && (chosen_ >> pin & 1U) != 0;
+  }
 
   void advance(core::Nanoseconds now_ns) override;
   [[nodiscard]] core::Nanoseconds next_event_ns() const override;
@@ -64,6 +68,7 @@ class Gpio final : public RegisterBlock {
   core::Nanoseconds next_settle_ns_ = kNever;
   std::uint32_t inputs_ = 0xFFFF'FFFFU;  // OE: 1 = input
   std::uint32_t data_out_ = 0;
+  std::uint32_t chosen_ = 0;
   std::uint32_t raw_[2]{};
   std::uint32_t enabled_[2]{};
 };

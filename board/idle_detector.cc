@@ -1,5 +1,6 @@
 #include "board/idle_detector.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace towbench::board {
@@ -37,7 +38,10 @@ bool IdleDetector::at_block(std::uint32_t address, std::uint64_t disturbances,
     return false;
   }
   const RegisterSet now = reader.registers();
-  const bool same = has_snapshot_ && now == snapshot_;
+  const auto stack = reader.stack_top();
+  const bool same =
+      has_snapshot_ && now == snapshot_ &&
+      std::equal(stack.begin(), stack.end(), stack_snapshot_.begin(), stack_snapshot_.end());
   if (same) {
     rounds_to_check_ = 1;
     return confirm(address, reader);
@@ -47,6 +51,7 @@ bool IdleDetector::at_block(std::uint32_t address, std::uint64_t disturbances,
   }
   rounds_to_check_ = patience_;
   snapshot_ = now;
+  stack_snapshot_.assign(stack.begin(), stack.end());
   has_snapshot_ = true;
   confirming_ = false;
   // A long wait between two looks would compare rounds far apart: the second look is at the next.

@@ -1,7 +1,7 @@
 // Finds out that a program runs in a circle in which nothing will change by itself.
 //
-// A circle: the same block comes again with the same registers, and between the two no access to a
-// peripheral disturbed (bus.h). The first time a loop is seen its memory and its floating-point
+// A circle: the same block comes again with the same registers and stack, and between no access to
+// a peripheral disturbed (bus.h). The first time a loop is seen its memory and its floating-point
 // registers are compared over one more round as well; a loop that changes them never counts as
 // idle.
 #pragma once
@@ -26,6 +26,8 @@ class RegisterReader {
   virtual ~RegisterReader() = default;
   [[nodiscard]] virtual RegisterSet registers() const = 0;
   [[nodiscard]] virtual FloatRegisters float_registers() const = 0;
+  // The youngest part of the stack: what a loop counts there is not in the image's own memory.
+  [[nodiscard]] virtual std::span<const std::uint8_t> stack_top() const = 0;
 };
 
 class IdleDetector {
@@ -57,6 +59,7 @@ class IdleDetector {
   bool has_snapshot_ = false;
   bool confirming_ = false;
   RegisterSet snapshot_{};
+  std::vector<std::uint8_t> stack_snapshot_;
   FloatRegisters float_snapshot_{};
   std::vector<std::uint8_t> memory_copy_;
 };

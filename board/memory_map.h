@@ -22,7 +22,6 @@ inline constexpr std::uint32_t kClockControlAddress = 0x44E0'0000;
 inline constexpr std::uint32_t kControlModuleAddress = 0x44E1'0000;
 inline constexpr std::uint32_t kUart0Address = 0x44E0'9000;
 inline constexpr std::uint32_t kAintcAddress = 0x4820'0000;
-inline constexpr std::uint32_t kWatchdogAddress = 0x44E3'5000;
 
 inline constexpr unsigned kUart0Interrupt = 72;
 

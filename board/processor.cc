@@ -1,5 +1,6 @@
 #include "board/processor.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -29,6 +30,8 @@ constexpr std::uint32_t kSupervisorCall = 2;
 constexpr std::uint32_t kPrefetchAbort = 3;
 constexpr std::uint32_t kDataAbort = 4;
 constexpr std::uint32_t kBreakpointException = 7;
+constexpr std::uint32_t kHypervisorCall = 11;
+constexpr std::uint32_t kMonitorCall = 13;
 
 void must(uc_err error, const char* what) {
   if (error != UC_ERR_OK) {
@@ -81,7 +84,7 @@ struct Processor::Unicorn {
     } else {
       self->fail(
           type == UC_MEM_READ_UNMAPPED ? CrashKind::kUnmappedRead : CrashKind::kUnmappedWrite,
-          where, self->faulting_instruction(where));
+          where, self->instruction_that_accesses(where));
     }
     return false;
   }
@@ -120,6 +123,7 @@ Processor::Processor(Bus& bus, Aintc& interrupts, PeripheralBus& peripherals,
       unicorn_(std::make_unique<Unicorn>()) {
   unicorn_->owner = this;
   must(uc_open(UC_ARCH_ARM, UC_MODE_ARM, &unicorn_->engine), "open");
+  engine_ = unicorn_->engine;
   must(uc_ctl_set_cpu_model(unicorn_->engine, UC_CPU_ARM_CORTEX_A8), "Cortex-A8");
   unicorn_->add_hook(UC_HOOK_BLOCK, &Unicorn::block);
   unicorn_->add_hook(UC_HOOK_INTR, &Unicorn::exception);
@@ -129,17 +133,12 @@ Processor::Processor(Bus& bus, Aintc& interrupts, PeripheralBus& peripherals,
 
 Processor::~Processor() = default;
 
-std::uint32_t Processor::reg(int id) const {
-  std::uint32_t value = 0;
-  uc_reg_read(unicorn_->engine, id, &value);
-  return value;
-}
-
 void Processor::set_reg(int id, std::uint32_t value) {
   uc_reg_write(unicorn_->engine, id, &value);
 }
 
 void Processor::map_memory(std::uint32_t address, std::span<std::uint8_t> bytes) {
+  memories_.push_back({address, bytes});
   must(uc_mem_map_ptr(unicorn_->engine, address, bytes.size(), UC_PROT_ALL, bytes.data()),
        "memory");
   if (unicorn_->stores == nullptr) {
@@ -202,7 +201,7 @@ void Processor::pause(Pause why) {
 
 void Processor::fail(CrashKind kind, std::uint32_t address, std::uint32_t pc) {
   if (paused_ != Pause::kCrashed) {
-    crash_ = {kind, address, pc};
+    crash_ = {kind, address, pc, reg(UC_ARM_REG_LR)};
     paused_ = Pause::kCrashed;
   }
 }
@@ -211,6 +210,9 @@ void Processor::on_block(std::uint32_t address, std::uint32_t size) {
   if (paused_) {
     return;
   }
+  // Before the next interrupt is taken here: it would come back to the same place.
+  while (profile_.may_leave(address) && profile_.left(stack_pointer())) {
+  }
   if (bus_.now_ns >= deadline_ns_) {
     pause(Pause::kTime);
     return;
@@ -218,9 +220,6 @@ void Processor::on_block(std::uint32_t address, std::uint32_t size) {
   if (interrupts_.offers() && !interrupts_masked()) {
     pause(Pause::kInterrupt);
     return;
-  }
-  if (profile_.may_leave(address)) {
-    profile_.left(stack_pointer());
   }
   if (idle_.at_block(address, bus_.disturbances, *this)) {
     pause(Pause::kIdle);
@@ -247,6 +246,11 @@ void Processor::on_exception(std::uint32_t number) {
       supervisor_call_ = true;
       supervisor_return_ = pc;
       break;
+    case kMonitorCall:
+    case kHypervisorCall:
+      // The services of the ROM's monitor set up caches: nothing that this board has.
+      monitor_call_ = true;
+      break;
     case kUndefined:
       fail(CrashKind::kUndefinedInstruction, 0, pc);
       break;
@@ -268,7 +272,7 @@ Processor::Pause Processor::run(core::Nanoseconds deadline_ns) {
   idle_.restart();  // what was waited for may have come
   while (true) {
     paused_.reset();
-    supervisor_call_ = false;
+    supervisor_call_ = monitor_call_ = false;
     const std::uint32_t thumb = (reg(UC_ARM_REG_CPSR) & kThumb) != 0 ? 1U : 0U;
     unicorn_->stores->begin();
     const uc_err error = uc_emu_start(unicorn_->engine, pc_ | thumb, kNowhere, 0, 0);
@@ -283,6 +287,9 @@ Processor::Pause Processor::run(core::Nanoseconds deadline_ns) {
     }
     if (supervisor_call_) {
       enter(kModeSupervisor, kSupervisorVector, supervisor_return_);
+      continue;
+    }
+    if (monitor_call_) {
       continue;
     }
     // Unicorn leaves by itself at WFI only.
@@ -307,63 +314,6 @@ void Processor::take_interrupt() {
   idle_.restart();
   profile_.enter(interrupts_.number(), pc_, stack_pointer(), bus_.now_ns);
   enter(kModeInterrupt, kInterruptVector, pc_ + 4);
-}
-
-RegisterSet Processor::registers() const {
-  constexpr std::array kIds{UC_ARM_REG_R0,  UC_ARM_REG_R1,  UC_ARM_REG_R2,  UC_ARM_REG_R3,
-                            UC_ARM_REG_R4,  UC_ARM_REG_R5,  UC_ARM_REG_R6,  UC_ARM_REG_R7,
-                            UC_ARM_REG_R8,  UC_ARM_REG_R9,  UC_ARM_REG_R10, UC_ARM_REG_R11,
-                            UC_ARM_REG_R12, UC_ARM_REG_R13, UC_ARM_REG_R14, UC_ARM_REG_CPSR};
-  RegisterSet set{};
-  for (std::size_t i = 0; i < kIds.size(); ++i) {
-    set[i] = reg(kIds[i]);
-  }
-  return set;
-}
-
-FloatRegisters Processor::float_registers() const {
-  FloatRegisters set{};
-  for (int i = 0; i < 32; ++i) {
-    uc_reg_read(unicorn_->engine, UC_ARM_REG_D0 + i, &set[static_cast<std::size_t>(i)]);
-  }
-  set[32] = reg(UC_ARM_REG_FPSCR);
-  return set;
-}
-
-std::uint32_t Processor::code_word(std::uint32_t address) const {
-  std::uint32_t word = 0;
-  uc_mem_read(unicorn_->engine, address, &word, sizeof word);
-  return word;
-}
-
-// Unicorn knows the block only. Registers stand as they were before the instruction, so it is the
-// first one of the block whose base and offset make the address; the block's start when none does.
-std::uint32_t Processor::faulting_instruction(std::uint32_t address) const {
-  if ((reg(UC_ARM_REG_CPSR) & kThumb) != 0) {
-    return block_;
-  }
-  const RegisterSet set = registers();
-  for (std::uint32_t at = block_; at < block_ + block_size_; at += 4) {
-    const std::uint32_t code = code_word(at);
-    const bool is_word_transfer = (code & 0x0E00'0000U) == 0x0400'0000U;
-    const bool is_half_transfer = (code & 0x0E40'0090U) == 0x0040'0090U;
-    const bool is_multiple = (code & 0x0E00'0000U) == 0x0800'0000U;
-    const std::uint32_t base_register = (code >> 16U) & 0xFU;
-    if (base_register == 15 || !(is_word_transfer || is_half_transfer || is_multiple)) {
-      continue;
-    }
-    const std::uint32_t base = set[base_register];
-    std::uint32_t offset = is_word_transfer   ? code & 0xFFFU
-                           : is_half_transfer ? (code >> 4U & 0xF0U) | (code & 0xFU)
-                                              : 0;
-    const bool before = (code & 1U << 24U) != 0;
-    const bool up = (code & 1U << 23U) != 0;
-    const std::uint32_t effective = !before ? base : up ? base + offset : base - offset;
-    if (effective == address || (is_multiple && address - base < 64)) {
-      return at;
-    }
-  }
-  return block_;
 }
 
 }  // namespace towbench::board

@@ -54,6 +54,7 @@ struct Crash {
   CrashKind kind = CrashKind::kEmulator;
   std::uint32_t address = 0;  // that was accessed
   std::uint32_t pc = 0;
+  std::uint32_t link = 0;  // LR: where a jump may have come from
 };
 
 class Processor final : private RegisterReader {
@@ -110,7 +111,8 @@ class Processor final : private RegisterReader {
   void set_reg(int id, std::uint32_t value);
   [[nodiscard]] RegisterSet registers() const override;
   [[nodiscard]] FloatRegisters float_registers() const override;
-  [[nodiscard]] std::uint32_t faulting_instruction(std::uint32_t address) const;
+  [[nodiscard]] std::span<const std::uint8_t> stack_top() const override;
+  [[nodiscard]] std::uint32_t instruction_that_accesses(std::uint32_t address) const;
   [[nodiscard]] std::uint32_t code_word(std::uint32_t address) const;
 
   Bus& bus_;
@@ -119,6 +121,7 @@ class Processor final : private RegisterReader {
   ExecutionProfile& profile_;
   IdleDetector idle_;
   std::unique_ptr<Unicorn> unicorn_;
+  uc_struct* engine_ = nullptr;  // its own
   std::uint32_t pc_ = 0;
   std::uint32_t block_ = 0;  // that executes
   std::uint32_t block_size_ = 0;
@@ -126,6 +129,12 @@ class Processor final : private RegisterReader {
   std::optional<Pause> paused_;
   std::uint32_t supervisor_return_ = 0;
   bool supervisor_call_ = false;
+  bool monitor_call_ = false;
+  struct Memory {
+    std::uint32_t address = 0;
+    std::span<const std::uint8_t> bytes;
+  };
+  std::vector<Memory> memories_;
   Crash crash_;
 };
 

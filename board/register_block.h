@@ -29,6 +29,8 @@ class RegisterBlock {
   // When something readable or an interrupt will next change by itself.
   [[nodiscard]] virtual core::Nanoseconds next_event_ns() const { return kNever; }
   virtual void reset();
+  // Registers that hold what was written and never change by themselves.
+  [[nodiscard]] virtual bool is_configuration() const noexcept { return false; }
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] std::uint32_t size() const noexcept { return size_; }
@@ -58,6 +60,7 @@ class RegisterBlock {
 class PlainBlock final : public RegisterBlock {
  public:
   using RegisterBlock::RegisterBlock;
+  [[nodiscard]] bool is_configuration() const noexcept override { return true; }
 
  protected:
   void write_word(std::uint32_t offset, std::uint32_t value, std::uint32_t lanes) override {

@@ -17,6 +17,7 @@ enum Register : std::uint32_t {
   kModemStatus = 0x18,
   kScratch = 0x1C,
   kMode1 = 0x20,
+  kControl = 0x40,  // SCR
   kSupplementary = 0x44,
   kSysConfig = 0x54,
   kSysStatus = 0x58,
@@ -30,6 +31,8 @@ constexpr std::uint32_t kAllSent = 1U << 6U;
 constexpr std::uint32_t kReceiveInterrupt = 1U << 0U;
 constexpr std::uint32_t kTransmitInterrupt = 1U << 1U;
 constexpr std::uint32_t kStatusInterrupt = 1U << 2U;
+constexpr std::uint32_t kAutoRts = 1U << 6U;
+constexpr std::uint32_t kSoftwareFlow = 0xFU;
 constexpr core::Nanoseconds kClock_Hz = 48'000'000;
 constexpr core::Nanoseconds kBitsPerByte = 10;
 // Of a FIFO that holds something but less than its trigger (TRM 19.3.6.1.4).
@@ -52,7 +55,9 @@ void Uart::reset() {
   received_.clear();
   to_send_.clear();
   sent_ns_ = kNever;
+  modem_ = enhanced_ = flow_ = trigger_ = 0;
   overrun_ = false;
+  release_terminal();
   interrupt_(false);
 }
 
@@ -63,7 +68,7 @@ core::Nanoseconds Uart::byte_time_ns() const noexcept {
 }
 
 void Uart::type(std::string_view bytes) {
-  if (typed_.empty() && !bytes.empty()) {
+  if (typed_.empty() && !bytes.empty() && !held_) {
     arrives_ns_ = bus().now_ns + byte_time_ns();
   }
   typed_.insert(typed_.end(), bytes.begin(), bytes.end());
@@ -93,6 +98,7 @@ void Uart::advance(core::Nanoseconds now_ns) {
     typed_.pop_front();
     last_arrival_ns_ = arrives_ns_;
     arrives_ns_ = typed_.empty() ? kNever : arrives_ns_ + byte_time_ns();
+    hold_terminal();
   }
   while (sent_ns_ <= now_ns) {
     sent_.push_back(static_cast<char>(to_send_.front()));
@@ -114,15 +120,12 @@ std::uint32_t Uart::line_status() noexcept {
 }
 
 std::uint32_t Uart::interrupt_identity() const noexcept {
-  constexpr std::array<std::size_t, 4> kReceiveTriggers{8, 16, 56, 60};
-  constexpr std::array<std::size_t, 4> kTransmitTriggers{8, 16, 32, 56};
   const std::uint32_t fifo_bits = fifo_on() ? 0xC0U : 0U;
   if (overrun_ && (interrupts_ & kStatusInterrupt) != 0) {
     return fifo_bits | 3U << 1U;
   }
   if ((interrupts_ & kReceiveInterrupt) != 0 && !received_.empty()) {
-    const std::size_t trigger = fifo_on() ? kReceiveTriggers[(fifo_control_ >> 6U) & 3U] : 1;
-    if (received_.size() >= trigger) {
+    if (received_.size() >= receive_trigger()) {
       return fifo_bits | 2U << 1U;
     }
     if (bus().now_ns >= last_arrival_ns_ + kTimeoutBytes * byte_time_ns()) {
@@ -130,8 +133,7 @@ std::uint32_t Uart::interrupt_identity() const noexcept {
     }
   }
   const std::size_t room = depth() - std::min(depth(), to_send_.size());
-  const std::size_t wanted = fifo_on() ? kTransmitTriggers[(fifo_control_ >> 4U) & 3U] : 1;
-  if ((interrupts_ & kTransmitInterrupt) != 0 && room >= wanted) {
+  if ((interrupts_ & kTransmitInterrupt) != 0 && room >= transmit_trigger()) {
     return fifo_bits | 1U << 1U;
   }
   return fifo_bits | 1U;
@@ -148,8 +150,61 @@ std::uint32_t Uart::take_byte() {
   }
   const std::uint8_t byte = received_.front();
   received_.pop_front();
+  if (held_ && received_.size() <= 4 * (flow_ >> 4U & 0xFU)) {
+    release_terminal();
+  }
   update_line();
   return byte;
+}
+
+void Uart::hold_terminal() noexcept {
+  const bool auto_rts = (enhanced_ & kAutoRts) != 0;
+  if (auto_rts && received_.size() >= 4 * (flow_ & 0xFU)) {
+    held_ = true;
+    arrives_ns_ = kNever;
+  }
+}
+
+void Uart::release_terminal() noexcept {
+  held_ = false;
+  arrives_ns_ = typed_.empty() ? kNever : bus().now_ns + byte_time_ns();
+}
+
+void Uart::write_enhanced(std::uint32_t value) {
+  enhanced_ = value;
+  if ((value & kSoftwareFlow) != 0) {
+    note(name() + ": flow control by XON and XOFF is not modelled");
+  }
+  if (held_ && (value & kAutoRts) == 0) {
+    release_terminal();
+  }
+}
+
+// TRM tables 19-27 and 19-28: by FCR, by TLR in fours, or by both to the byte.
+std::size_t Uart::receive_trigger() const noexcept {
+  constexpr std::array<std::size_t, 4> kLevels{8, 16, 56, 60};
+  const std::uint32_t low = fifo_control_ >> 6U & 3U;
+  const std::uint32_t high = trigger_ >> 4U & 0xFU;
+  if (!fifo_on()) {
+    return 1;
+  }
+  if ((stored(kControl) & 0x80U) != 0) {
+    return std::max<std::size_t>(1, high << 2U | low);
+  }
+  return high != 0 ? 4 * high : kLevels[low];
+}
+
+std::size_t Uart::transmit_trigger() const noexcept {
+  constexpr std::array<std::size_t, 4> kLevels{8, 16, 32, 56};
+  const std::uint32_t low = fifo_control_ >> 4U & 3U;
+  const std::uint32_t high = trigger_ & 0xFU;
+  if (!fifo_on()) {
+    return 1;
+  }
+  if ((stored(kControl) & 0x40U) != 0) {
+    return std::max<std::size_t>(1, high << 2U | low);
+  }
+  return high != 0 ? 4 * high : kLevels[low];
 }
 
 std::uint32_t Uart::read_word(std::uint32_t offset, std::uint32_t lanes) {
@@ -162,13 +217,17 @@ std::uint32_t Uart::read_word(std::uint32_t offset, std::uint32_t lanes) {
     case kInterruptEnable:
       return divisor_latch() ? divisor_ >> 8U : interrupts_;
     case kFifoControl:
-      return mode_b() ? stored(kFifoControl) : interrupt_identity();
+      return mode_b() ? enhanced_ : interrupt_identity();
     case kLineControl:
       return line_control_;
     case kLineStatus:
       return mode_b() ? 0 : line_status();
+    case kModemControl:
+      return mode_b() ? stored(offset) : modem_;
     case kModemStatus:
-      return 0x10;  // CTS: nothing holds the line back
+      return shows_levels() ? flow_ : 0x10U;  // CTS: nothing holds the line back
+    case kScratch:
+      return shows_levels() ? trigger_ : stored(offset);
     case kMode1:
       return mode_;
     case kSupplementary:
@@ -204,13 +263,32 @@ void Uart::write_word(std::uint32_t offset, std::uint32_t value, std::uint32_t l
       break;
     case kFifoControl:
       if (mode_b()) {
-        keep(offset, value, lanes);  // EFR
+        write_enhanced(value);
       } else {
         write_fifo_control(value);
       }
       break;
     case kLineControl:
       line_control_ = value;
+      break;
+    case kModemControl:
+      if (mode_b()) {
+        keep(offset, value, lanes);  // XON1
+      } else {
+        modem_ = value;
+      }
+      break;
+    case kModemStatus:
+      if (shows_levels()) {
+        flow_ = value;
+      }
+      break;
+    case kScratch:
+      if (shows_levels()) {
+        trigger_ = value;
+      } else {
+        keep(offset, value, lanes);
+      }
       break;
     case kMode1:
       mode_ = value;

@@ -2,7 +2,9 @@
 // pace of the line.
 //
 // After reset it stands as the boot loader leaves UART0: 115,200 baud 8N1, FIFOs on. A byte takes
-// ten bit times. A byte that finds the receive FIFO full is lost and sets LSR.OE.
+// ten bit times. A byte that finds the receive FIFO full is lost and sets LSR.OE. With EFR's
+// auto-RTS the terminal stops at TCR's halt level and goes on at its restore level; nobody holds
+// CTS back.
 #pragma once
 
 #include <cstdint>
@@ -43,6 +45,15 @@ class Uart final : public RegisterBlock {
   [[nodiscard]] bool mode_b() const noexcept { return line_control_ == 0xBFU; }
   [[nodiscard]] bool fifo_on() const noexcept { return (fifo_control_ & 1U) != 0; }
   [[nodiscard]] std::size_t depth() const noexcept { return fifo_on() ? kFifo : 1; }
+  // TCR and TLR stand in the place of MSR and SPR.
+  [[nodiscard]] bool shows_levels() const noexcept {
+    return (enhanced_ & 0x10U) != 0 && (modem_ & 0x40U) != 0;
+  }
+  [[nodiscard]] std::size_t receive_trigger() const noexcept;
+  [[nodiscard]] std::size_t transmit_trigger() const noexcept;
+  void hold_terminal() noexcept;
+  void release_terminal() noexcept;
+  void write_enhanced(std::uint32_t value);
   [[nodiscard]] std::uint32_t line_status() noexcept;
   [[nodiscard]] std::uint32_t interrupt_identity() const noexcept;
   [[nodiscard]] std::uint32_t take_byte();
@@ -64,7 +75,12 @@ class Uart final : public RegisterBlock {
   std::uint32_t interrupts_ = 0;
   std::uint32_t fifo_control_ = 0;
   std::uint32_t mode_ = 0;
+  std::uint32_t modem_ = 0;     // MCR
+  std::uint32_t enhanced_ = 0;  // EFR
+  std::uint32_t flow_ = 0;      // TCR: restore level in bits 7:4, halt level in 3:0, in fours
+  std::uint32_t trigger_ = 0;   // TLR: receive in bits 7:4, transmit in 3:0
   bool overrun_ = false;
+  bool held_ = false;  // the terminal, by RTS
 };
 
 }  // namespace towbench::board

@@ -74,6 +74,7 @@ class FirmwareBench {
   std::deque<Decoded> decoded_;  // of the last exchanges
   core::PerAxis<std::uint64_t> edges_told_;
   core::Nanoseconds now_ns_ = 0;
+  core::Nanoseconds next_pin_row_ns_ = 0;
   core::Nanoseconds row_offset_ns_ = 0;
   bool row_seen_ = false;
   core::Nanoseconds driven_last_ns_ = 0;

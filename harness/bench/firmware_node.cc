@@ -77,7 +77,7 @@ FirmwareNode::Drive FirmwareNode::drive_of(core::Axis axis) noexcept {
     a.high_ticks /= 2;
     b.high_ticks /= 2;
   }
-  if (pins.drives(wires.direction_pin)) {
+  if (pins.has_chosen(wires.direction_pin)) {
     const bool to_max = pins.output(wires.direction_pin) == wiring_.direction_high_is_max;
     const std::uint32_t size = a.high_ticks != 0 ? a.high_ticks : b.high_ticks;
     a.high_ticks = to_max ? size : 0;

@@ -18,7 +18,7 @@ TEST(ElfImage, ReadsEntrySegmentAndSymbols) {
   ASSERT_EQ(image->segments().size(), 1U);
   EXPECT_EQ(image->segments()[0].bytes.size(), 8U);
   EXPECT_EQ(image->describe(kSmallImageAddress + 4), "start+0x4");
-  EXPECT_EQ(image->describe(0x100), "?");
+  EXPECT_EQ(image->describe(0x100), "before every symbol");
 }
 
 TEST(ElfImage, RefusesWhatIsNoImageWithASentence) {
@@ -27,7 +27,7 @@ TEST(ElfImage, RefusesWhatIsNoImageWithASentence) {
     return image ? std::string{} : image.error();
   };
   EXPECT_EQ(refusal({}), "the ELF header reaches beyond the end of the file");
-  EXPECT_EQ(refusal(std::vector<std::uint8_t>(100, 0)), "it is no ELF file");
+  EXPECT_EQ(refusal(std::vector<std::uint8_t>(100, 0)).substr(0, 17), "it is no ELF file");
   auto bytes = small_image({0xE320F003U});
   auto wrong = bytes;
   wrong[4] = 2;

@@ -10,12 +10,12 @@
 namespace towbench::board {
 namespace {
 
-#ifdef TOWBENCH_EXERCISE_IMAGE
+#ifdef TOWBENCH_FIRMWARE_FOLDER
 
 class Exercise {
  public:
   Exercise() {
-    auto image = ElfImage::read(TOWBENCH_EXERCISE_IMAGE);
+    auto image = ElfImage::read(TOWBENCH_FIRMWARE_FOLDER "/exercise.elf");
     EXPECT_TRUE(image);
     EXPECT_EQ(board_.load(std::move(*image)), "");
   }

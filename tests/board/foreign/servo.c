@@ -1,0 +1,304 @@
+/* A controller that nothing here has been made for: console with a prompt and questions, polled a
+ * character at a time; a 1 kHz control interrupt in double precision; a 1 ms tick of priority 0; the
+ * motor driven by the difference of both PWM channels, while the direction pins are outputs that
+ * nobody sets; waits without WFI. */
+#include <math.h>
+#include <string.h>
+
+#include "registers.h"
+
+void enable_caches(void);
+void entry(void);
+void on_interrupt(void);
+void on_supervisor_call(void);
+void on_abort(void);
+
+#define COUNTS_PER_M 445311.0
+#define START 200000
+
+static double history[2][131072]; /* as large as a real one's log */
+static volatile int motion_ended;
+static volatile u32 ticks;
+static int iteration, killed;
+static double target, integral, position_before;
+
+/* ---- console ---- */
+
+static void put(char c) {
+  u32 line_control = W(UART + 0x0C);
+  W(UART + 0x0C) = line_control & 0x7F;
+  while ((W(UART + 0x14) & 0x60) != 0x60) {
+  }
+  W(UART) = (u32)(u8)c;
+  W(UART + 0x0C) = line_control;
+}
+static void text(const char* s) {
+  while (*s) put(*s++);
+}
+static void number(int v) {
+  char digits[12];
+  int n = 0;
+  if (v < 0) {
+    put('-');
+    v = -v;
+  }
+  do {
+    digits[n++] = (char)('0' + v % 10);
+    v /= 10;
+  } while (v);
+  while (n) put(digits[--n]);
+}
+static char get(void) {
+  while (!(W(UART + 0x14) & 1)) {
+  }
+  return (char)W(UART);
+}
+static void line(char* into, int size) {
+  int n = 0;
+  for (;;) {
+    char c = get();
+    if (c == '\r') break;
+    put(c);
+    into[n++] = c;
+    if (n == size) return;
+  }
+  into[n] = 0;
+}
+
+static void console_setup(void) {
+  W(CM_WKUP + 0xB4) |= 2;
+  while ((W(CM_WKUP + 0xB4) & 3) != 2) {
+  }
+  while ((W(CM_WKUP + 0xB4) >> 16 & 3) != 0) {
+  }
+  while (!(W(CM_WKUP + 0x00) & 1u << 12)) {
+  }
+  while (!(W(CM_WKUP + 0xCC) & 1u << 2)) {
+  }
+  W(CONTROL + 0x970) = 0x30;
+  W(CONTROL + 0x974) = 0x10;
+  W(UART + 0x54) |= 2;
+  while (!(W(UART + 0x58) & 1)) {
+  }
+  W(UART + 0x0C) = 0xBF; /* mode B: enhanced functions, so that FCR can be written */
+  W(UART + 0x08) |= 0x10;
+  W(UART + 0x0C) = 0x80;
+  W(UART + 0x10) |= 0x40;
+  W(UART + 0x1C) = 0x00;
+  W(UART + 0x08) = 0x07 | 1u << 4 | 1u << 6;
+  W(UART + 0x40) |= 0xC0;
+  W(UART + 0x10) &= ~0x40u;
+  W(UART + 0x20) = (W(UART + 0x20) & ~7u) | 7;
+  W(UART + 0x0C) = 0xBF;
+  W(UART + 0x00) = 26;
+  W(UART + 0x04) = 0;
+  W(UART + 0x08) &= ~0x10u;
+  W(UART + 0x0C) = (W(UART + 0x0C) & ~0x3Fu) | 3;
+  W(UART + 0x0C) &= ~0x80u;
+  W(UART + 0x0C) &= ~0x40u;
+  W(UART + 0x20) &= ~7u;
+}
+
+/* ---- interrupts ---- */
+
+typedef void (*handler)(void);
+handler handlers[128];
+static const u32 vectors[14] = {0xE59FF018, 0xE59FF018, 0xE59FF018, 0xE59FF018, 0xE59FF014,
+                                0xE24FF008, 0xE59FF010, 0xE59FF010, (u32)entry, (u32)on_abort,
+                                (u32)on_supervisor_call, (u32)on_abort, (u32)on_interrupt,
+                                (u32)on_abort};
+
+static void nobody(void) {}
+
+static void vector_setup(void) {
+  __asm__ volatile("mcr p15, 0, %0, c12, c0, 0" ::"r"(0x4030FC00));
+  for (u32 i = 0; i < 14; ++i) W(0x4030FC00 + 4 * i) = vectors[i];
+  __asm__ volatile("svc #458752");
+}
+static void interrupt_setup(u32 n, u32 priority, handler function) {
+  handlers[n] = function;
+  W(AINTC + 0x100 + 4 * n) = priority << 2;
+  __asm__ volatile("dsb");
+  W(AINTC + 0x88 + 0x20 * (n >> 5)) = 1u << (n & 31);
+}
+
+static double profile(double t) { /* 0.1 m in 2 s, at rest at both ends */
+  const double T = 2.0;
+  if (t <= 0) return START;
+  if (t >= T) return START + 0.1 * COUNTS_PER_M;
+  return START + 0.1 * COUNTS_PER_M * (t / T - sin(2 * M_PI * t / T) / (2 * M_PI));
+}
+static void drive(u32 subsystem, double percent) {
+  u32 period = H(subsystem + EPWM + 0x0A);
+  double ticks_high = (percent < 0 ? -percent : percent) / 100 * period;
+  u16 size = ticks_high < period ? (u16)ticks_high : (u16)period;
+  H(subsystem + EPWM + (percent < 0 ? 0x12 : 0x14)) = 0;
+  H(subsystem + EPWM + (percent < 0 ? 0x14 : 0x12)) = size;
+}
+static void control(void) {
+  W(TIMER2 + 0x30) = 2;
+  W(TIMER2 + 0x28) = 2;
+  double position = W(PWMSS1 + EQEP);
+  u16 status = H(PWMSS1 + EQEP + 0x38);
+  H(PWMSS1 + EQEP + 0x38) = status;
+  target = profile(iteration * 1e-3 - 0.5);
+  double error = target - position;
+  double speed = (position - position_before) * 1000;
+  double wanted = (target - profile(iteration * 1e-3 - 0.501)) * 1000;
+  position_before = position;
+  integral += error;
+  double duty = 0.008 * error + 2e-6 * integral + 0.005 * (wanted - speed);
+  drive(PWMSS1, killed ? 0 : duty);
+  history[0][iteration] = position;
+  history[1][iteration] = duty;
+  if (++iteration >= 3000 || killed) {
+    drive(PWMSS1, 0);
+    motion_ended = 1;
+  }
+  W(TIMER2 + 0x2C) = 2;
+}
+static void tick(void) {
+  W(TIMER5 + 0x28) = 2;
+  ++ticks;
+}
+static void kill_switch(void) {
+  if (W(GPIO1 + 0x30) & 1u << 14) {
+    drive(PWMSS1, 0);
+    killed = 1;
+    W(GPIO1 + 0x30) = 1u << 14;
+  }
+}
+
+/* ---- devices ---- */
+
+static void enable(u32 clock) {
+  W(clock) |= 2;
+  while ((W(clock) & 3) != 2) {
+  }
+  while (W(clock) & 0x30000) {
+  }
+}
+static void timer_setup(u32 timer, u32 clock, u32 select) {
+  W(select) = (W(select) & ~3u) | 1;
+  while ((W(select) & 3) != 1) {
+  }
+  enable(clock);
+  W(timer + 0x38) &= ~1u;
+  W(timer + 0x38) |= 2;
+  W(timer + 0x3C) = 0xFFFFA23Fu;
+  W(timer + 0x40) = 0xFFFFA23Fu;
+}
+static void device_setup(void) {
+  const u32 domains[4] = {CM_PER + 0x04, CM_PER + 0x0C, CM_PER + 0x12C, CM_PER + 0x00};
+  for (int i = 0; i < 4; ++i) {
+    W(domains[i]) |= 2;
+    while ((W(domains[i]) & 3) != 2) {
+    }
+  }
+  enable(CM_PER + 0xDC);
+  enable(CM_PER + 0xE0);
+  enable(CM_PER + 0x60);
+  timer_setup(TIMER2, CM_PER + 0x80, CM_DPLL + 0x08);
+  timer_setup(TIMER5, CM_PER + 0xEC, CM_DPLL + 0x18);
+  enable(CM_PER + 0xAC);
+  W(CM_PER + 0xAC) |= 1u << 18;
+  while (!(W(CM_PER + 0xAC) & 1u << 18)) {
+  }
+  W(GPIO1 + 0x130) &= ~1u;
+  W(GPIO1 + 0x10) |= 2;
+  while (!(W(GPIO1 + 0x114) & 1)) {
+  }
+  W(CONTROL + 0x81C) = 7;
+  W(GPIO1 + 0x134) &= ~(1u << 7 | 1u << 3);
+  W(CONTROL + 0x838) = 0x27;
+  W(GPIO1 + 0x150) |= 1u << 14;
+  W(GPIO1 + 0x154) = 10;
+  W(GPIO1 + 0x148) |= 1u << 14;
+  W(GPIO1 + 0x14C) &= ~(1u << 14);
+  W(GPIO1 + 0x30) = 1u << 14;
+  W(GPIO1 + 0x38) = 1u << 14;
+  for (u32 base = PWMSS1; base <= PWMSS2; base += PWMSS2 - PWMSS1) {
+    enable(base == PWMSS1 ? CM_PER + 0xCC : CM_PER + 0xD8);
+    W(base + 0x08) |= 0x10;
+    const u16 set[][2] = {{0x00, 0x0033}, {0x08, 15},     {0x0A, 1000}, {0x0E, 0x0050},
+                          {0x12, 0},      {0x14, 0},      {0x16, 0x12}, {0x18, 0x0102},
+                          {0x1E, 0},      {0x28, 0x000F}, {0x32, 0},    {0x40, 0}};
+    for (u32 i = 0; i < sizeof set / sizeof set[0]; ++i) H(base + EPWM + set[i][0]) = set[i][1];
+    W(base + EQEP + 0x08) = 2500000;
+    W(base + EQEP + 0x04) = 10;
+    H(base + EQEP + 0x28) = 0;
+    H(base + EQEP + 0x2A) = 0x108C;
+    H(base + EQEP + 0x2C) = 0x8060;
+    H(base + EQEP + 0x34) = 0xFFFF;
+  }
+}
+
+static void move(void) {
+  char answer[8];
+  text("\r\nProceed? [Y/n]: ");
+  line(answer, sizeof answer);
+  if (answer[0] != 'Y') {
+    text("\r\nnot done\r\n");
+    return;
+  }
+  W(PWMSS1 + EQEP) = START;
+  iteration = 0;
+  integral = 0;
+  position_before = START;
+  motion_ended = killed = 0;
+  W(CONTROL + 0x664) |= 2;
+  H(PWMSS1 + EPWM + 0x12) = 0;
+  H(PWMSS1 + EPWM + 0x14) = 0;
+  H(PWMSS1 + EPWM) &= 0xFFFC;
+  text("\r\nEXECUTING..\r\n");
+  W(TIMER5 + 0x2C) = 2;
+  W(TIMER5 + 0x38) |= 1;
+  W(TIMER2 + 0x2C) = 2;
+  W(TIMER2 + 0x38) |= 1;
+  __asm__ volatile("mrs r0, cpsr\n bic r0, r0, #0x80\n msr cpsr_c, r0" ::: "r0", "memory");
+  while (!motion_ended) {
+  }
+  __asm__ volatile("cpsid i" ::: "memory");
+  W(TIMER2 + 0x30) = 2;
+  W(TIMER2 + 0x38) &= ~1u;
+  W(TIMER5 + 0x30) = 2;
+  W(TIMER5 + 0x38) &= ~1u;
+  W(CONTROL + 0x664) &= ~2u;
+  H(PWMSS1 + EPWM) |= 3;
+  text(killed ? "\r\nkilled at " : "\r\nEOR at ");
+  number((int)W(PWMSS1 + EQEP));
+  text(" ticks ");
+  number((int)ticks);
+  text("\r\n");
+}
+
+int main(void) {
+  char command[32];
+  vector_setup();
+  console_setup();
+  enable_caches();
+  for (int i = 0; i < 128; ++i) handlers[i] = nobody;
+  W(AINTC + 0x10) = 2;
+  while (!(W(AINTC + 0x14) & 1)) {
+  }
+  W(AINTC + 0x68) = 0xFF;
+  interrupt_setup(68, 3, control);
+  interrupt_setup(93, 0, tick);
+  interrupt_setup(99, 2, kill_switch);
+  device_setup();
+  for (int i = 0; i < 131072; ++i) history[0][i] = history[1][i] = 0;
+  text("\033[2J\033[1;1Hservo is up\r\n");
+  for (;;) {
+    text("\r\nservo:~$ ");
+    line(command, sizeof command);
+    if (!strcmp(command, "move")) {
+      move();
+    } else if (!strcmp(command, "quit")) {
+      text("\r\nGoodbye!\r\n");
+      for (;;) {
+      }
+    } else {
+      text("\r\nerror: unknown command\r\n");
+    }
+  }
+}
