@@ -57,9 +57,11 @@ void Aintc::set_input(unsigned n, bool raised) {
   fault.wanted = raised;
   if (raised && fault.lost > 0) {
     --fault.lost;
+    ++fault.were_lost;
     return;
   }
   if (raised && fault.delay_ns > 0) {
+    ++fault.were_late;
     fault.due_ns = bus().now_ns + fault.delay_ns;
     next_late_ns_ = std::min(next_late_ns_, fault.due_ns);
     return;

@@ -40,6 +40,9 @@ class Aintc final : public RegisterBlock {
   // Faults of the board: the next `count` raises of input n are lost; every raise comes late.
   void lose(unsigned n, unsigned count) noexcept;
   void delay(unsigned n, core::Nanoseconds by_ns) noexcept;
+  // How many of input n these have struck so far.
+  [[nodiscard]] std::uint64_t lost(unsigned n) const noexcept { return faults_[n].were_lost; }
+  [[nodiscard]] std::uint64_t delayed(unsigned n) const noexcept { return faults_[n].were_late; }
 
   void advance(core::Nanoseconds now_ns) override;
   [[nodiscard]] core::Nanoseconds next_event_ns() const override { return next_late_ns_; }
@@ -75,6 +78,8 @@ class Aintc final : public RegisterBlock {
     core::Nanoseconds delay_ns = 0;
     core::Nanoseconds due_ns = kNever;
     bool wanted = false;  // the level at the source
+    std::uint64_t were_lost = 0;
+    std::uint64_t were_late = 0;
   };
   std::array<Fault, kInputs> faults_{};
   core::Nanoseconds next_late_ns_ = kNever;  // the first of their due times

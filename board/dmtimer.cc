@@ -107,6 +107,9 @@ void Dmtimer::advance(core::Nanoseconds now_ns) {
 }
 
 void Dmtimer::raise(std::uint32_t bits) {
+  if ((status_ & enabled_) != 0) {
+    interrupt_(false);  // the line stays up; each event is told all the same
+  }
   status_ |= bits;
   update_line();
 }

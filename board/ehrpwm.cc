@@ -127,6 +127,7 @@ core::Nanoseconds Ehrpwm::load_time(unsigned load_mode) const noexcept {
 void Ehrpwm::write_shadowed(Shadowed& reg, std::uint16_t value, bool immediate,
                             unsigned load_mode) {
   reg.shadow = value;
+  reg.full = !immediate;
   if (immediate) {
     reg.active = value;
     reg.loads_ns = kNever;
@@ -170,7 +171,7 @@ void Ehrpwm::change_time_base(const std::function<void()>& change) {
   // Loads that wait are timed by the new time base.
   const std::uint16_t control = half(kCmpCtl);
   const auto again = [&](Shadowed& reg, unsigned load_mode) {
-    if (reg.shadow != reg.active) {
+    if (reg.full) {
       reg.loads_ns = load_time(load_mode);
     }
   };
@@ -209,12 +210,14 @@ void Ehrpwm::advance(core::Nanoseconds now_ns) {
   for (Shadowed& reg : compare_) {
     if (reg.loads_ns <= now_ns) {
       reg.active = reg.shadow;
+      reg.full = false;
       reg.loads_ns = kNever;
     }
   }
   if (period_.loads_ns <= now_ns) {
     cycle_start_ns_ = period_.loads_ns;
     period_.active = period_.shadow;
+    period_.full = false;
     period_.loads_ns = kNever;
     schedule_interrupt();
   }
@@ -245,8 +248,7 @@ std::uint16_t Ehrpwm::read_half(std::uint32_t offset) {
       return compare_[1].shadow;
     case kCmpCtl: {
       // Bits 8 and 9: a shadow waits.
-      const unsigned waits = (compare_[0].loads_ns != kNever ? 0x100U : 0U) |
-                             (compare_[1].loads_ns != kNever ? 0x200U : 0U);
+      const unsigned waits = (compare_[0].full ? 0x100U : 0U) | (compare_[1].full ? 0x200U : 0U);
       return static_cast<std::uint16_t>((half(offset) & ~0x300U) | waits);
     }
     case kTzClr:

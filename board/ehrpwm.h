@@ -45,6 +45,7 @@ class Ehrpwm final : public HalfwordBlock {
     std::uint16_t active = 0;
     std::uint16_t shadow = 0;
     core::Nanoseconds loads_ns = kNever;
+    bool full = false;  // written and not loaded
   };
 
   [[nodiscard]] CountMode mode() const noexcept;

@@ -16,6 +16,7 @@ void ExecutionProfile::enter(unsigned interrupt, std::uint32_t return_pc, std::u
   if (frames_.size() == kDeepest) {
     frames_.clear();
   }
+  highest_stack_ = return_sp > highest_stack_ ? return_sp : highest_stack_;
   frames_.push_back({interrupt % kInterrupts, return_pc, return_sp, instructions_, 0, now_ns});
 }
 

@@ -54,6 +54,8 @@ class ExecutionProfile {
   // The processor starts again: nothing is in an interrupt. What was counted stays.
   void restart() noexcept { frames_.clear(); }
 
+  // Where the stack stood highest when an interrupt was taken; 0 before the first.
+  [[nodiscard]] std::uint32_t highest_stack() const noexcept { return highest_stack_; }
   [[nodiscard]] std::uint64_t instructions() const noexcept { return instructions_; }
   [[nodiscard]] const InterruptCost& interrupt(unsigned n) const { return interrupts_[n]; }
   [[nodiscard]] const std::vector<FunctionCost>& functions() const noexcept { return functions_; }
@@ -73,6 +75,7 @@ class ExecutionProfile {
   std::array<InterruptCost, kInterrupts> interrupts_{};
   std::vector<Frame> frames_;
   std::uint64_t instructions_ = 0;
+  std::uint32_t highest_stack_ = 0;
 };
 
 }  // namespace towbench::board

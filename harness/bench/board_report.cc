@@ -61,8 +61,11 @@ bool write_board_report(const std::filesystem::path& file, const board::Board& b
               {"interrupts", interrupts_of(board.profile())},
               {"functions", functions_of(board)},
               {"not_modelled", board.notes()}};
-  if (probe.stack_size() > 0) {
-    report["stack"] = {{"size_bytes", probe.stack_size()}, {"used_bytes", probe.stack_used()}};
+  if (const auto used = probe.stack_used()) {
+    report["stack"] = {{"used_bytes", *used}};
+    if (probe.stack_size() > 0) {
+      report["stack"]["size_bytes"] = probe.stack_size();
+    }
   }
   if (board.verdict()) {
     report["stopped"] = {{"time_s", core::seconds(board.verdict()->time_ns)},

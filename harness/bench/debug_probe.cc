@@ -71,13 +71,45 @@ std::uint32_t DebugProbe::stack_size() const {
   return stack_of(board_).size;
 }
 
-std::uint32_t DebugProbe::stack_used() const {
+std::optional<std::uint32_t> DebugProbe::stack_used() const {
   constexpr std::uint8_t kPaint = 0xA5;
   const StackPlace place = stack_of(board_);
+  if (place.size == 0) {
+    return stack_of_stranger();
+  }
   const auto bytes = board_.memory(place.bottom, place.size);
   const auto touched =
       std::find_if(bytes.begin(), bytes.end(), [](std::uint8_t byte) { return byte != kPaint; });
   return static_cast<std::uint32_t>(bytes.end() - touched);
+}
+
+// Memory outside the image is zero before the start. Around where interrupts found the stack it is
+// followed both ways, until a gap of zeros says that it has ended.
+std::optional<std::uint32_t> DebugProbe::stack_of_stranger() const {
+  constexpr std::uint32_t kGapBelow = 1U << 20U;
+  constexpr std::uint32_t kGapAbove = 1U << 12U;
+  const std::uint32_t known = board_.profile().highest_stack();
+  if (known == 0) {
+    return std::nullopt;
+  }
+  for (const board::ElfSegment& segment : board_.image().segments()) {
+    if (known >= segment.address && known - segment.address <= segment.memory_size) {
+      return std::nullopt;
+    }
+  }
+  const auto is_empty = [&](std::uint32_t address) {
+    const auto byte = board_.memory(address, 1);
+    return byte.empty() || byte[0] == 0;
+  };
+  std::uint32_t top = known;
+  for (std::uint32_t at = known; at - top < kGapAbove; ++at) {
+    top = is_empty(at) ? top : at + 1;
+  }
+  std::uint32_t bottom = known;
+  for (std::uint32_t at = known; bottom - at < kGapBelow; --at) {
+    bottom = is_empty(at) ? bottom : at;
+  }
+  return top - bottom;
 }
 
 }  // namespace towbench::harness

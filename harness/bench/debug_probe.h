@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "bbmc/baremetal/debug_port.h"
@@ -28,14 +29,18 @@ class DebugProbe {
   [[nodiscard]] std::uint64_t rows_lost() const noexcept {
     return port_ == nullptr ? 0 : port_->lost;
   }
-  // Deepest use of the painted stack, in bytes; 0 where the image has no such symbols.
-  [[nodiscard]] std::uint32_t stack_used() const;
+  // Deepest use of the stack, in bytes: of the bench's own image by its paint, of a stranger's by
+  // the zeros below it. None where a stranger's stack lies among its other data.
+  [[nodiscard]] std::optional<std::uint32_t> stack_used() const;
+  // 0 where the image has no such symbols.
   [[nodiscard]] std::uint32_t stack_size() const;
 
  private:
   [[nodiscard]] bool is_running() const noexcept {
     return port_ != nullptr && port_->magic == bbmc::DebugPort::kMagic;
   }
+
+  [[nodiscard]] std::optional<std::uint32_t> stack_of_stranger() const;
 
   board::Board& board_;
   bbmc::DebugPort* port_ = nullptr;

@@ -12,9 +12,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "harness/bench/board_run.h"
+#include "harness/bench/carrier_name.h"
 #include "harness/bench/driven_run.h"
 #include "harness/bench/emulator_process.h"
-#include "harness/bench/firmware_run.h"
 #include "harness/bench/in_process_plant.h"
 #include "harness/bench/linked_plant.h"
 #include "harness/bench/lockstep_bench.h"
@@ -51,6 +52,11 @@ class Run {
       : faults_(faults_of(fixture, options)),
         fixture_(faults_ ? faults_->fixture() : fixture),
         options_(options) {
+    if (options.firmware.empty()) {
+      refuse_board_plan(fixture);
+    } else {
+      fixture_ = board_.emplace(fixture, options).fixture();
+    }
     if (options.hand != nullptr) {
       given_ = fixture;
     }
@@ -83,9 +89,15 @@ class Run {
     result.complete = outcome.complete;
     result.reason = outcome.reason;
     if (outcome.complete) {
+      if (board_) {
+        board_->play_twin(folder_, identity_.seed);
+      }
       merge_events(folder_);
       if (!faults_ || !faults_->kills_host()) {
         result.judgement = judge(folder_, fixture_, outcome);
+      }
+      if (board_) {
+        board_->judge_into(folder_, result.judgement);
       }
       if (timing_) {
         result.timing = timing_->judge_into(result.judgement, outcome.control_period_ns);
@@ -125,20 +137,6 @@ class Run {
   static std::uint64_t seed_of(const ExperimentFixture& fixture, const RunOptions& options) {
     return options.seed.value_or(fixture.experiment.seed);
   }
-  static std::string name_of_carrier(const RunOptions& options) {
-    const auto lines = options.lines.controller.empty() ? "" : " and " + options.lines.controller;
-    switch (options.carrier) {
-      case Carrier::kInProcess:
-        return options.firmware.empty() ? "in-process" : "virtual board";
-      case Carrier::kLocal:
-        return "local" + lines;
-      case Carrier::kSerialPty:
-        return "serial-pty" + lines;
-      case Carrier::kWire:
-        break;
-    }
-    return options.wire->controller.text() + lines;
-  }
   static bool takes_edges(const RunOptions& options) {
     const auto kind = kind_of(options);
     return kind != CarrierKind::kCan &&
@@ -146,6 +144,9 @@ class Run {
   }
   static std::unique_ptr<FaultedExperiment> faults_of(const ExperimentFixture& fixture,
                                                       const RunOptions& options) {
+    if (!options.firmware.empty()) {
+      return nullptr;  // firmware_faults.h
+    }
     if (!fixture.experiment.faults.empty() && options.clock == RunClock::kReal) {
       throw FixtureError({.file = "fault plan"}, "a run by the wall clock",
                          "lockstep: a fault is judged beside a twin of the same bits");
@@ -160,7 +161,7 @@ class Run {
     PlantRecorder plant_recorder(folder_, options_.tap);
     InProcessPlant plant(fixture_.rig.parameters, identity_.seed, fixture_.experiment.events,
                          plant_recorder);
-    auto outcome = options_.firmware.empty() ? play_against(plant, plant) : play_firmware(plant);
+    auto outcome = !board_ ? play_against(plant, plant) : board_->play(folder_, plant);
     plant_recorder.flush();
     outcome.writes_succeeded = outcome.writes_succeeded && plant_recorder.good();
     return outcome;
@@ -306,10 +307,6 @@ class Run {
     return outcome;
   }
 
-  RunOutcome play_firmware(PlantEnd& plant) {
-    return run_firmware(fixture_, options_.firmware, folder_, plant, options_.watchers);
-  }
-
   RunOutcome play_against(PlantEnd& plant, PeerControl& peer) {
     ControllerRecorder recorder(folder_, options_.tap);
     if (!faults_ && options_.hand == nullptr) {
@@ -326,7 +323,8 @@ class Run {
     return play(fixture_.experiment, bench, recorder, options_.watchers, options_.hand);
   }
 
-  std::unique_ptr<FaultedExperiment> faults_;  // null: a sound machine
+  std::unique_ptr<FaultedExperiment> faults_;  // null: a sound machine, or an image on the board
+  std::optional<BoardRun> board_;              // an image on the virtual board
   ExperimentFixture given_;                    // with a hand: before anything was planned or done
   ExperimentFixture fixture_;
   const RunOptions& options_;

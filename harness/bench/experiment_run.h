@@ -38,6 +38,8 @@ struct RunOptions {
   // An ELF image that runs on the virtual board instead of the experiment's controller; empty:
   // none.
   std::filesystem::path firmware;
+  // Its UART is a terminal for a person, by the wall clock, instead of the experiment's console.
+  bool person_at_console = false;
   RunClock clock = RunClock::kLockstep;              // kReal needs two processes: not kInProcess
   std::filesystem::path program = "/proc/self/exe";  // for the emulator's process
   LoopWatchers watchers;

@@ -36,6 +36,8 @@ class FirmwareBench {
   void finish();
 
   void type(std::string_view bytes);
+  // The board was switched off and on: the image counts its time from here.
+  void restarted() noexcept { row_seen_ = false; }
   // False until an image that is known has started; a stranger's script waits for its prompt.
   [[nodiscard]] bool listens() const noexcept {
     return !probe_.has_port() || (row_seen_ && now_ns_ >= kStartUp_ns);
@@ -47,7 +49,7 @@ class FirmwareBench {
   // Why the image cannot go on, in a sentence; empty while it can.
   [[nodiscard]] std::string failure() const;
 
-  [[nodiscard]] const DebugProbe& probe() const noexcept { return probe_; }
+  [[nodiscard]] DebugProbe& probe() noexcept { return probe_; }
   // Rows of a stranger's log are this far apart.
   static constexpr core::Nanoseconds kStartUp_ns = 10 * core::kNanosecondsPerMillisecond;
   static constexpr core::Nanoseconds kPinRow_ns = core::kNanosecondsPerMillisecond;

@@ -1,13 +1,18 @@
 #include "harness/bench/firmware_run.h"
 
 #include <chrono>
+#include <optional>
+#include <thread>
 
 #include <fmt/format.h>
 
 #include "board/board.h"
+#include "harness/bench/board_budgets.h"
+#include "harness/bench/board_faults.h"
 #include "harness/bench/board_report.h"
 #include "harness/bench/console_script.h"
 #include "harness/bench/firmware_bench.h"
+#include "harness/bench/firmware_terminal.h"
 #include "harness/fixtures/fixture_error.h"
 #include "harness/record/firmware_recorder.h"
 
@@ -42,16 +47,21 @@ std::uint8_t axes_of(const emulator::RigParameters& rig) {
 // image that cannot go on.
 class FirmwareLoop {
  public:
-  FirmwareLoop(const Experiment& experiment, FirmwareBench& bench, FirmwareRecorder& recorder,
-               const LoopWatchers& watchers)
-      : bench_(bench),
+  // `person` may be null.
+  FirmwareLoop(const ExperimentFixture& fixture, FirmwareBench& bench, FirmwareRecorder& recorder,
+               const LoopWatchers& watchers, BoardFaults& faults, FirmwareTerminal* person)
+      : fixture_(fixture),
+        bench_(bench),
         recorder_(recorder),
         watchers_(watchers),
-        script_(experiment.console),
-        limit_ns_(core::nanoseconds(experiment.duration_limit_s)) {}
+        faults_(faults),
+        person_(person),
+        script_(person == nullptr ? fixture.experiment.console : std::vector<ConsoleStep>{}),
+        limit_ns_(core::nanoseconds(fixture.experiment.duration_limit_s)) {}
 
   RunOutcome run() {
     const auto start = HostClock::now();
+    start_ = start;
     if (const auto agreed = bench_.start(); !agreed) {
       outcome_.reason = "handshake refused: " + std::string(core::describe(agreed.error()));
     } else {
@@ -89,16 +99,43 @@ class FirmwareLoop {
     bench_.finish();
   }
 
+  // Types what a person has typed, and waits for the wall clock.
+  void serve_person(core::Nanoseconds now_ns, std::string_view printed) {
+    constexpr core::Nanoseconds kPace_ns = 5 * core::kNanosecondsPerMillisecond;
+    shown_ += printed;
+    if (now_ns % kPace_ns == 0) {
+      bench_.type(person_->exchange(shown_));
+      shown_.clear();
+      std::this_thread::sleep_until(start_ + std::chrono::nanoseconds(now_ns));
+    }
+  }
+
+  void act_on_board(core::Nanoseconds now_ns) {
+    if (faults_.act(now_ns)) {
+      bench_.restarted();
+      if (bench_.probe().has_port()) {
+        static_cast<void>(bench_.probe().set_parameters(
+            fixture_.controller.configuration));  // they fitted before
+      }
+    }
+  }
+
   bool turn_is_last() {
     const auto now_ns = bench_.now_ns();
+    act_on_board(now_ns);
     // Bytes that come while the image still sets up its UART would be lost, as on a bench.
     if (bench_.listens()) {
       const auto pending = script_.pending(now_ns);
       bench_.type(pending);
       script_.typed(pending.size());
     }
-    script_.hear(bench_.serve());
-    const auto progress = script_.update(now_ns, bench_.idle());
+    const auto printed = bench_.serve();
+    script_.hear(printed);
+    if (person_ != nullptr) {
+      serve_person(now_ns, printed);
+    }
+    const auto progress = person_ == nullptr ? script_.update(now_ns, bench_.idle())
+                                             : ConsoleScript::Progress::kRunning;
     if (watchers_.stop != nullptr && watchers_.stop->load(std::memory_order_relaxed)) {
       outcome_.reason = "interrupted";
       return true;
@@ -109,6 +146,9 @@ class FirmwareLoop {
       return false;
     }
     outcome_.complete = true;
+    if (person_ != nullptr && failure.empty()) {
+      return true;
+    }
     outcome_.script_failure = script_.failure();
     if (!failure.empty()) {
       outcome_.script_failure = fmt::format("at {} s, in step {} of {}: {}", core::seconds(now_ns),
@@ -121,9 +161,14 @@ class FirmwareLoop {
     return true;
   }
 
+  const ExperimentFixture& fixture_;
   FirmwareBench& bench_;
   FirmwareRecorder& recorder_;
   const LoopWatchers& watchers_;
+  BoardFaults& faults_;
+  FirmwareTerminal* person_;
+  HostClock::time_point start_;
+  std::string shown_;
   ConsoleScript script_;
   core::Nanoseconds limit_ns_;
   RunOutcome outcome_;
@@ -136,11 +181,11 @@ void check_firmware(const std::filesystem::path& image) {
   load(board, image);
 }
 
-RunOutcome run_firmware(const ExperimentFixture& fixture, const std::filesystem::path& image,
+RunOutcome run_firmware(const ExperimentFixture& fixture, const FirmwareOptions& options,
                         const std::filesystem::path& folder, PlantEnd& plant,
-                        const LoopWatchers& watchers) {
+                        const LoopWatchers& watchers, std::vector<Check>& checks) {
   board::Board board;
-  load(board, image);
+  load(board, options.image);
   DebugProbe probe(board);
   if (probe.has_port()) {
     if (const auto why = probe.set_parameters(fixture.controller.configuration); !why.empty()) {
@@ -154,7 +199,20 @@ RunOutcome run_firmware(const ExperimentFixture& fixture, const std::filesystem:
   const BoardWiring wiring;
   FirmwareBench bench(board, wiring, axes_of(fixture.rig.parameters), fixture.rig.hash, plant,
                       recorder);
-  auto outcome = FirmwareLoop(fixture.experiment, bench, recorder, watchers).run();
+  BoardFaults faults(fixture.experiment.board.faults, board);
+  std::optional<FirmwareTerminal> person;
+  if (options.person_at_console) {
+    person.emplace();
+    if (watchers.terminal) {
+      watchers.terminal(person->path());
+    }
+  }
+  auto outcome =
+      FirmwareLoop(fixture, bench, recorder, watchers, faults, person ? &*person : nullptr).run();
+  checks = faults.checks();
+  for (Check& check : board_budget_checks(fixture.experiment.board.budgets, board, bench.probe())) {
+    checks.push_back(std::move(check));
+  }
   recorder.flush();
   outcome.log_rows = recorder.rows();
   outcome.writes_succeeded = recorder.good();

@@ -20,6 +20,9 @@ void add_experiment_options(CLI::App& verb, ExperimentOptions& options) {
   verb.add_option("--carrier", options.carrier, kCarrierHelp);
   verb.add_option("--lines", options.lines, kLinesHelp);
   verb.add_option("--controller", options.controller, kControllerHelp);
+  verb.add_option("--console", options.console,
+                  "pty: the firmware's UART as a terminal for you, instead of the script")
+      ->check(CLI::IsMember({"pty"}));
   verb.add_option("--clock", options.clock,
                   "lockstep: as fast as it goes, repeatable bit for bit; real: by the wall clock")
       ->check(CLI::IsMember({"lockstep", "real"}))
@@ -94,6 +97,15 @@ RunResult run_with_options(const ExperimentFixture& fixture, const ExperimentOpt
   check_load(fixture, run_options);
   choose_lines(options.lines, run_options);
   choose_controller(options.controller, run_options);
+  if (!options.console.empty() && run_options.firmware.empty()) {
+    throw FixtureError({"command line", 0, "--console"}, options.console,
+                       "with --controller firmware:IMAGE.elf");
+  }
+  run_options.person_at_console = !options.console.empty();
+  run_options.watchers.terminal = [](const std::string& path) {
+    std::fprintf(stderr, "console: %s   (any terminal program; Ctrl-C here ends the run)\n",
+                 path.c_str());
+  };
   run_options.watchers.stop = &stop_requested();
   ProgressLine progress(fixture.experiment.name, fixture.experiment.duration_limit_s,
                         !options.quiet && !options.json);

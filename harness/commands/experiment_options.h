@@ -17,6 +17,7 @@ struct ExperimentOptions {
   std::string carrier;     // empty: in-process, or local for the real clock
   std::string lines;       // "CONTROLLER,PLANT"; empty: lines are messages
   std::string controller;  // "firmware:IMAGE.elf"; empty: the experiment's own
+  std::string console;     // "pty": of the firmware, for a person
   std::string clock = "lockstep";
   bool json = false;
   bool quiet = false;

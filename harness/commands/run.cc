@@ -12,6 +12,7 @@
 #include "harness/commands/experiment_options.h"
 #include "harness/commands/fixture_paths.h"
 #include "harness/commands/verdict_table.h"
+#include "harness/experiment/board_plan_text.h"
 #include "harness/faults/fault_text.h"
 #include "harness/faults/faulted_experiment.h"
 
@@ -38,7 +39,9 @@ FaultPlan plan_of(const Options& options) {
     plan = read_fault_plan(FixtureFile::load(options.fault_plan));
   }
   for (const auto& words : options.faults) {
-    plan.push_back(parse_fault(words));
+    if (!is_board_fault(words)) {
+      plan.push_back(parse_fault(words));
+    }
   }
   return plan;
 }
@@ -50,6 +53,11 @@ int execute(const Options& options) {
   for (const auto& named : options.experiments) {
     fixtures.push_back(load_experiment(find_experiment(named)));
     add_faults(fixtures.back(), plan);
+    for (const auto& words : options.faults) {
+      if (is_board_fault(words)) {
+        add_board_fault(fixtures.back(), parse_board_fault(words));
+      }
+    }
   }
   int exit_code = kExitPass;
   auto results = nlohmann::json::array();

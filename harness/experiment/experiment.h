@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "emulator/scheduled_event.h"
+#include "harness/experiment/board_plan.h"
 #include "harness/experiment/hand_act.h"
 #include "harness/faults/fault.h"
 
@@ -53,6 +54,7 @@ struct Experiment {
   std::vector<ConsoleStep> console;
   std::vector<emulator::ScheduledEvent> events;  // sorted by time
   FaultPlan faults;
+  BoardPlan board;
   std::vector<HandAct> hand;              // sorted by time; empty: nobody interfered
   std::vector<EvaluationWindow> windows;  // the first is "whole"
   std::vector<Budget> budgets;

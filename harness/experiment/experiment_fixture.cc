@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/time.h"
+#include "harness/experiment/board_plan_text.h"
 #include "harness/faults/fault_text.h"
 #include "harness/fixtures/canonical_hash.h"
 #include "harness/judge/metric.h"
@@ -144,6 +145,12 @@ Experiment read_script(TableReader& reader) {
                    [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; });
   for (auto& fault : reader.tables("fault")) {
     experiment.faults.push_back(read_fault(fault));
+  }
+  for (auto& fault : reader.tables("board_fault")) {
+    experiment.board.faults.push_back(read_board_fault(fault));
+  }
+  for (auto& budget : reader.tables("board_budget")) {
+    experiment.board.budgets.push_back(read_board_budget(budget));
   }
   for (auto& act : reader.tables("hand")) {
     experiment.hand.push_back(read_hand_act(act));

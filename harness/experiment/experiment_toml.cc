@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/experiment/board_plan_text.h"
 #include "harness/faults/fault_text.h"
 
 namespace towbench::harness {
@@ -96,6 +97,8 @@ std::string to_toml(const ExperimentFixture& fixture, const std::string& rig,
   append(text, experiment.console, console_toml);
   append(text, experiment.events, event_toml);
   append(text, experiment.faults, [](const Fault& fault) { return to_toml(fault); });
+  append(text, experiment.board.faults, [](const BoardFault& fault) { return to_toml(fault); });
+  append(text, experiment.board.budgets, [](const BoardBudget& budget) { return to_toml(budget); });
   append(text, experiment.hand, hand_toml);
   append(text, std::span(experiment.windows).subspan(1), window_toml);  // "whole" always exists
   append(text, experiment.budgets, budget_toml);

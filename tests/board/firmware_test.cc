@@ -49,12 +49,14 @@ class Exercise {
 
 TEST(Firmware, EveryCheckOfTheExerciseHolds) {
   Exercise exercise;
-  ASSERT_TRUE(exercise.run_until_said("supervisor call")) << exercise.take_text();
+  ASSERT_TRUE(exercise.run_until_said("no load while frozen")) << exercise.take_text();
   exercise.run_for(5 * core::kNanosecondsPerMillisecond);
   const std::string text = exercise.take_text();
   EXPECT_EQ(text.find(" not "), std::string::npos) << text;
-  for (const char* name : {"halfword", "byte", "word", "pinmux", "clock", "nested twice",
-                           "fast inside slow", "vsqrt low", "thumb", "supervisor call"}) {
+  for (const char* name :
+       {"halfword", "byte", "word", "pinmux", "clock", "nested twice", "fast inside slow",
+        "shadow full before zero", "shadow loaded at zero", "time base frozen",
+        "no load while frozen", "vsqrt low", "thumb", "supervisor call"}) {
     EXPECT_NE(text.find(std::string(name) + " ok"), std::string::npos) << name << "\n" << text;
   }
   EXPECT_GE(exercise.board().profile().interrupt(68).count, 10U);
@@ -80,7 +82,15 @@ TEST(Firmware, EveryCheckOfTheExerciseHolds) {
   }
 
   exercise.board().uart().type("x");
+  for (int round = 0; round < 2; ++round) {
+    ASSERT_TRUE(exercise.run_until_said("flow\r\n"));
+    exercise.take_text();
+    exercise.board().uart().type(std::string(101, 'z'));
+  }
   ASSERT_TRUE(exercise.run_until_said("bounce\r\n"));
+  const std::string flow = exercise.take_text();
+  EXPECT_EQ(flow.find(" not "), std::string::npos) << flow;
+  EXPECT_NE(flow.find("every byte came ok"), std::string::npos) << flow;
   core::Nanoseconds t = exercise.board().now_ns();
   for (const int bounce_us : {100, 150, 90, 200, 100, 50, 120}) {  // none lasts 310 us
     t += bounce_us * core::kNanosecondsPerMicrosecond;

@@ -132,6 +132,19 @@ TEST_F(GpioFixture, OutputsAreSetClearedAndReadBack) {
   EXPECT_EQ(gpio.load(0x114, 4), 1U) << "reset done";
 }
 
+TEST_F(GpioFixture, AnOutputThatNobodyHasSetIsNoChoice) {
+  gpio.store(0x134, 4, ~(1U << 7U | 1U << 3U));
+  EXPECT_TRUE(gpio.drives(7));
+  EXPECT_FALSE(gpio.has_chosen(7)) << "low because nobody has said anything";
+  gpio.store(0x190, 4, 1U << 7U);
+  EXPECT_TRUE(gpio.has_chosen(7)) << "low by name";
+  EXPECT_FALSE(gpio.has_chosen(3));
+  gpio.store(0x13C, 4, 1U << 3U);
+  EXPECT_TRUE(gpio.has_chosen(3)) << "by a change of the whole register";
+  gpio.store(0x10, 4, 2);
+  EXPECT_FALSE(gpio.has_chosen(7)) << "reset forgets";
+}
+
 // ---- AINTC ----
 
 struct AintcFixture : testing::Test {
@@ -210,6 +223,22 @@ TEST_F(AintcFixture, AnInterruptCanBeLostOrDelayedAsAFault) {
   EXPECT_TRUE(aintc.offers());
 }
 
+TEST_F(AintcFixture, EveryEventOfATimerCountsAsOneThatIsLost) {
+  enable(68, 5);
+  Dmtimer timer("dmtimer2", bus, [this](bool level) { aintc.set_input(68, level); });
+  aintc.lose(68, 2);
+  timer.store(0x40, 4, 0U - 24'000U);
+  timer.store(0x3C, 4, 0U - 24'000U);
+  timer.store(0x2C, 4, 2);
+  timer.store(0x38, 4, 3);
+  for (int ms = 1; ms <= 3; ++ms) {
+    bus.now_ns = ms * core::kNanosecondsPerMillisecond;
+    timer.advance(bus.now_ns);
+    EXPECT_EQ(aintc.offers(), ms == 3) << ms;
+  }
+  EXPECT_EQ(aintc.lost(68), 2U);
+}
+
 // ---- UART ----
 
 struct UartFixture : testing::Test {
@@ -269,6 +298,34 @@ TEST_F(UartFixture, ReceiveInterruptAtTheTriggerOrAfterFourByteTimes) {
     static_cast<void>(uart.load(0, 1));
   }
   EXPECT_FALSE(raised);
+}
+
+TEST_F(UartFixture, TriggerLevelsComeFromFcrFromTlrInFoursAndFromBothToTheByte) {
+  const auto comes_at = [this](unsigned bytes) {
+    uart.type(std::string(bytes, 'x'));
+    core::Nanoseconds t = bus.now_ns;
+    unsigned level = 0;
+    while (!raised && level < 64) {
+      at(t += 1000);
+      level = uart.load(0x64, 1);
+    }
+    at(t + 100 * 86'667);
+    uart.store(8, 1, uart.load(0x40, 1) != 0 ? 0x43 : 0x03);  // empty
+    at(bus.now_ns + 1);
+    return level;
+  };
+  uart.store(4, 1, 1);
+  uart.store(8, 1, 0x01);
+  EXPECT_EQ(comes_at(60), 8U) << "FCR";
+  uart.store(0x0C, 1, 0xBF);
+  uart.store(8, 1, 0x10);
+  uart.store(0x0C, 1, 3);
+  uart.store(0x10, 1, 0x40);
+  uart.store(0x1C, 1, 0x50);
+  EXPECT_EQ(comes_at(60), 20U) << "TLR in fours";
+  uart.store(0x40, 1, 0x80);
+  uart.store(8, 1, 0x41);
+  EXPECT_EQ(comes_at(60), 21U) << "TLR and FCR to the byte";
 }
 
 TEST_F(UartFixture, ADisabledUartSendsNothing) {

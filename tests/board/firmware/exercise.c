@@ -112,6 +112,72 @@ static void widths(void) {
   check("uart reset done", W(UART + 0x58), 1);
 }
 
+/* Compare and period, at once and at the next zero; a time base without its clock stands still. */
+static void pwm(void) {
+  W(CONTROL + 0x664) = 2;
+  H(PWM1 + 0x00) = 0x000B; /* stopped, immediate period */
+  H(PWM1 + 0x0A) = 49999;  /* 500 us at 100 MHz */
+  H(PWM1 + 0x0E) = 0x50;
+  H(PWM1 + 0x16) = 0x12;
+  H(PWM1 + 0x12) = 10000;
+  H(PWM1 + 0x08) = 0;
+  H(PWM1 + 0x00) = 0x0008; /* up */
+  check("immediate compare leaves no shadow", H(PWM1 + 0x0E) & 0x100, 0);
+  H(PWM1 + 0x0E) = 0x00; /* shadow, loaded at zero */
+  H(PWM1 + 0x08) = 0;
+  H(PWM1 + 0x12) = 20000;
+  wait_us(300);
+  check("shadow full before zero", H(PWM1 + 0x0E) & 0x100, 0x100);
+  wait_us(300);
+  check("shadow loaded at zero", H(PWM1 + 0x0E) & 0x100, 0);
+  u32 count = H(PWM1 + 0x08);
+  wait_us(10);
+  check("time base counts", H(PWM1 + 0x08) - count >= 1000, 1);
+  W(CONTROL + 0x664) = 0;
+  count = H(PWM1 + 0x08);
+  wait_us(100);
+  check("time base frozen", H(PWM1 + 0x08), count);
+  H(PWM1 + 0x12) = 30000;
+  wait_us(1000);
+  check("no load while frozen", H(PWM1 + 0x0E) & 0x100, 0x100);
+}
+
+/* The host types 100 bytes at once, twice: without flow control 36 are lost, with RTS none. */
+static void flow(void) {
+  u32 got = 0;
+  text("flow\r\n");
+  get();
+  wait_us(12000);
+  check("fifo full", W(UART + 0x64), 64);
+  check("overrun", W(UART + 0x14) & 2, 2);
+  check("overrun told once", W(UART + 0x14) & 2, 0);
+  W(UART + 0x08) = 0x03; /* empties the receive FIFO */
+  check("fifo empty", W(UART + 0x64), 0);
+  W(UART + 0x0C) = 0xBF;
+  W(UART + 0x08) = 0x50; /* enhanced, auto-RTS */
+  W(UART + 0x0C) = 0x03;
+  W(UART + 0x10) = 0x40;
+  W(UART + 0x18) = 0x2A; /* stop at 40, go on at 8 */
+  W(UART + 0x1C) = 0x30; /* receive interrupt at 12 */
+  text("flow\r\n");
+  get();
+  wait_us(12000);
+  check("stopped by rts", W(UART + 0x64), 40);
+  check("no overrun", W(UART + 0x14) & 2, 0);
+  W(UART + 0x04) = 1;
+  check("receive level", W(UART + 0x08) & 0x3E, 4);
+  W(UART + 0x04) = 0;
+  while (got < 100) {
+    get();
+    ++got;
+  }
+  wait_us(2000);
+  check("every byte came", W(UART + 0x64), 0);
+  W(UART + 0x0C) = 0xBF;
+  W(UART + 0x08) = 0x10;
+  W(UART + 0x0C) = 0x03;
+}
+
 static void nesting(void) {
   timer(TIMER2, 24000);
   timer(TIMER3, 2400);
@@ -185,7 +251,9 @@ int main(void) {
   check("thumb", thumb_sum(100), 5050);
   call_supervisor();
   check("supervisor call", supervisor_calls, 1);
+  pwm();
   capture();
+  flow();
   debounce();
   text("end\r\n");
   for (;;) {

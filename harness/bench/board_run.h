@@ -1,0 +1,39 @@
+// A run whose controller is an image on the virtual board, beside what all runs share: the board's
+// own faults and budgets, faults of the machine, a person at the console.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "harness/bench/experiment_run.h"
+#include "harness/bench/plant_end.h"
+
+namespace towbench::harness {
+
+class BoardRun {
+ public:
+  // The options outlive this. Throws FixtureError for a fault that cannot be here.
+  BoardRun(const ExperimentFixture& fixture, const RunOptions& options);
+
+  // What is to be run: with the faults of the machine as events and as built.
+  [[nodiscard]] const ExperimentFixture& fixture() const noexcept { return fixture_; }
+  [[nodiscard]] RunOutcome play(const std::filesystem::path& folder, PlantEnd& plant);
+  // After play(), and before the judge: the same image without the machine's faults, beside which
+  // they are judged, in a folder of its own below.
+  void play_twin(const std::filesystem::path& folder, std::uint64_t seed) const;
+  // Adds the verdicts on faults and budgets, and drops what speaks of a sound board or machine.
+  void judge_into(const std::filesystem::path& folder, Judgement& judgement) const;
+
+ private:
+  const RunOptions& options_;
+  std::optional<ExperimentFixture> sound_;  // of a machine with faults
+  ExperimentFixture fixture_;
+  std::vector<Check> checks_;
+};
+
+// Throws FixtureError when an experiment for the board is to run without it.
+void refuse_board_plan(const ExperimentFixture& fixture);
+
+}  // namespace towbench::harness

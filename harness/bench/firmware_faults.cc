@@ -1,0 +1,117 @@
+#include "harness/bench/firmware_faults.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "harness/faults/fault_case.h"
+#include "harness/fixtures/fixture_error.h"
+#include "harness/record/event_lines.h"
+
+namespace towbench::harness {
+namespace {
+
+// Empty, or why it cannot be.
+const char* why_not(const Fault& fault) {
+  if (fault.place.part == FaultPart::kLink || fault.place.part == FaultPart::kHost) {
+    return "a fault of the machine: there is no link and no host between board and plant";
+  }
+  const bool built_in = fault.row().start == FaultStart::kWholeRun;
+  if (!built_in && fault.trigger.kind != FaultTrigger::Kind::kTime) {
+    return "at=TIME: other moments are found in a twin of the project's own controller";
+  }
+  if (fault.place.part == FaultPart::kEndStop && fault.kind == FaultKind::kBounce) {
+    return "another fault: when a contact bounces is found in a twin of the project's own "
+           "controller";
+  }
+  return nullptr;
+}
+
+// Time of the first line in which the files differ, in s; negative when none does.
+double first_difference_s(const std::filesystem::path& one, const std::filesystem::path& other) {
+  std::ifstream a(one);
+  std::ifstream b(other);
+  std::string line_a;
+  std::string line_b;
+  while (true) {
+    const bool has_a = static_cast<bool>(std::getline(a, line_a));
+    const bool has_b = static_cast<bool>(std::getline(b, line_b));
+    if (!has_a && !has_b) {
+      return -1;
+    }
+    if (has_a != has_b || line_a != line_b) {
+      return std::strtod((has_a ? line_a : line_b).c_str(), nullptr);
+    }
+  }
+}
+
+std::size_t contacts_in(const std::filesystem::path& folder) {
+  std::size_t contacts = 0;
+  for (const char* name : {kEventsFile, kPlantEventsFile}) {
+    std::ifstream stream(folder / name);
+    std::string line;
+    while (std::getline(stream, line)) {
+      contacts += line.find("\"hard_end_contact\"") != std::string::npos ? 1U : 0U;
+    }
+  }
+  return contacts;
+}
+
+}  // namespace
+
+ExperimentFixture with_faults_of_machine(const ExperimentFixture& fixture) {
+  std::vector<core::Nanoseconds> onsets_ns;
+  for (const Fault& fault : fixture.experiment.faults) {
+    if (const char* why = why_not(fault)) {
+      throw FixtureError({.file = "fault plan"},
+                         fmt::format("\"{}\" with an image on the virtual board", describe(fault)),
+                         why);
+    }
+    const bool built_in = fault.row().start == FaultStart::kWholeRun;
+    onsets_ns.push_back(built_in ? 0
+                                 : core::nanoseconds(fault.trigger.value + fault.trigger.after_s));
+  }
+  auto faulted = fixture;
+  const auto prepared = prepare_at(fixture.experiment.faults, onsets_ns, fixture, CaseRecord());
+  auto& events = faulted.experiment.events;
+  events.insert(events.end(), prepared.injection.events.begin(), prepared.injection.events.end());
+  std::stable_sort(events.begin(), events.end(),
+                   [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; });
+  faulted.rig.parameters = prepared.built;
+  return faulted;
+}
+
+std::vector<Check> judge_beside_twin(const std::filesystem::path& folder,
+                                     const std::filesystem::path& twin) {
+  double fired_s = -1;
+  for (const char* name : {"truth.csv", "log.csv"}) {
+    const double differs_s = first_difference_s(folder / name, twin / name);
+    fired_s = fired_s < 0 ? differs_s : differs_s < 0 ? fired_s : std::min(fired_s, differs_s);
+  }
+  Check fired;
+  fired.name = "fault_fired";
+  fired.meaning = "the record differs from the same image's run without the fault";
+  fired.unit = "s";
+  fired.verdict = fired_s >= 0 ? Verdict::kPass : Verdict::kInvalid;
+  if (fired_s >= 0) {
+    fired.value = fired_s;
+  } else {
+    fired.reason = "no fault of the plan took effect";
+  }
+  Check contact;
+  contact.name = "no_hard_end_contact";
+  contact.meaning = "the carriage meets no hard end that it does not meet without the fault";
+  const auto contacts = contacts_in(folder);
+  const auto before = contacts_in(twin);
+  contact.value = static_cast<double>(contacts);
+  contact.max = static_cast<double>(before);
+  contact.verdict = contacts <= before ? Verdict::kPass : Verdict::kFail;
+  contact.reason =
+      contacts <= before ? "" : fmt::format("{} contacts, {} without", contacts, before);
+  return {fired, contact};
+}
+
+}  // namespace towbench::harness
