@@ -17,6 +17,7 @@
 #include "harness/bench/driven_run.h"
 #include "harness/bench/emulator_process.h"
 #include "harness/bench/in_process_plant.h"
+#include "harness/bench/late_link.h"
 #include "harness/bench/linked_plant.h"
 #include "harness/bench/lockstep_bench.h"
 #include "harness/bench/pty_line.h"
@@ -71,6 +72,9 @@ class Run {
                                 hash_text(fixture.hash).substr(0, kShortHash));
     identity_.experiment_copy = copy_inputs(fixture.sources, folder_);
     write_started(folder_, fixture, identity_);
+    if (options.tap != nullptr) {
+      options.tap->begins(folder_);
+    }
   }
 
   RunResult run() {
@@ -309,18 +313,42 @@ class Run {
 
   RunOutcome play_against(PlantEnd& plant, PeerControl& peer) {
     ControllerRecorder recorder(folder_, options_.tap);
-    if (!faults_ && options_.hand == nullptr) {
-      LockstepBench bench(fixture_.controller.configuration, fixture_.rig.hash, plant, &recorder);
-      return play(fixture_.experiment, bench, recorder, options_.watchers);
+    // By the wall clock a hand only types: there is nothing to disturb between the two.
+    if (!faults_ && (options_.hand == nullptr || options_.clock == RunClock::kReal)) {
+      return watched(plant, [&](PlantEnd& whole) {
+        LockstepBench bench(fixture_.controller.configuration, fixture_.rig.hash, whole, &recorder);
+        return play(fixture_.experiment, bench, recorder, options_.watchers, options_.hand);
+      });
+    }
+    if (!faults_) {
+      LateLink link(plant, peer);
+      return play_on(link, {}, recorder);
     }
     CaseRecord crossed;  // what it notes is of no use here: the judge makes its own
-    const Injection planned = faults_ ? faults_->injection() : Injection{};
+    const Injection planned = faults_->injection();
     CaseLink link(plant, peer, planned.link, crossed);
     RecordFaults of_record(planned.host, folder_);
     link.tell(of_record);
-    LockstepBench bench(fixture_.controller.configuration, fixture_.rig.hash, link, &recorder);
-    bench.run_on(planned.host);
-    return play(fixture_.experiment, bench, recorder, options_.watchers, options_.hand);
+    return play_on(link, planned.host, recorder);
+  }
+
+  RunOutcome play_on(PlantEnd& link, const HostSchedule& host, ControllerRecorder& recorder) {
+    return watched(link, [&](PlantEnd& whole) {
+      LockstepBench bench(fixture_.controller.configuration, fixture_.rig.hash, whole, &recorder);
+      bench.run_on(host);
+      return play(fixture_.experiment, bench, recorder, options_.watchers, options_.hand);
+    });
+  }
+
+  // `play` with the plant, with whoever looks on listening to it.
+  template <typename Play>
+  RunOutcome watched(PlantEnd& plant, Play play) {
+    auto* const witness = options_.tap != nullptr ? options_.tap->witness() : nullptr;
+    if (witness == nullptr) {
+      return play(plant);
+    }
+    WitnessedPlant heard(plant, *witness);
+    return play(heard);
   }
 
   std::unique_ptr<FaultedExperiment> faults_;  // null: a sound machine, or an image on the board

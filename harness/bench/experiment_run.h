@@ -43,8 +43,8 @@ struct RunOptions {
   RunClock clock = RunClock::kLockstep;              // kReal needs two processes: not kInProcess
   std::filesystem::path program = "/proc/self/exe";  // for the emulator's process
   LoopWatchers watchers;
-  // In process and in lockstep only; both may be null and outlive the run. What the hand did is in
-  // the folder's copy of the experiment.
+  // Both may be null and outlive the run; not with `firmware`. What the hand did is in the folder's
+  // copy of the experiment; it can break nothing in another process.
   FreeHand* hand = nullptr;
   RunTap* tap = nullptr;
 };

@@ -23,6 +23,10 @@ class WitnessedPlant final : public PlantEnd {
     heard_.witness.on(protocol::Advance{.until_ns = heard_.time_ns});
     return status;
   }
+  [[nodiscard]] bool happen(const emulator::ScheduledEvent& event) override {
+    return plant_.happen(event);
+  }
+  [[nodiscard]] bool disturb(const LinkFault& fault) override { return plant_.disturb(fault); }
 
  private:
   struct Heard final : protocol::EachMessage<Heard> {

@@ -126,7 +126,9 @@ void write_results(const DiagnoseOptions& options, const std::filesystem::path& 
   diagnose::write_series(d, folder);
   write_text(folder / "report.html",
              diagnosis_page::page("Diagnosis of " + model.string() + ", axis " + options.axis, d));
-  std::fputs(options.json ? json.c_str() : diagnose::headline(d).c_str(), stdout);
+  const std::string headline = diagnose::headline(d);
+  write_text(folder / "headline.txt", headline);
+  std::fputs(options.json ? json.c_str() : headline.c_str(), stdout);
   if (!options.json) {
     std::printf("%s\n", (folder / "report.html").c_str());
   }
@@ -168,8 +170,8 @@ void add_diagnose(CLI::App& app, int& exit_code) {
   verb->footer(
       "Example: towbench diagnose --data runs/FOLDER --out found\n"
       "         towbench diagnose --model plant.toml --data a.csv --data b.csv --columns map.toml\n"
-      "Writes report.html, diagnosis.json, extended_plant.toml, residual.csv. Exit: 0 diagnosed,\n"
-      "2 the data cannot be diagnosed (one line says why).");
+      "Writes report.html, headline.txt, diagnosis.json, extended_plant.toml, residual.csv.\n"
+      "Exit: 0 diagnosed, 2 the data cannot be diagnosed (one line says why).");
   verb->callback([options, &exit_code] { exit_code = execute(*options); });
 }
 

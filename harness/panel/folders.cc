@@ -19,18 +19,56 @@ std::string text_of(const json& object, const char* key) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string{};
 }
 
+json read(const fs::path& file) {
+  std::ifstream stream(file);
+  return json::parse(stream, nullptr, false);
+}
+
+// Its cases stand in one file, or in one of each job of an array.
+json results_in(const fs::path& folder) {
+  auto names = json::array();
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const auto name = entry->path().filename().string();
+    if (name.starts_with("results") && name.ends_with(".jsonl")) {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+// Its verdict is a list of words (docs/diagnosis.md).
+json diagnosis_json(const fs::path& folder, const std::string& name) {
+  std::string verdict;
+  std::error_code ignored;
+  const auto diagnosis = read(folder / "diagnosis.json");
+  if (diagnosis.is_object() && diagnosis.contains("verdict")) {
+    for (const auto& word : diagnosis["verdict"]) {
+      verdict += word.is_string() ? (verdict.empty() ? "" : ", ") + word.get<std::string>() : "";
+    }
+  }
+  return {{"name", name},
+          {"kind", "diagnosis"},
+          {"verdict", verdict},
+          {"headline", fs::is_regular_file(folder / "headline.txt", ignored)},
+          {"report", fs::is_regular_file(folder / "report.html", ignored)}};
+}
+
 // Nothing for a folder that holds nothing to look at.
 json folder_json(const fs::path& folder) {
   const auto name = folder.filename().string();
   std::error_code ignored;
   if (fs::is_regular_file(folder / "matrix.md", ignored)) {
-    return {{"name", name}, {"kind", "campaign"}};
+    return {{"name", name},
+            {"kind", "campaign"},
+            {"results", results_in(folder)},
+            {"kept", fs::is_regular_file(folder / "kept.json", ignored)}};
   }
   if (fs::is_regular_file(folder / "diagnosis.json", ignored)) {
-    return {{"name", name}, {"kind", "diagnosis"}};
+    return diagnosis_json(folder, name);
   }
-  std::ifstream stream(folder / "result.json");
-  const auto result = json::parse(stream, nullptr, false);
+  const auto result = read(folder / "result.json");
   if (!result.is_object()) {
     return nullptr;
   }

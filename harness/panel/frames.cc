@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -13,17 +14,22 @@ namespace {
 
 using nlohmann::json;
 
-double worst_error_m(const bbmc::TelemetryRow& row) {
+struct SeenRow {
+  LiveRow live;
+  core::PerAxis<double> position_m;
+  LiveEstimators::Speeds speeds;
+};
+
+double worst_error_m(const SeenRow& row) {
   double worst = 0;
   for (const auto axis : core::kAxes) {
-    const auto& now = row.axes[axis];
-    worst = std::max(worst, std::fabs(now.reference_m - now.position_m));
+    worst = std::max(worst, std::fabs(row.live.reference_m[axis] - row.position_m[axis]));
   }
   return worst;
 }
 
-double worst_error_m(const emulator::TruthRow& row) {
-  return std::fabs(row.axes[core::Axis::kY].chain_force_N);
+double worst_error_m(const LiveTruth& row) {
+  return std::fabs(static_cast<double>(row.chain_force_N[core::Axis::kY]));
 }
 
 // Of each bucket the row with the largest figure and the last one, in order of time.
@@ -49,52 +55,91 @@ std::vector<Row> thinned(const std::vector<Row>& rows, std::size_t most) {
   return kept;
 }
 
-// Seven digits: a tenth of a count over the whole tank, and a third of the bytes.
+// Digits enough for a tenth of a count over the whole tank, and a third of the bytes.
 void add(std::string& text, double value) {
   text += std::isfinite(value) ? fmt::format(",{:.8g}", value) : ",null";
 }
+void add(std::string& text, float value) {
+  text += std::isfinite(value) ? fmt::format(",{:.5g}", value) : ",null";
+}
 
-template <typename Row>
-std::vector<Row> all_from(LiveTap& tap) {
-  std::vector<Row> rows;
-  Row row;
-  while (tap.next(row)) {
-    rows.push_back(row);
-  }
-  return thinned(rows, FrameMaker::kMostRows);
+std::string begin_row(const std::string& text, core::Nanoseconds time_ns) {
+  return fmt::format("{}[{:.6f}", text.empty() ? "" : ",", core::seconds(time_ns));
 }
 
 }  // namespace
 
-// [t, then for y and x: reference, position, reference velocity, velocity, duty, mode; then fault]
-std::string FrameMaker::rows_text() {
-  std::string text;
-  for (const auto& row : all_from<bbmc::TelemetryRow>(session_.tap())) {
-    text += fmt::format("{}[{:.6f}", text.empty() ? "" : ",", core::seconds(row.time_ns));
+// The first frame of a run; its fixture is there, its folder may not be yet.
+void FrameMaker::begin(std::uint64_t number) {
+  number_ = number;
+  tail_.reset();
+  estimators_.reset();
+  if (const auto* const fixture = session_.fixture()) {
+    estimators_.emplace(fixture->controller.configuration);
     for (const auto axis : core::kAxes) {
-      const auto& now = row.axes[axis];
-      for (const double value : {now.reference_m, now.position_m, now.reference_velocity_m_per_s,
-                                 now.velocity_m_per_s, now.duty_pct}) {
-        add(text, value);
-      }
-      text += fmt::format(",{}", static_cast<int>(now.mode));
+      m_per_count_[axis] = fixture->controller.configuration.axes[axis].m_per_count();
     }
-    text += fmt::format(",{}]", core::number_of(row.fault));
+  }
+}
+
+// [t, then for y and x: reference, position, reference velocity, velocity, duty, mode, and velocity
+// by frequency, by period and by the hybrid; then fault, and the force sensor's y and x]
+std::string FrameMaker::rows_text() {
+  std::vector<SeenRow> rows;
+  for (SeenRow seen; session_.tap().next(seen.live);) {
+    if (estimators_) {
+      seen.speeds = estimators_->update(seen.live);
+    }
+    for (const auto axis : core::kAxes) {
+      seen.position_m[axis] =
+          (static_cast<double>(seen.live.count[axis]) + 0.5) * m_per_count_[axis];
+    }
+    rows.push_back(seen);
+  }
+  std::string text;
+  for (const auto& [live, position_m, speeds] : thinned(rows, kMostRows)) {
+    text += begin_row(text, live.time_ns);
+    for (const auto axis : core::kAxes) {
+      add(text, live.reference_m[axis]);
+      add(text, position_m[axis]);
+      add(text, live.reference_velocity_m_per_s[axis]);
+      add(text, live.velocity_m_per_s[axis]);
+      add(text, live.duty_pct[axis]);
+      text += fmt::format(",{}", live.mode[axis]);
+      for (const double speed : speeds[axis]) {
+        add(text, speed);
+      }
+    }
+    text += fmt::format(",{}", live.fault);
+    for (const float force : live.force_N) {
+      add(text, live.has_force ? force : std::nanf(""));
+    }
+    text += ']';
   }
   return text;
+}
+
+std::vector<LiveTruth> FrameMaker::new_truths() {
+  if (session_.state().clock == RunClock::kReal) {
+    return tail_ ? tail_->rows() : std::vector<LiveTruth>{};
+  }
+  std::vector<LiveTruth> rows;
+  for (LiveTruth row; session_.tap().next(row);) {
+    rows.push_back(row);
+  }
+  return rows;
 }
 
 // [t, then for y and x: carriage, carriage speed, current, chain force; then input lines]
 std::string FrameMaker::truths_text() {
   std::string text;
-  for (const auto& row : all_from<emulator::TruthRow>(session_.tap())) {
-    text += fmt::format("{}[{:.6f}", text.empty() ? "" : ",", core::seconds(row.time_ns));
+  for (const auto& row : thinned(new_truths(), kMostRows)) {
+    text += begin_row(text, row.time_ns);
     for (const auto axis : core::kAxes) {
-      const auto& now = row.axes[axis];
-      for (const double value :
-           {now.carriage_m, now.carriage_speed_m_per_s, now.current_A, now.chain_force_N}) {
-        add(text, value);
-      }
+      add(text, row.carriage_m[axis]);
+      add(text, row.carriage_speed_m_per_s[axis]);
+      add(text, row.current_A[axis]);
+      add(text, row.chain_force_N[axis]);
     }
     text += fmt::format(",{}]", row.input_lines);
   }
@@ -108,6 +153,8 @@ std::string FrameMaker::state_text() {
                  {"number", state.number},
                  {"name", state.name},
                  {"title", state.title},
+                 {"clock", state.clock == RunClock::kReal ? "real" : "lockstep"},
+                 {"timing", state.timing},
                  {"folder", state.folder},
                  {"verdict", state.verdict},
                  {"reason", state.reason},
@@ -122,10 +169,15 @@ std::string FrameMaker::state_text() {
   }
   if (const auto* const fixture = session_.fixture()) {
     auto& limits = object["limits"];
+    auto& followed = object["followed"];
     const auto ends = limits_of(fixture->rig.parameters);
     for (const auto axis : core::kAxes) {
       const auto& believed = fixture->controller.configuration.axes[axis];
       const double m_per_count = believed.m_per_count();
+      constexpr std::array<const char*, LiveEstimators::kMethods> kMethods{"frequency", "period",
+                                                                           "hybrid"};
+      followed[std::string(core::name_of(axis))] =
+          kMethods.at(static_cast<std::size_t>(believed.velocity.method));
       limits[std::string(core::name_of(axis))] = {
           {"soft_min_m", static_cast<double>(believed.ends.soft_min_count) * m_per_count},
           {"soft_max_m", static_cast<double>(believed.ends.soft_max_count) * m_per_count},
@@ -141,9 +193,18 @@ std::string FrameMaker::state_text() {
 }
 
 std::string FrameMaker::next() {
+  if (const auto number = session_.state().number; number != number_) {
+    begin(number);
+  }
+  if (const auto folder = session_.tap().folder(); !tail_ && !folder.empty()) {
+    tail_.emplace(folder);
+  }
   const auto rows = rows_text();
   const auto truths = truths_text();
-  const auto events = session_.tap().take_events();
+  auto events = session_.tap().take_events();
+  if (tail_ && session_.state().clock == RunClock::kReal) {
+    events += tail_->events();
+  }
   const auto console = session_.tap().take_console();
   const auto state = state_text();
   if (rows.empty() && truths.empty() && events.empty() && console.empty() && state == last_state_) {

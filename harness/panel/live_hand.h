@@ -17,41 +17,34 @@
 #include "harness/bench/hand.h"
 #include "harness/bench/lockstep_bench.h"
 #include "harness/experiment/experiment_fixture.h"
+#include "harness/panel/run_hand.h"
 
 namespace towbench::harness {
 
-class LiveHand final : public FreeHand {
+class LiveHand final : public RunHand {
  public:
-  struct Pace {
-    double speed = 1;  // virtual over host time; 0: as fast as it goes
-    bool paused = false;
-  };
-
   // `fixture` as it is run. `stop`: the run is to be cut short. Both outlive this.
   LiveHand(const ExperimentFixture& fixture, std::uint64_t seed, Pace pace, bool holds,
            const std::atomic<bool>& stop);
 
   // ---- from any thread ----
-  void type(std::string bytes);
-  // Breaks from the next exchange on; the fault's own trigger is not used. Throws FixtureError for
-  // what the machine has not, what is built in from the start, and what is broken so already.
-  void break_now(Fault fault);
-  // Ends what break_now() began. Throws FixtureError when it did not, or cannot be mended.
-  void mend(const FaultPlace& place, FaultKind kind);
-  void set_speed(double speed);
-  void pause(bool paused);
-  void step(core::Nanoseconds length_ns);  // pauses behind it
-  void finish();
-  // The stop flag has changed.
-  void wake() { changed_.notify_all(); }
+  void type(std::string bytes) override;
+  // Throws for what the machine has not, what is built in from the start, and what is broken so
+  // already.
+  void break_now(Fault fault) override;
+  void mend(const FaultPlace& place, FaultKind kind) override;
+  void set_speed(double speed) override;
+  void pause(bool paused) override;
+  void step(core::Nanoseconds length_ns) override;
+  void finish() override;
+  void wake() override { changed_.notify_all(); }
 
-  [[nodiscard]] Pace pace() const;
+  [[nodiscard]] Pace pace() const override;
   [[nodiscard]] core::Nanoseconds now_ns() const noexcept {
     return now_ns_.load(std::memory_order_relaxed);
   }
-  // What is broken by hand at present, in words, and why the last command came to nothing.
-  [[nodiscard]] std::vector<std::string> broken() const;
-  [[nodiscard]] std::string take_trouble();
+  [[nodiscard]] std::vector<std::string> broken() const override;
+  [[nodiscard]] std::string take_trouble() override;
 
   // ---- on the bench's thread ----
   [[nodiscard]] std::span<const HandAct> at(core::Nanoseconds now_ns,

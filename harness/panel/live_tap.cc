@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <utility>
+#include <cstdlib>
 
 namespace towbench::harness {
 namespace {
@@ -14,48 +14,59 @@ void count(std::atomic<std::uint64_t>& counter) noexcept {
 
 }  // namespace
 
+void LiveTap::begins(const std::filesystem::path& folder) {
+  const std::lock_guard lock(folder_mutex_);
+  folder_ = folder;
+}
+
+std::filesystem::path LiveTap::folder() const {
+  const std::lock_guard lock(folder_mutex_);
+  return folder_;
+}
+
 void LiveTap::row(const bbmc::TelemetryRow& row) noexcept {
-  if (!rows_.push(row)) {
+  latest_.time_ns = row.time_ns;
+  latest_.fault = core::number_of(row.fault);
+  for (const auto axis : core::kAxes) {
+    const auto& now = row.axes[axis];
+    latest_.reference_m[axis] = now.reference_m;
+    latest_.velocity_m_per_s[axis] = now.velocity_m_per_s;
+    latest_.count[axis] = now.count;
+    latest_.reference_velocity_m_per_s[axis] = static_cast<float>(now.reference_velocity_m_per_s);
+    latest_.duty_pct[axis] = static_cast<float>(now.duty_pct);
+    latest_.last_edges[axis] = watch_[axis].seen_from(row.time_ns);
+    latest_.edges[axis] = now.edges;
+    latest_.mode[axis] = static_cast<std::uint8_t>(now.mode);
+  }
+  if (!queues_->rows.push(latest_)) {
     count(dropped_);
   }
 }
 
 void LiveTap::truth(const emulator::TruthRow& row) noexcept {
-  if (!truths_.push(row)) {
+  if (!queues_->truths.push(live(row))) {
     count(dropped_);
   }
 }
 
+void LiveTap::on(const protocol::ForceSample& sample) noexcept {
+  latest_.force_N[core::Axis::kX] = sample.force_N[0];
+  latest_.force_N[core::Axis::kY] = sample.force_N[1];
+  latest_.has_force = true;
+}
+
 void LiveTap::exchange(core::Nanoseconds took_ns) noexcept {
-  const auto microseconds =
-      static_cast<std::uint64_t>(std::max<core::Nanoseconds>(took_ns, 0)) / 1000U;
+  const auto shown_ns =
+      period_ns_ > 0 ? std::llabs(took_ns - period_ns_) : std::max<core::Nanoseconds>(took_ns, 0);
+  const auto microseconds = static_cast<std::uint64_t>(shown_ns) / 1000U;
   const auto bin = static_cast<std::size_t>(std::bit_width(microseconds));
   count(exchange_times_[std::min(bin, kBins - 1)]);
 }
 
-void LiveTap::add(std::string& text, std::string_view more) noexcept {
-  const std::lock_guard lock(text_mutex_);
-  if (text.size() + more.size() > kMostText) {
+void LiveTap::add(Text& queue, std::string_view more) noexcept {
+  if (!queue.push(more)) {
     count(dropped_);
-    return;
   }
-  text += more;
-}
-
-void LiveTap::event(std::string_view line) noexcept {
-  add(events_, line);
-}
-void LiveTap::console(std::string_view text) noexcept {
-  add(console_, text);
-}
-
-std::string LiveTap::take_events() {
-  const std::lock_guard lock(text_mutex_);
-  return std::exchange(events_, {});
-}
-std::string LiveTap::take_console() {
-  const std::lock_guard lock(text_mutex_);
-  return std::exchange(console_, {});
 }
 
 std::array<std::uint64_t, LiveTap::kBins> LiveTap::exchange_times() const noexcept {
@@ -66,12 +77,12 @@ std::array<std::uint64_t, LiveTap::kBins> LiveTap::exchange_times() const noexce
   return counts;
 }
 
-void LiveTap::clear() {
-  bbmc::TelemetryRow row;
-  while (rows_.pop(row)) {
+void LiveTap::clear(core::Nanoseconds period_ns) {
+  LiveRow row;
+  while (next(row)) {
   }
-  emulator::TruthRow truth;
-  while (truths_.pop(truth)) {
+  LiveTruth truth;
+  while (next(truth)) {
   }
   dropped_ = 0;
   for (auto& bin : exchange_times_) {
@@ -79,6 +90,10 @@ void LiveTap::clear() {
   }
   (void)take_events();
   (void)take_console();
+  watch_ = {};
+  latest_ = {};
+  period_ns_ = period_ns;
+  begins({});
 }
 
 }  // namespace towbench::harness

@@ -2,10 +2,15 @@
 // what runs there are.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "harness/panel/live_estimators.h"
 #include "harness/panel/session.h"
+#include "harness/panel/truth_tail.h"
 
 namespace towbench::harness {
 
@@ -26,8 +31,14 @@ class FrameMaker {
   [[nodiscard]] std::string state_text();
   [[nodiscard]] std::string rows_text();
   [[nodiscard]] std::string truths_text();
+  [[nodiscard]] std::vector<LiveTruth> new_truths();
+  void begin(std::uint64_t number);
 
   Session& session_;
+  std::uint64_t number_ = 0;  // of the run that these belong to
+  std::optional<LiveEstimators> estimators_;
+  core::PerAxis<double> m_per_count_;
+  std::optional<TruthTail> tail_;  // of a plant in another process, once its folder is there
   std::string last_state_;
 };
 

@@ -1,14 +1,17 @@
 #include "harness/panel/session.h"
 
-#include <algorithm>
+#include <exception>
 
 #include <fmt/format.h>
+#include <sys/mman.h>
 
 #include "harness/commands/fixture_paths.h"
 #include "harness/experiment/experiment_toml.h"
 #include "harness/faults/fault_text.h"
 #include "harness/faults/faulted_experiment.h"
 #include "harness/fixtures/canonical_hash.h"
+#include "harness/panel/live_hand.h"
+#include "harness/panel/realtime_hand.h"
 #include "harness/report/report.h"
 
 namespace towbench::harness {
@@ -50,6 +53,21 @@ void change(ExperimentFixture& fixture, const SessionStart& wanted) {
   fixture.hash = hash.value();
 }
 
+// By the wall clock: what `change` had no reason to refuse.
+void refuse_unless_bearable(const SessionStart& wanted, const FaultPlan& faults) {
+  if (wanted.clock != RunClock::kReal) {
+    return;
+  }
+  if (!faults.empty()) {
+    throw FixtureError({.file = "panel", .key = "faults"}, "a run by the wall clock",
+                       "lockstep: a fault is judged beside a twin of the same bits");
+  }
+  if (wanted.pace.paused || wanted.pace.speed != 1) {
+    throw FixtureError({.file = "panel", .key = "speed"}, "a run by the wall clock",
+                       "real time, not paused");
+  }
+}
+
 std::string first_trouble(const Judgement& judgement) {
   for (const auto& check : judgement.checks) {
     if (check.verdict != Verdict::kPass) {
@@ -71,41 +89,74 @@ void Session::start(const SessionStart& wanted) {
   for (const auto& words : wanted.faults) {
     plan.push_back(parse_fault(words));
   }
+  refuse_unless_bearable(wanted, plan);
   add_faults(*fixture, plan);
   change(*fixture, wanted);
   const auto seed = wanted.seed.value_or(fixture->experiment.seed);
   cut_short();  // joins the thread of the last one
   hand_.reset();
   fixture_ = std::move(fixture);
-  tap_.clear();
+  const auto& controller = fixture_->controller.configuration;
+  const bool real = wanted.clock == RunClock::kReal;
+  tap_.clear(real ? bbmc::exchange_period_ns(controller.control_period_ns()) : 0);
   stop_ = false;
-  hand_ = std::make_unique<LiveHand>(*fixture_, seed, wanted.pace, wanted.holds, stop_);
+  if (real) {
+    hand_ = std::make_unique<RealtimeHand>(fixture_->experiment.hand, wanted.holds);
+  } else {
+    hand_ = std::make_unique<LiveHand>(*fixture_, seed, wanted.pace, wanted.holds, stop_);
+  }
   {
     const std::lock_guard lock(mutex_);
     state_ = {.phase = Phase::kRunning,
               .number = state_.number + 1,
               .name = fixture_->experiment.name,
-              .title = fixture_->experiment.title};
+              .title = fixture_->experiment.title,
+              .clock = wanted.clock};
   }
   thread_ = std::thread([this, seed] { run(seed); });
+}
+
+RunResult Session::run_by_its_clock(std::uint64_t seed) {
+  RunOptions options;
+  options.out = runs_;
+  options.seed = seed;
+  options.hand = hand_.get();
+  options.tap = &tap_;
+  options.watchers.stop = &stop_;
+  options.clock = state().clock;
+  if (options.clock == RunClock::kLockstep) {
+    return run_experiment(*fixture_, options);
+  }
+  options.carrier = Carrier::kLocal;
+  options.program = program_;
+  // The loop's rights are of a thread of its own and end with it; the memory's are given back.
+  RunResult result;
+  std::exception_ptr trouble;
+  std::thread([&] {
+    try {
+      result = run_experiment(*fixture_, options);
+    } catch (...) {
+      trouble = std::current_exception();
+    }
+  }).join();
+  (void)munlockall();
+  if (trouble) {
+    std::rethrow_exception(trouble);
+  }
+  return result;
 }
 
 void Session::run(std::uint64_t seed) {
   State over = state();
   over.phase = Phase::kOver;
   try {
-    RunOptions options;
-    options.out = runs_;
-    options.seed = seed;
-    options.hand = hand_.get();
-    options.tap = &tap_;
-    options.watchers.stop = &stop_;
-    const auto result = run_experiment(*fixture_, options);
+    const auto result = run_by_its_clock(seed);
     set(Phase::kJudging);
     const auto written = write_report(result.folder);
     over.folder = result.folder.filename().string();
     over.verdict = result.complete ? std::string(name_of(result.judgement.verdict)) : "";
     over.reason = result.complete ? first_trouble(result.judgement) : result.reason;
+    over.timing = result.timing;
     if (!written) {
       over.reason += (over.reason.empty() ? "no report: " : "; no report: ") + written.error();
     }
@@ -136,11 +187,11 @@ Session::State Session::state() const {
   return state_;
 }
 
-LiveHand* Session::hand_if_running() noexcept {
+RunHand* Session::hand_if_running() noexcept {
   return state().phase == Phase::kRunning ? hand_.get() : nullptr;
 }
 
-LiveHand& Session::hand() {
+RunHand& Session::hand() {
   if (auto* const hand = hand_if_running()) {
     return *hand;
   }

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "harness/bench/experiment_run.h"
-#include "harness/panel/live_hand.h"
 #include "harness/panel/live_tap.h"
+#include "harness/panel/run_hand.h"
 
 namespace towbench::harness {
 
@@ -24,7 +24,9 @@ struct SessionStart {
   std::vector<std::string> faults{};                         // in words
   std::optional<std::uint64_t> seed{};
   std::optional<double> duration_limit_s{};
-  LiveHand::Pace pace{};
+  // kReal: two processes over a local socket, each by the wall clock; no faults, no other pace.
+  RunClock clock = RunClock::kLockstep;
+  RunHand::Pace pace{};
   bool holds = false;  // goes on after its script until finished by hand
 };
 
@@ -36,13 +38,17 @@ class Session {
     std::uint64_t number = 0;  // of the run since the panel started
     std::string name{};
     std::string title{};
+    RunClock clock = RunClock::kLockstep;
+    std::string timing{};   // by the wall clock, over: how both loops kept time, in words
     std::string folder{};   // below the runs' folder; of a run that is over
     std::string verdict{};  // PASS, FAIL, INVALID, or empty
     std::string reason{};   // why there is none, or the first check that did not hold
   };
 
-  // Run folders come below `runs`.
-  explicit Session(std::filesystem::path runs) : runs_(std::move(runs)) {}
+  // Run folders come below `runs`. `program` emulates the machine of a run by the wall clock; it
+  // knows the verb `emulate`.
+  explicit Session(std::filesystem::path runs, std::filesystem::path program = "/proc/self/exe")
+      : runs_(std::move(runs)), program_(std::move(program)) {}
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
   ~Session() { cut_short(); }
@@ -55,21 +61,23 @@ class Session {
   [[nodiscard]] State state() const;
   [[nodiscard]] LiveTap& tap() noexcept { return tap_; }
   // Of the run under way. Throws FixtureError when there is none.
-  [[nodiscard]] LiveHand& hand();
+  [[nodiscard]] RunHand& hand();
   // Null when none is under way.
-  [[nodiscard]] LiveHand* hand_if_running() noexcept;
+  [[nodiscard]] RunHand* hand_if_running() noexcept;
   // Of the last run started; null before.
   [[nodiscard]] const ExperimentFixture* fixture() const noexcept { return fixture_.get(); }
   [[nodiscard]] const std::filesystem::path& runs() const noexcept { return runs_; }
 
  private:
   void run(std::uint64_t seed);
+  [[nodiscard]] RunResult run_by_its_clock(std::uint64_t seed);
   void set(Phase phase);
 
   std::filesystem::path runs_;
+  std::filesystem::path program_;
   LiveTap tap_;
   std::unique_ptr<ExperimentFixture> fixture_;
-  std::unique_ptr<LiveHand> hand_;
+  std::unique_ptr<RunHand> hand_;
   std::atomic<bool> stop_{false};
   mutable std::mutex mutex_;
   State state_;

@@ -69,6 +69,13 @@ SessionStart start_of(const json& message) {
   if (message.contains("duration_limit_s")) {
     wanted.duration_limit_s = number(message, "duration_limit_s", 1e-3, 86'400);
   }
+  if (message.contains("clock")) {
+    const auto clock = text(message, "clock");
+    if (clock != "lockstep" && clock != "real") {
+      throw bad("clock", '"' + clock + '"', "lockstep real");
+    }
+    wanted.clock = clock == "real" ? RunClock::kReal : RunClock::kLockstep;
+  }
   wanted.pace = {.speed = number(message, "speed", 0, kFastest), .paused = flag(message, "paused")};
   wanted.holds = flag(message, "hold");
   return wanted;

@@ -12,8 +12,8 @@ namespace towbench::harness {
 // possible now. Never throws.
 //
 //   start {experiment, lines: [[index, text]...], faults: [words...], seed, duration_limit_s,
-//   speed,
-//          paused, hold} | cut | finish | pause | resume | step {ms} | speed {speed} | type {text}
+//          clock: "lockstep" | "real", speed, paused, hold} | cut | finish | pause | resume | step
+//          {ms} | speed {speed} | type {text}
 //   break {fault: "PART KIND [parameters]"} | mend {fault: "PART KIND"}
 [[nodiscard]] std::string steer(Session& session, std::string_view message) noexcept;
 

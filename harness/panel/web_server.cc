@@ -7,6 +7,7 @@
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include "harness/panel/panel_json.h"
@@ -36,6 +37,12 @@ WebRequest request_of(const WebClient::Request& message) {
           .host = field(http::field::host),
           .origin = field(http::field::origin),
           .cookie = field(http::field::cookie)};
+}
+
+// The machine's process of a run by the wall clock must not hold the panel's port or pages.
+template <typename Socket>
+void keep_from_children(Socket& socket) {
+  (void)fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
 }
 
 template <typename Body>
@@ -73,6 +80,7 @@ class WebServer::Implementation {
         frames_(session),
         host_(name_of(acceptor_.local_endpoint())),
         routes_(session.runs(), names_of(acceptor_.local_endpoint()), keys_) {
+    keep_from_children(acceptor_);
     accept();
   }
 
@@ -228,6 +236,7 @@ void WebServer::Implementation::accept() {
   acceptor_.async_accept([this](beast::error_code error, tcp::socket socket) {
     // One too many is closed at once; so is one that went while it waited.
     if (!error && connections_ < kMostConnections) {
+      keep_from_children(socket);
       std::make_shared<Exchange>(std::move(socket), *this)->start();
     }
     accept();

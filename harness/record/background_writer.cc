@@ -2,7 +2,26 @@
 
 #include <utility>
 
+#include <pthread.h>
+#include <sched.h>
+
 namespace towbench::harness {
+namespace {
+
+// A thread inherits from the one that makes it. Formatting at a loop's own priority on its own
+// processor would hold that loop up for as long as a block of rows takes.
+void be_ordinary() noexcept {
+  const sched_param ordinary{};
+  (void)pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
+  cpu_set_t all;
+  CPU_ZERO(&all);
+  for (std::size_t cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+    CPU_SET(cpu, &all);
+  }
+  (void)pthread_setaffinity_np(pthread_self(), sizeof(all), &all);  // of these, what is allowed
+}
+
+}  // namespace
 
 BackgroundWriter::~BackgroundWriter() {
   {
@@ -28,6 +47,7 @@ void BackgroundWriter::wait() {
 }
 
 void BackgroundWriter::work() {
+  be_ordinary();
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return ending_ || !jobs_.empty(); });

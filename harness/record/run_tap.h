@@ -2,11 +2,13 @@
 // returns; what it cannot take it loses, the record does not.
 #pragma once
 
+#include <filesystem>
 #include <string_view>
 
 #include "bbmc/host/controller_node.h"
 #include "core/time.h"
 #include "emulator/plant_node.h"
+#include "protocol/message_sink.h"
 
 namespace towbench::harness {
 
@@ -17,7 +19,13 @@ class RunTap {
   RunTap& operator=(const RunTap&) = delete;
   virtual ~RunTap() = default;
 
+  // The run's folder exists, nothing has been recorded.
+  virtual void begins(const std::filesystem::path& /*folder*/) {}
+  // Who hears what the controller hears, before it does. Null: nobody cares.
+  [[nodiscard]] virtual protocol::MessageSink* witness() noexcept { return nullptr; }
+
   virtual void row(const bbmc::TelemetryRow& row) noexcept = 0;
+  // Not of a plant in another process: its record is what there is of it.
   virtual void truth(const emulator::TruthRow& row) noexcept = 0;
   virtual void exchange(core::Nanoseconds took_ns) noexcept = 0;
   // A line of events.jsonl, and what the console printed.

@@ -1,6 +1,6 @@
 // What canvases draw with. The style sheet owns the colours; dashes tell the lines apart without them.
 
-export type LineRole = "reference" | "measured" | "truth";
+export type LineRole = "reference" | "measured" | "truth" | "second" | "third";
 
 export interface Theme {
   page: string;
@@ -15,9 +15,11 @@ export const dashes: Record<LineRole, number[]> = {
   reference: [7, 4],
   measured: [],
   truth: [2, 3],
+  second: [10, 3, 2, 3],
+  third: [16, 5],
 };
 
-export const widths: Record<LineRole, number> = { reference: 1.25, measured: 1.5, truth: 2 };
+export const widths: Record<LineRole, number> = { reference: 1.25, measured: 1.5, truth: 2, second: 1.5, third: 1.5 };
 
 export const axisFont = '12px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif';
 
@@ -34,6 +36,8 @@ export function currentTheme(): Theme {
       reference: colour("--line-reference"),
       measured: colour("--line-measured"),
       truth: colour("--line-truth"),
+      second: colour("--line-second"),
+      third: colour("--line-third"),
     },
   };
 }

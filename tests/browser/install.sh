@@ -3,6 +3,6 @@
 set -eu
 here=$(dirname "$0")
 mkdir -p "$1"
-cp "$here"/*.mjs "$here/package.json" "$here/package-lock.json" "$1"
+cp -R "$here"/*.mjs "$here/package.json" "$here/package-lock.json" "$here/diagnosis" "$1"
 cd "$1"
 exec npm ci --prefer-offline --ignore-scripts --no-audit --no-fund --loglevel=error --silent

@@ -6,7 +6,7 @@
 
 all_stages=(lint tests carriers step_cost tidy sanitize_address sanitize_thread fuzz fresh_start)
 quick_stages=(lint tests)
-on_request_stages=(carrier_table armhf tidy_everything campaign mutants slurm)
+on_request_stages=(carrier_table panel_lateness armhf tidy_everything campaign mutants slurm)
 
 test_usage() {
   cat <<'TEXT'
@@ -31,6 +31,7 @@ stages: lint              format, shellcheck, include rules
 
 on request only (--only):
         carrier_table     the table of docs/carriers.md, measured here: fidelity, bandwidth, load, round trip
+        panel_lateness    what an open panel does to a run by the wall clock: lateness in alternating blocks, printed
         armhf             the controller built for armhf, under qemu-user: the same duty to the last bit, fed with a
                           record and as a process against the emulator
         tidy_everything   clang-tidy of the harness and carriers too; about half an hour
@@ -183,6 +184,16 @@ stage_carrier_table() {
   sed -n 's/^@@ row //p' "$log"
   [[ $(grep -c '^@@ row' "$log") == 5 ]] || { tail -n 20 "$log"; failed=$((failed + 1)); return 1; }
   passed=$((passed + 1))
+}
+
+# The ratios are printed, not judged: they are this host's, at this hour.
+stage_panel_lateness() {
+  local here=$root/tests/browser work=$root/build/panel_lateness browser
+  build_preset release release towbench-bench towbench-panel
+  browser=$(sh "$here/find_browser.sh") || { failed=$((failed + 1)); return 1; }
+  sh "$here/install.sh" "$work/packages"
+  count env CHROMIUM="$browser" node "$work/packages/measure_panel.mjs" \
+    "$root/build/release/harness/towbench-bench" "$root" "$work/runs" "${TOWBENCH_BLOCKS:-25}"
 }
 
 # report_of LOG STATUS: what a script with exit code 99 for "skipped" has found.

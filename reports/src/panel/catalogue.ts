@@ -51,6 +51,10 @@ export interface Folder {
   status?: string;
   verdict?: string;
   started_utc?: string;
+  results?: string[]; // of a campaign: the files of its cases
+  kept?: boolean; // of a campaign: whether it kept runs
+  headline?: boolean; // of a diagnosis: whether headline.txt is there
+  report?: boolean; // of a diagnosis: whether report.html is there
 }
 
 async function get(path: string): Promise<Response> {

@@ -1,16 +1,11 @@
 // Two runs of the same kind over each other: tracking error and duty of both, and what their
 // metrics make of it.
-import uPlot from "uplot";
-
 import { element, missingNote } from "../dom";
-import { axisFont, currentTheme, dashes, fitWidth, lineSample, type LineRole, widths } from "../theme";
-import { readable, tickText } from "../units";
+import type { LineRole } from "../theme";
+import { readable } from "../units";
 import { loadText } from "./catalogue";
-
-interface Log {
-  time: Float64Array;
-  columns: Map<string, Float64Array>;
-}
+import { column, type Log, parseLog } from "./csv";
+import { figure } from "./figure";
 
 interface Metric {
   name: string;
@@ -22,74 +17,32 @@ interface Metric {
 const roles: LineRole[] = ["measured", "truth"];
 const mostPoints = 4000;
 
-function parse(text: string): Log {
-  const lines = text.trimEnd().split("\n");
-  const names = lines[0]!.split(",");
-  const stride = Math.max(1, Math.ceil((lines.length - 1) / mostPoints));
-  const kept = lines.slice(1).filter((_, i) => i % stride === 0);
-  const columns = new Map(names.map((name) => [name, new Float64Array(kept.length)]));
-  kept.forEach((line, row) => {
-    const values = line.split(",");
-    names.forEach((name, i) => (columns.get(name)![row] = Number(values[i])));
-  });
-  return { time: columns.get("time_s")!, columns };
-}
-
-function column(log: Log, axis: string, what: "error" | "duty"): (number | null)[] {
-  if (what === "duty") return Array.from(log.columns.get(`${axis}_duty_pct`) ?? []);
-  const reference = log.columns.get(`${axis}_reference_m`);
-  const position = log.columns.get(`${axis}_position_m`);
-  if (reference === undefined || position === undefined) return [];
-  return Array.from(reference, (value, i) => (value - position[i]!) * 1e3);
+function curve(log: Log, axis: string, what: "error" | "duty"): (number | null)[] {
+  if (what === "duty") return Array.from(column(log, `${axis}_duty_pct`));
+  const position = column(log, `${axis}_position_m`);
+  return Array.from(column(log, `${axis}_reference_m`), (value, i) => (value - position[i]!) * 1e3);
 }
 
 // Each log's rows at the times of the first: both are sampled at the control rate from 0.
 function aligned(time: Float64Array, log: Log, values: (number | null)[]): (number | null)[] {
+  const own = column(log, "time_s");
   let at = 0;
   return Array.from(time, (t) => {
-    while (at + 1 < log.time.length && log.time[at + 1]! <= t + 1e-9) ++at;
-    return t > (log.time[log.time.length - 1] ?? -1) + 1e-9 ? null : (values[at] ?? null);
+    while (at + 1 < own.length && own[at + 1]! <= t + 1e-9) ++at;
+    return t > (own[own.length - 1] ?? -1) + 1e-9 ? null : (values[at] ?? null);
   });
 }
 
 function plot(title: string, unit: string, names: string[], logs: Log[], axis: string, what: "error" | "duty"): HTMLElement {
-  const box = element("figure", "plot");
-  const caption = element("figcaption");
-  caption.append(element("strong", "", `${title}, ${unit}`));
-  names.forEach((name, i) => {
-    const entry = element("span", "entry");
-    entry.append(lineSample(roles[i]!), element("span", "", name));
-    caption.append(entry);
+  const [first, second] = logs.map((log) => column(log, "time_s")) as [Float64Array, Float64Array];
+  const longest = first.length >= second.length ? first : second;
+  return figure({
+    title,
+    unit,
+    xUnit: "s",
+    x: Array.from(longest),
+    curves: logs.map((log, i) => ({ label: names[i]!, role: roles[i]!, values: aligned(longest, log, curve(log, axis, what)) })),
   });
-  const host = element("div", "canvas-host");
-  box.append(caption, host);
-  const longest = logs[0]!.time.length >= logs[1]!.time.length ? logs[0]! : logs[1]!;
-  const style = { stroke: () => currentTheme().muted, font: axisFont, grid: { stroke: () => currentTheme().grid, width: 1 } };
-  const drawn = new uPlot(
-    {
-      width: 700,
-      height: 220,
-      legend: { show: false },
-      scales: { x: { time: false } },
-      axes: [
-        { ...style, values: (_p, splits) => splits.map((s) => `${tickText(s)} s`) },
-        { ...style, size: 58, values: (_p, splits) => splits.map(tickText) },
-      ],
-      series: [
-        {},
-        ...names.map((label, i) => ({
-          label,
-          stroke: () => currentTheme().line[roles[i]!],
-          width: widths[roles[i]!],
-          dash: dashes[roles[i]!],
-        })),
-      ],
-    },
-    [Array.from(longest.time), ...logs.map((log) => aligned(longest.time, log, column(log, axis, what)))] as uPlot.AlignedData,
-    host,
-  );
-  fitWidth(host, () => drawn.width, (width) => drawn.setSize({ width, height: 220 }));
-  return box;
 }
 
 function metricTable(names: string[], lists: Metric[][]): HTMLElement {
@@ -114,7 +67,7 @@ function metricTable(names: string[], lists: Metric[][]): HTMLElement {
 export async function compare(host: HTMLElement, names: [string, string]): Promise<void> {
   host.replaceChildren(element("p", "note", "reading both logs"));
   try {
-    const logs = (await Promise.all(names.map((name) => loadText(`/runs/${name}/log.csv`)))).map(parse);
+    const logs = (await Promise.all(names.map((name) => loadText(`/runs/${name}/log.csv`)))).map((text) => parseLog(text, mostPoints));
     const metrics = await Promise.all(names.map(async (name) => JSON.parse(await loadText(`/runs/${name}/metrics.json`)).metrics as Metric[]));
     host.replaceChildren(element("h2", "", "Compared"));
     for (const axis of ["y", "x"]) {

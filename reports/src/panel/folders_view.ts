@@ -1,16 +1,10 @@
 // Runs, campaigns and diagnoses on disk: a list, the report of one, two over each other.
 import { element, missingNote } from "../dom";
-import { type Folder, loadFolders, loadText } from "./catalogue";
+import { showCampaign } from "./campaign";
+import { type Folder, loadFolders } from "./catalogue";
 import { compare } from "./compare";
+import { showDiagnosis } from "./diagnosis_view";
 import { button } from "./form";
-import { rendered } from "./markdown";
-
-// A link of a campaign's matrix: to a kept run's folder, or to a file.
-function addressIn(folder: string, target: string): string | null {
-  if (!/^[\w./-]+$/.test(target) || target.includes("..")) return null;
-  const path = target.replace(/\/$/, "");
-  return `/runs/${folder}/${path}${/\.\w+$/.test(path) ? "" : "/report.html"}`;
-}
 
 export class FoldersView {
   private readonly list = element("section", "folder-list");
@@ -83,13 +77,8 @@ export class FoldersView {
   }
 
   private async show(folder: Folder): Promise<void> {
-    if (folder.kind === "campaign") {
-      const text = await loadText(`/runs/${folder.name}/matrix.md`);
-      this.shown.append(
-        rendered(text, (target) => addressIn(folder.name, target)),
-      );
-      return;
-    }
+    if (folder.kind === "campaign") return showCampaign(this.shown, folder);
+    if (folder.kind === "diagnosis") return showDiagnosis(this.shown, folder);
     const viewer = element("iframe", "viewer");
     viewer.title = `Report of ${folder.name}`;
     viewer.src = `/runs/${folder.name}/report.html`;

@@ -1,4 +1,5 @@
-// How long an exchange took on the host, in bins of doubling width.
+// What exchanges cost the host: how long each took, or by the wall clock how far each was off its
+// period, in bins of doubling width.
 import { element } from "../dom";
 
 const svgNs = "http://www.w3.org/2000/svg";
@@ -6,17 +7,20 @@ const svgNs = "http://www.w3.org/2000/svg";
 export class Histogram {
   readonly box = element("figure");
   private readonly svg = document.createElementNS(svgNs, "svg");
+  private readonly title = element("strong");
   private readonly note = element("p", "note");
 
   constructor() {
     const caption = element("figcaption");
-    caption.append(element("strong", "", "Host time of one exchange (both sides), waiting included"));
+    caption.append(this.title);
     this.svg.setAttribute("class", "histogram");
     this.svg.setAttribute("viewBox", "0 0 640 120");
     this.box.append(caption, this.svg, this.note);
   }
 
-  show(bins: number[]): void {
+  show(bins: number[], clock: "lockstep" | "real"): void {
+    this.title.textContent =
+      clock === "real" ? "Jitter: how far each exchange was off its period" : "Host time of one exchange (both sides), waiting included";
     const total = bins.reduce((a, b) => a + b, 0);
     const most = Math.max(1, ...bins);
     const wide = 640 / bins.length;

@@ -8,13 +8,22 @@ export class Path {
   readonly box = element("figure");
   private readonly canvas = element("canvas");
 
+  private again = () => {};
+
   constructor() {
     const caption = element("figcaption");
     caption.append(element("strong", "", "X-Y path: reference dashed, motor side solid"));
     this.box.append(caption, this.canvas);
+    this.canvas.style.maxWidth = "100%";
+    new ResizeObserver(() => this.again()).observe(this.box);
   }
 
   show(columns: (number | null)[][], yReference: number, yPosition: number, xReference: number, xPosition: number): void {
+    this.again = () => this.draw(columns, yReference, yPosition, xReference, xPosition);
+    this.again();
+  }
+
+  private draw(columns: (number | null)[][], yReference: number, yPosition: number, xReference: number, xPosition: number): void {
     const width = this.box.clientWidth || 320;
     const density = devicePixelRatio || 1;
     this.canvas.width = width * density;

@@ -1,11 +1,12 @@
 // The tank from above: carriage and end-effector where they truly are, the reference as a ring, the
-// chain's force as an arrow, end-stops and hard ends.
+// chains' force and the force sensor's as arrows, end-stops and hard ends.
+import { element } from "../dom";
+import { Arrow } from "./arrow";
 import type { AxisLimits } from "./wire";
 
 const svgNs = "http://www.w3.org/2000/svg";
 const width = 640;
-const margin = 34;
-const pixelsPerNewton = 0.6;
+const margin = 12;
 
 function shape(tag: string, attributes: Record<string, number | string>): SVGElement {
   const made = document.createElementNS(svgNs, tag);
@@ -20,24 +21,30 @@ export interface PlanPose {
   xReference_m: number;
   yForce_N: number;
   xForce_N: number;
+  sensor_N: { y: number; x: number } | null; // null: the rig has none
+  isTruth: boolean; // y and x; else where the controller takes the motor side to be
   lines: number; // hall Y min, Y max, X min, X max by bit
 }
 
 export class Plan {
-  readonly svg = document.createElementNS(svgNs, "svg");
+  readonly box = element("figure");
+  private readonly svg = document.createElementNS(svgNs, "svg");
   private scale = 1;
   private height = 100;
   private limits: { y: AxisLimits; x: AxisLimits } | null = null;
   private readonly beam = shape("rect", { class: "beam", width: 14 });
   private readonly effector = shape("circle", { class: "effector", r: 7 });
   private readonly aim = shape("circle", { class: "aim", r: 11 });
-  private readonly forces = [shape("line", { class: "force" }), shape("line", { class: "force" })];
+  private readonly chain = new Arrow("force");
+  private readonly sensor = new Arrow("force sensed", 28);
+  private readonly caption = element("figcaption", "help");
   private halls: SVGElement[] = [];
 
   constructor() {
     this.svg.setAttribute("class", "plan");
     this.svg.setAttribute("role", "img");
     this.svg.setAttribute("aria-label", "Plan view of the tank");
+    this.box.append(this.svg, this.caption);
   }
 
   setLimits(limits: { y: AxisLimits; x: AxisLimits }): void {
@@ -71,8 +78,6 @@ export class Plan {
       this.horizontal("hall", limits.x.hall_min_m, left, right),
       this.horizontal("hall", limits.x.hall_max_m, left, right),
     ];
-    const caption = shape("text", { x: margin, y: this.height - 8 });
-    caption.textContent = "Y right, X up; dashed: end-stops; shaded: soft limits; ring: reference; dot: end-effector; bar: carriage";
     const soft = shape("rect", {
       class: "soft",
       x: this.right(limits.y.soft_min_m),
@@ -88,9 +93,9 @@ export class Plan {
       ...this.halls,
       this.beam,
       this.aim,
-      ...this.forces,
+      this.chain.group,
+      this.sensor.group,
       this.effector,
-      caption,
     );
   }
 
@@ -113,16 +118,14 @@ export class Plan {
     this.effector.setAttribute("cy", String(y));
     this.aim.setAttribute("cx", String(this.right(pose.yReference_m)));
     this.aim.setAttribute("cy", String(this.down(pose.xReference_m)));
-    const ends = [
-      [x + pose.yForce_N * pixelsPerNewton, y],
-      [x, y - pose.xForce_N * pixelsPerNewton],
-    ];
-    this.forces.forEach((line, i) => {
-      line.setAttribute("x1", String(x));
-      line.setAttribute("y1", String(y));
-      line.setAttribute("x2", String(ends[i]![0]));
-      line.setAttribute("y2", String(ends[i]![1]));
-    });
+    this.chain.show(x, y, pose.yForce_N, pose.xForce_N);
+    this.sensor.show(x, y, pose.sensor_N?.y ?? 0, pose.sensor_N?.x ?? 0);
+    this.caption.textContent =
+      "Y right, X up; bar, dot: carriage, end-effector " +
+      (pose.isTruth ? "(truth)" : "(as the controller has it)") +
+      "; ring: reference; arrow: chains' force" +
+      (pose.sensor_N === null ? "" : "; dotted: sensor's") +
+      "; dashed: end-stops; shaded: soft limits";
     this.halls.forEach((hall, bit) =>
       hall.setAttribute("class", (pose.lines >> bit) & 1 ? "hall tripped" : "hall"),
     );

@@ -9,52 +9,18 @@ import { History } from "./history";
 import { Lamps } from "./lamps";
 import { Path } from "./path";
 import { Plan } from "./plan";
-import { Scope, type ScopeSpec } from "./scope";
+import { Scope } from "./scope";
+import { logSpecs, truthSpecs } from "./scope_specs";
 import { StartForm } from "./start_form";
 import { SteeringBar } from "./steering_bar";
-import { type Frame, rowWidth, type State, truthWidth } from "./wire";
+import { type AxisName, type Frame, linesColumn, logColumns, rowWidth, type State, truthColumns, truthWidth } from "./wire";
 
 const shown_s = 20;
-
-function difference(a: (number | null)[], b: (number | null)[]): (number | null)[] {
-  return a.map((value, i) => (value === null || b[i] == null ? null : (value - b[i]!) * 1e3));
-}
-
-// Columns of an axis begin here (wire.ts).
-function logSpecs(first: number): ScopeSpec[] {
-  return [
-    {
-      title: "Position",
-      unit: "m",
-      lines: [
-        { label: "reference", role: "reference", of: (c) => c[first]! },
-        { label: "motor side", role: "measured", of: (c) => c[first + 1]! },
-      ],
-    },
-    {
-      title: "Tracking error, motor side",
-      unit: "mm",
-      lines: [{ label: "error", role: "measured", of: (c) => difference(c[first]!, c[first + 1]!) }],
-    },
-    {
-      title: "Velocity",
-      unit: "m/s",
-      lines: [
-        { label: "reference", role: "reference", of: (c) => c[first + 2]! },
-        { label: "BBMC's estimate", role: "measured", of: (c) => c[first + 3]! },
-      ],
-    },
-    { title: "Duty", unit: "%", lines: [{ label: "duty", role: "measured", of: (c) => c[first + 4]! }] },
-  ];
-}
-
-function truthSpecs(first: number): ScopeSpec[] {
-  return [
-    { title: "Carriage speed (truth)", unit: "m/s", lines: [{ label: "speed", role: "truth", of: (c) => c[first + 1]! }] },
-    { title: "Motor current (truth)", unit: "A", lines: [{ label: "current", role: "truth", of: (c) => c[first + 2]! }] },
-    { title: "Chain force (truth)", unit: "N", lines: [{ label: "force", role: "truth", of: (c) => c[first + 3]! }] },
-  ];
-}
+const stale_s = 0.1; // truth that is older than this does not say where the carriage is now
+const y = logColumns("y");
+const x = logColumns("x");
+const trueY = truthColumns("y");
+const trueX = truthColumns("x");
 
 export class RunView {
   private readonly log = new History(rowWidth, shown_s);
@@ -68,7 +34,7 @@ export class RunView {
   private readonly start: StartForm;
   private readonly bar: SteeringBar;
   private readonly trouble = element("p", "trouble");
-  private readonly result = element("p", "note");
+  private readonly result = element("div", "note");
   private readonly scopesHost = element("div", "scopes");
   private readonly axis = select([
     ["y", "Y axis"],
@@ -76,6 +42,7 @@ export class RunView {
   ]);
   private logScopes: Scope[] = [];
   private truthScopes: Scope[] = [];
+  private scopesOf = ""; // what they were made for
   private number = 0;
   private missed = 0;
   private state: State | null = null;
@@ -96,7 +63,7 @@ export class RunView {
     this.result.id = "result";
     const help = element("p", "help", "Keys, outside of fields: K presses and releases the kill switch, space pauses, S steps.");
     const left = element("div", "column");
-    left.append(this.card("Tank", this.plan.svg), this.card("State", this.lamps.list), this.console.box, this.events.box);
+    left.append(this.card("Tank", this.plan.box), this.card("State", this.lamps.list), this.console.box, this.events.box);
     const scopes = element("section", "card");
     scopes.append(labelled(`Last ${shown_s} s of virtual time`, this.axis), this.scopesHost);
     const right = element("div", "column");
@@ -104,7 +71,7 @@ export class RunView {
     const desk = element("div", "desk");
     desk.append(left, right);
     host.append(this.start.box, this.bar.box, this.trouble, this.result, desk, help);
-    this.axis.addEventListener("change", () => this.makeScopes());
+    this.axis.addEventListener("change", () => this.draw());
     this.makeScopes();
     loadCatalogue().then(
       (catalogue) => {
@@ -141,6 +108,7 @@ export class RunView {
 
   private beginRun(number: number): void {
     this.number = number;
+    this.result.dataset.run = `${number}`;
     this.missed = 0;
     this.log.clear();
     this.truth.clear();
@@ -157,22 +125,29 @@ export class RunView {
     this.bar.show(state);
     this.lamps.show(state, row, truth, this.missed);
     if (state.limits !== undefined) this.plan.setLimits(state.limits);
-    if (row !== null && truth !== null) {
-      this.plan.show({
-        y_m: truth[1] ?? 0,
-        x_m: truth[5] ?? 0,
-        yReference_m: row[1] ?? 0,
-        xReference_m: row[7] ?? 0,
-        yForce_N: truth[4] ?? 0,
-        xForce_N: truth[8] ?? 0,
-        lines: truth[9] ?? 0,
-      });
-    }
+    if (row !== null) this.showPlan(row, truth);
+    this.makeScopes();
     for (const scope of this.logScopes) scope.show(this.log.columns);
     for (const scope of this.truthScopes) scope.show(this.truth.columns);
-    this.path.show(this.log.columns, 1, 2, 7, 8);
-    if (state.exchange_us_bins !== undefined) this.histogram.show(state.exchange_us_bins);
+    this.path.show(this.log.columns, y.reference, y.position, x.reference, x.position);
+    if (state.exchange_us_bins !== undefined) this.histogram.show(state.exchange_us_bins, state.clock);
     this.showResult(state);
+  }
+
+  private showPlan(row: (number | null)[], truth: (number | null)[] | null): void {
+    const isTruth = truth !== null && (truth[0] ?? 0) > (row[0] ?? 0) - stale_s;
+    const force = [row[y.force], row[x.force]];
+    this.plan.show({
+      y_m: (isTruth ? truth[trueY.position] : row[y.position]) ?? 0,
+      x_m: (isTruth ? truth[trueX.position] : row[x.position]) ?? 0,
+      yReference_m: row[y.reference] ?? 0,
+      xReference_m: row[x.reference] ?? 0,
+      yForce_N: truth?.[trueY.force] ?? 0,
+      xForce_N: truth?.[trueX.force] ?? 0,
+      sensor_N: force[0] == null || force[1] == null ? null : { y: force[0], x: force[1] },
+      isTruth,
+      lines: truth?.[linesColumn] ?? 0,
+    });
   }
 
   private showResult(state: State): void {
@@ -183,18 +158,23 @@ export class RunView {
     if (this.result.dataset.of === `${state.number}`) return;
     const verdict = state.verdict === "" ? "no verdict" : state.verdict;
     const words = `${state.name}: ${verdict}${state.reason === "" ? "" : ` (${state.reason})`} `;
+    const timing = state.timing === "" ? [] : [element("pre", "timing", state.timing.trimEnd())];
     this.result.dataset.of = `${state.number}`;
     const link = element("a", "", "open the report");
     link.href = `#folders/${state.folder}`;
-    this.result.replaceChildren(element("strong", "", words), ...(state.folder === "" ? [] : [link]));
+    this.result.replaceChildren(element("strong", "", words), ...(state.folder === "" ? [] : [link]), ...timing);
   }
 
   private makeScopes(): void {
-    const y = this.axis.value === "y";
-    this.logScopes = logSpecs(y ? 1 : 7).map((spec) => new Scope(spec));
-    this.truthScopes = truthSpecs(y ? 1 : 5).map((spec) => new Scope(spec));
+    const axis = this.axis.value as AxisName;
+    const followed = this.state?.followed?.[axis] ?? "hybrid";
+    const hasForce = this.log.last?.[y.force] != null;
+    const wanted = `${axis} ${followed} ${hasForce}`;
+    if (wanted === this.scopesOf) return;
+    this.scopesOf = wanted;
+    this.logScopes = logSpecs(axis, followed, hasForce).map((spec) => new Scope(spec));
+    this.truthScopes = truthSpecs(axis).map((spec) => new Scope(spec));
     this.scopesHost.replaceChildren(...[...this.logScopes, ...this.truthScopes].map((scope) => scope.box));
-    if (this.state !== null) this.draw();
   }
 
   private card(title: string, content: Element): HTMLElement {

@@ -6,6 +6,10 @@ import { button, checkbox, labelled, select, setOptions, textField } from "./for
 export class StartForm {
   readonly box = element("section");
   private readonly choice = select([]);
+  private readonly clock = select([
+    ["lockstep", "lockstep"],
+    ["real", "wall clock, two processes"],
+  ]);
   private readonly speed = speedSelect();
   private readonly about = element("p", "note");
   private readonly lines = element("div", "script-lines");
@@ -21,9 +25,14 @@ export class StartForm {
     go.id = "start";
     this.choice.id = "experiment";
     this.speed.id = "start-speed";
+    this.clock.id = "start-clock";
     this.choice.addEventListener("change", () => this.show());
+    // A clock that does not wait cannot be paused, and faults are judged beside a twin of the same bits.
+    this.clock.addEventListener("change", () => {
+      for (const field of [this.speed, this.paused.box, this.faults]) field.disabled = this.isReal();
+    });
     const row = element("div", "bar-row");
-    row.append(labelled("Experiment", this.choice), labelled("Speed", this.speed), this.paused.row, this.hold.row, go);
+    row.append(labelled("Experiment", this.choice), labelled("Clock", this.clock), labelled("Speed", this.speed), this.paused.row, this.hold.row, go);
     const options = element("details", "options");
     options.append(
       element("summary", "", "What is typed, faults, seed, time limit"),
@@ -71,6 +80,10 @@ export class StartForm {
     );
   }
 
+  private isReal(): boolean {
+    return this.clock.value === "real";
+  }
+
   private submit(): void {
     const entry = this.chosen();
     if (entry === undefined) return;
@@ -82,15 +95,18 @@ export class StartForm {
     const message: Record<string, unknown> = {
       do: "start",
       experiment: entry.name,
-      speed: Number(this.speed.value),
-      paused: this.paused.box.checked,
+      clock: this.clock.value,
+      speed: this.isReal() ? 1 : Number(this.speed.value),
+      paused: !this.isReal() && this.paused.box.checked,
       hold: this.hold.box.checked,
       lines: changed,
-      faults: this.faults.value.split(";").map((words) => words.trim()).filter((words) => words !== ""),
+      faults: (this.isReal() ? "" : this.faults.value).split(";").map((words) => words.trim()).filter((words) => words !== ""),
     };
     if (Number(this.seed.value) !== entry.seed) message.seed = Number(this.seed.value);
     if (Number(this.limit.value) !== entry.duration_limit_s) message.duration_limit_s = Number(this.limit.value);
     this.start(message);
+    // Space is to pause what has just begun, not to start it again.
+    (document.activeElement as HTMLElement | null)?.blur();
   }
 }
 

@@ -27,12 +27,16 @@ export class SteeringBar {
   private readonly parameters = textField();
   private readonly meaning = element("p", "help");
   private readonly all: (HTMLButtonElement | HTMLSelectElement | HTMLInputElement)[];
+  private readonly always: HTMLButtonElement[];
   private catalogue: Catalogue | null = null;
   private state: State | null = null;
 
   constructor(private readonly send: Send) {
     this.kill.id = "kill";
     this.step.id = "step-length";
+    this.speed.id = "speed";
+    this.place.id = "fault-part";
+    this.kind.id = "fault-kind";
     this.stops = endStops.map((name) => button(`End-stop ${name.replace("_", " ")}`, () => this.toggleStop(name)));
     this.speed.addEventListener("change", () => send({ do: "speed", speed: Number(this.speed.value) }));
     const stepButton = button("Step (S)", () => this.stepOnce());
@@ -65,7 +69,8 @@ export class SteeringBar {
     this.box.append(first, second, this.meaning);
     this.place.addEventListener("change", () => this.showKinds());
     this.kind.addEventListener("change", () => this.showParameters());
-    this.all = [this.kill, this.pauseButton, stepButton, finish, cut, breakButton, mend, this.speed, this.step, ...this.stops];
+    this.always = [finish, cut];
+    this.all = [this.kill, this.pauseButton, stepButton, breakButton, mend, this.speed, this.step, ...this.stops];
     document.addEventListener("keydown", (event) => this.onKey(event));
   }
 
@@ -78,7 +83,11 @@ export class SteeringBar {
   show(state: State): void {
     this.state = state;
     const running = state.phase === "running";
-    for (const field of this.all) field.disabled = !running;
+    // A clock that does not wait: what is typed, and the end.
+    const lockstep = state.clock === "lockstep";
+    for (const field of this.all) field.disabled = !running || !lockstep;
+    for (const field of this.always) field.disabled = !running;
+    this.box.title = running && !lockstep ? "by the wall clock: only the console, Finish and Cut short" : "";
     this.pauseButton.textContent = state.paused ? "Go on (space)" : "Pause (space)";
     const pressed = this.isBroken(killFault);
     this.kill.setAttribute("aria-pressed", String(pressed));
@@ -144,7 +153,10 @@ export class SteeringBar {
   private onKey(event: KeyboardEvent): void {
     const target = event.target as HTMLElement;
     const typing = ["INPUT", "SELECT", "TEXTAREA"].includes(target.tagName);
-    if (typing || event.ctrlKey || event.metaKey || event.altKey || this.state?.phase !== "running") return;
+    // On a button or a link, space is that one's.
+    const own = event.key === " " && ["BUTTON", "A", "SUMMARY"].includes(target.tagName);
+    const steerable = this.state?.phase === "running" && this.state.clock === "lockstep";
+    if (typing || own || event.repeat || event.ctrlKey || event.metaKey || event.altKey || !steerable) return;
     const actions: Record<string, () => void> = {
       k: () => this.toggleKill(),
       " ": () => this.togglePause(),

@@ -10,11 +10,15 @@ export interface AxisLimits {
   soft_max_m: number;
 }
 
+export type Estimator = "frequency" | "period" | "hybrid";
+
 export interface State {
   phase: "idle" | "running" | "judging" | "over";
   number: number;
   name: string;
   title: string;
+  clock: "lockstep" | "real";
+  timing: string; // by the wall clock, over: how both loops kept time
   folder: string;
   verdict: string;
   reason: string;
@@ -25,6 +29,7 @@ export interface State {
   broken?: string[];
   trouble?: string;
   limits?: { y: AxisLimits; x: AxisLimits };
+  followed?: { y: Estimator; x: Estimator }; // by the control law
   exchange_us_bins?: number[];
 }
 
@@ -39,10 +44,37 @@ export interface BenchEvent {
   lines?: number;
 }
 
-// Columns of a row: time, then five figures and the mode of y and of x, then the fault.
-export const rowWidth = 14;
-// Columns of a truth row: time, then four figures of y and of x, then the input lines.
+// Columns of a row: time, then of y and of x what logColumns names, then the fault and the force
+// sensor's y and x.
+export const rowWidth = 22;
+export const faultColumn = 19;
+// Columns of a truth row: time, then of y and of x what truthColumns names, then the input lines.
 export const truthWidth = 10;
+export const linesColumn = 9;
+
+export type AxisName = "y" | "x";
+export const axisNames: AxisName[] = ["y", "x"];
+
+export function logColumns(axis: AxisName) {
+  const first = axis === "y" ? 1 : 10;
+  return {
+    reference: first,
+    position: first + 1,
+    referenceSpeed: first + 2,
+    speed: first + 3,
+    duty: first + 4,
+    mode: first + 5,
+    frequency: first + 6,
+    period: first + 7,
+    hybrid: first + 8,
+    force: axis === "y" ? 20 : 21,
+  };
+}
+
+export function truthColumns(axis: AxisName) {
+  const first = axis === "y" ? 1 : 5;
+  return { position: first, speed: first + 1, current: first + 2, force: first + 3 };
+}
 
 export interface Frame {
   kind: "frame";

@@ -15,8 +15,9 @@ TEST(LiveTap, AFullQueueDropsRowsAndCountsThemAndNeverWaits) {
     tap->row(row);
   }
   EXPECT_EQ(tap->dropped(), 20'000U - 16'384U);
-  ASSERT_TRUE(tap->next(row));
-  EXPECT_EQ(row.time_ns, 0) << "the oldest are kept: what is dropped is what came too late";
+  LiveRow first;
+  ASSERT_TRUE(tap->next(first));
+  EXPECT_EQ(first.time_ns, 0) << "the oldest are kept: what is dropped is what came too late";
 }
 
 TEST(LiveTap, BinsAreOfDoublingWidth) {
@@ -41,8 +42,29 @@ TEST(LiveTap, TextBeyondItsBoundIsDroppedWholeAndCounted) {
   }
   EXPECT_EQ(tap->take_events().size(), 2 * line.size());
   EXPECT_EQ(tap->dropped(), 1U);
-  tap->clear();
+  tap->clear(0);
   EXPECT_EQ(tap->dropped(), 0U);
+}
+
+TEST(LiveTap, ByTheWallClockBinsAreOfDistancesFromThePeriod) {
+  const auto tap = std::make_unique<LiveTap>();
+  tap->clear(core::kNanosecondsPerMillisecond);
+  for (const core::Nanoseconds took_ns : {1'000'000, 1'000'900, 998'500, 1'001'500}) {
+    tap->exchange(took_ns);
+  }
+  const auto bins = tap->exchange_times();
+  EXPECT_EQ(bins[0], 2U);
+  EXPECT_EQ(bins[1], 2U);
+}
+
+TEST(TextQueue, TextRunsRoundItsEndUnbroken) {
+  TextQueue<16> queue;
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_TRUE(queue.push("0123456789"));
+    EXPECT_FALSE(queue.push("too long"));
+    ASSERT_TRUE(queue.push("ab"));
+    EXPECT_EQ(queue.take(), "0123456789ab");
+  }
 }
 
 }  // namespace

@@ -1,0 +1,59 @@
+// A person at a run by the wall clock: types, and ends it. Nothing else can be done to a clock that
+// does not wait, and a fault is judged beside a twin of the same bits, which such a run has not.
+//
+// The loop never waits for the person: keys come through a lock-free queue.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/spsc_queue.h"
+#include "harness/panel/run_hand.h"
+
+namespace towbench::harness {
+
+class RealtimeHand final : public RunHand {
+ public:
+  // `before`: what was done before the start.
+  RealtimeHand(std::vector<HandAct> before, bool holds);
+
+  void type(std::string bytes) override;
+  void finish() override;
+  void wake() override {}
+  [[noreturn]] void break_now(Fault fault) override;
+  [[noreturn]] void mend(const FaultPlace& place, FaultKind kind) override;
+  [[noreturn]] void set_speed(double speed) override;
+  [[noreturn]] void pause(bool paused) override;
+  [[noreturn]] void step(core::Nanoseconds length_ns) override;
+
+  [[nodiscard]] Pace pace() const override { return {}; }
+  [[nodiscard]] std::vector<std::string> broken() const override { return {}; }
+  [[nodiscard]] std::string take_trouble() override { return {}; }
+
+  // ---- on the bench's thread ----
+  [[nodiscard]] std::span<const HandAct> at(core::Nanoseconds now_ns,
+                                            LockstepBench& bench) override;
+  [[nodiscard]] bool holds() const override { return holds_; }
+  [[nodiscard]] const std::vector<HandAct>& done() const override { return done_; }
+  [[nodiscard]] const FaultPlan& broke() const override { return broke_; }
+
+ private:
+  static constexpr std::size_t kMostActs = 4096;
+  struct Keys {
+    HandAct::Kind kind = HandAct::Kind::kTyped;
+    std::uint8_t size = 0;
+    std::array<char, 118> bytes{};
+    [[nodiscard]] std::string_view text() const noexcept { return {bytes.data(), size}; }
+  };
+
+  const bool holds_;
+  core::SpscQueue<Keys, 64> keys_;
+  std::vector<HandAct> done_;
+  std::size_t told_ = 0;
+  FaultPlan broke_;  // nothing, ever
+};
+
+}  // namespace towbench::harness

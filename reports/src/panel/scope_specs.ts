@@ -1,0 +1,67 @@
+// What the scopes of one axis show.
+import type { LineRole } from "../theme";
+import type { Line, ScopeSpec } from "./scope";
+import { type AxisName, type Estimator, logColumns, truthColumns } from "./wire";
+
+type Columns = ReturnType<typeof logColumns>;
+
+// In thousandths of the unit.
+function difference(a: (number | null)[], b: (number | null)[]): (number | null)[] {
+  return a.map((value, i) => (value === null || b[i] == null ? null : (value - b[i]!) * 1e3));
+}
+
+// The one that the control law follows is drawn solid, the others by its side.
+function estimates(axis: AxisName, followed: Estimator, shown: (at: Columns, estimator: Estimator) => Line["of"]): Line[] {
+  const at = logColumns(axis);
+  const others: LineRole[] = ["second", "third"];
+  const all: Estimator[] = ["frequency", "period", "hybrid"];
+  return all.map((estimator) => ({
+    label: estimator === followed ? `${estimator} (followed)` : estimator,
+    role: estimator === followed ? "measured" : others.shift()!,
+    of: shown(at, estimator),
+  }));
+}
+
+const itself = (at: Columns, estimator: Estimator): Line["of"] => (c) => c[at[estimator]]!;
+const lessReference = (at: Columns, estimator: Estimator): Line["of"] => (c) => difference(c[at[estimator]]!, c[at.referenceSpeed]!);
+
+export function logSpecs(axis: AxisName, followed: Estimator, hasForce: boolean): ScopeSpec[] {
+  const at = logColumns(axis);
+  const force: ScopeSpec = {
+    title: "Force sensor (measured)",
+    unit: "N",
+    lines: [{ label: "force", role: "measured", of: (c) => c[at.force]! }],
+  };
+  return [
+    {
+      title: "Position",
+      unit: "m",
+      lines: [
+        { label: "reference", role: "reference", of: (c) => c[at.reference]! },
+        { label: "motor side", role: "measured", of: (c) => c[at.position]! },
+      ],
+    },
+    {
+      title: "Tracking error, motor side",
+      unit: "mm",
+      lines: [{ label: "error", role: "measured", of: (c) => difference(c[at.reference]!, c[at.position]!) }],
+    },
+    {
+      title: "Velocity, by each estimator",
+      unit: "m/s",
+      lines: [{ label: "reference", role: "reference", of: (c) => c[at.referenceSpeed]! }, ...estimates(axis, followed, itself)],
+    },
+    { title: "Velocity less reference", unit: "mm/s", lines: estimates(axis, followed, lessReference) },
+    { title: "Duty", unit: "%", lines: [{ label: "duty", role: "measured", of: (c) => c[at.duty]! }] },
+    ...(hasForce ? [force] : []),
+  ];
+}
+
+export function truthSpecs(axis: AxisName): ScopeSpec[] {
+  const at = truthColumns(axis);
+  return [
+    { title: "Carriage speed (truth)", unit: "m/s", lines: [{ label: "speed", role: "truth", of: (c) => c[at.speed]! }] },
+    { title: "Motor current (truth)", unit: "A", lines: [{ label: "current", role: "truth", of: (c) => c[at.current]! }] },
+    { title: "Chain force (truth)", unit: "N", lines: [{ label: "force", role: "truth", of: (c) => c[at.force]! }] },
+  ];
+}

@@ -1,0 +1,177 @@
+// What the panel's checks share: the panel's process, counting checks, and a person's hands.
+import { spawn } from "node:child_process";
+import { createHash } from "node:crypto";
+import { request } from "node:http";
+import { connect } from "node:net";
+
+export class Checks {
+  failures = 0;
+  passed = 0;
+
+  async run(name, body) {
+    const began = Date.now();
+    try {
+      await body();
+      ++this.passed;
+      console.log(`ok   ${name} (${((Date.now() - began) / 1000).toFixed(1)} s)`);
+    } catch (error) {
+      ++this.failures;
+      const where = /panel_\w+\.mjs:\d+/.exec(error.stack ?? "")?.[0] ?? "";
+      console.log(`FAIL ${name}\n     ${where} ${String(error.message ?? error).replace(/\n/g, "\n     ")}`);
+    }
+  }
+}
+
+// The panel's process; `address` resolves with each address that it prints.
+export function startPanel(bench, root, runs) {
+  const child = spawn(bench, ["panel", "--out", runs], { cwd: root, stdio: ["ignore", "pipe", "inherit"] });
+  const waiting = [];
+  const seen = [];
+  let text = "";
+  child.stdout.on("data", (bytes) => {
+    text += bytes;
+    for (let end = text.indexOf("\n"); end >= 0; end = text.indexOf("\n")) {
+      const line = text.slice(0, end);
+      text = text.slice(end + 1);
+      if (!line.startsWith("http://")) continue;
+      if (waiting.length > 0) waiting.shift()(line);
+      else seen.push(line);
+    }
+  });
+  const address = () => (seen.length > 0 ? Promise.resolve(seen.shift()) : new Promise((done) => waiting.push(done)));
+  return { child, address };
+}
+
+// A page and what a person does with it.
+export class Person {
+  runsSeen = ""; // number of the run whose result the page shows
+  runBefore = ""; // number of the run that the page shows
+
+  constructor(page) {
+    this.page = page;
+  }
+  lamp(name) {
+    return this.page.locator(`[data-lamp="${name}"]`).textContent();
+  }
+  async time() {
+    return Number.parseFloat(await this.lamp("Virtual time"));
+  }
+  async until(name, pattern) {
+    await this.page.waitForFunction(
+      ([lampName, source]) => new RegExp(source).test(document.querySelector(`[data-lamp="${lampName}"]`)?.textContent ?? ""),
+      [name, pattern.source],
+    );
+  }
+  async untilTime(t) {
+    await this.page.waitForFunction((s) => Number.parseFloat(document.querySelector('[data-lamp="Virtual time"]').textContent) > s, t);
+  }
+  async type(line) {
+    await this.page.fill("#console-line", line);
+    await this.page.press("#console-line", "Enter");
+  }
+  async printed(words) {
+    await this.page.waitForFunction((text) => document.querySelector(".terminal").textContent.includes(text), words);
+  }
+  // speed: as the page's choices have it; options: hold, clock, limit_s.
+  async start(experiment, speed, options = {}) {
+    await this.choose(experiment, speed, options);
+    await this.page.click("#start");
+    await this.begun();
+  }
+  // What is shown is the run's that was started last, no longer the one's before.
+  async begun() {
+    await this.page.waitForFunction((before) => (document.getElementById("result").dataset.run ?? "") !== before, this.runBefore);
+  }
+  async choose(experiment, speed, options = {}) {
+    this.runsSeen = (await this.page.getAttribute("#result", "data-of")) ?? "";
+    this.runBefore = (await this.page.getAttribute("#result", "data-run")) ?? "";
+    await this.page.selectOption("#experiment", experiment);
+    await this.page.selectOption("#start-clock", options.clock ?? "lockstep");
+    if (options.clock !== "real") await this.page.selectOption("#start-speed", speed);
+    await this.page.getByLabel("go on after the script").setChecked(options.hold ?? false);
+    await this.page.getByLabel("Faults, separated").evaluate((field, words) => (field.value = words), options.faults ?? "");
+  }
+  async over() {
+    await this.page.waitForFunction((before) => {
+      const result = document.getElementById("result");
+      return (result.dataset.of ?? "") !== before && /PASS|FAIL|INVALID|no verdict/.test(result.textContent);
+    }, this.runsSeen);
+    return this.page.textContent("#result");
+  }
+  async folder() {
+    return (await this.page.getAttribute("#result a", "href")).split("/")[1];
+  }
+  // Pixels drawn on each plot.
+  ink(selector) {
+    return this.page.$$eval(selector, (canvases) =>
+      canvases.map((canvas) => {
+        const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", { willReadFrequently: true });
+        copy.drawImage(canvas, 0, 0);
+        const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
+        let count = 0;
+        for (let i = 3; i < data.length; i += 4) if (data[i] > 0) ++count;
+        return count;
+      }),
+    );
+  }
+}
+
+// Whatever the page must not do is collected in the list returned.
+export function listen(page, origin) {
+  const noise = [];
+  page.on("console", (message) => {
+    if (["error", "warning"].includes(message.type())) noise.push(`console: ${message.text()} ${message.location().url}`);
+  });
+  page.on("pageerror", (error) => noise.push(`exception: ${error.message}`));
+  page.on("request", (asked) => {
+    if (!asked.url().startsWith(origin) && !asked.url().startsWith("data:")) noise.push(`request: ${asked.url()}`);
+  });
+  return noise;
+}
+
+export const statusOf = (options, socketHeaders = false) =>
+  new Promise((done, fail) => {
+    const asked = request({ ...options, method: options.method ?? "GET" }, (answer) => {
+      answer.resume();
+      done(answer.statusCode);
+    });
+    asked.on("upgrade", (_answer, socket) => {
+      socket.destroy();
+      done(101);
+    });
+    asked.on("error", fail);
+    if (socketHeaders) {
+      asked.setHeader("Connection", "Upgrade");
+      asked.setHeader("Upgrade", "websocket");
+      asked.setHeader("Sec-WebSocket-Version", "13");
+      asked.setHeader("Sec-WebSocket-Key", "dGhlIHNhbXBsZSBub25jZQ==");
+    }
+    asked.end();
+  });
+
+// A client that was let in and then reads nothing until wake() is called: a closed laptop, or a slow
+// one. wake() resolves with all that had come when the bench let it go.
+export function sleepingClient({ hostname, port, origin, cookie }) {
+  const key = createHash("md5").update("sleeper").digest("base64");
+  const socket = connect(Number(port), hostname);
+  let text = "";
+  const ended = new Promise((done) => socket.on("close", () => done(text)));
+  socket.on("error", () => {});
+  socket.on("data", (bytes) => {
+    text += bytes.toString("latin1");
+    if (!text.includes("\r\n\r\n") || socket.fellAsleep) return;
+    socket.fellAsleep = true;
+    socket.pause();
+  });
+  socket.write(
+    `GET /live HTTP/1.1\r\nHost: ${hostname}:${port}\r\nOrigin: ${origin}\r\nCookie: ${cookie}\r\n` +
+      `Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: ${key}\r\n\r\n`,
+  );
+  return {
+    since: Date.now(),
+    wake() {
+      socket.resume();
+      return ended;
+    },
+  };
+}

@@ -1,0 +1,110 @@
+#include "harness/panel/realtime_hand.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "harness/bench/experiment_run.h"
+#include "harness/bench/wall_clock_replay.h"
+#include "harness/faults/fault_text.h"
+#include "harness/fixtures/fixture_error.h"
+#include "harness/panel/live_tap.h"
+
+namespace towbench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+// Presses keys when the run has come so far; otherwise the panel's own tap.
+class Typist final : public RunTap {
+ public:
+  explicit Typist(RunHand& hand) : hand_(hand) {}
+  void begins(const fs::path& folder) override { tap_->begins(folder); }
+  [[nodiscard]] protocol::MessageSink* witness() noexcept override { return tap_->witness(); }
+  void row(const bbmc::TelemetryRow& row) noexcept override {
+    tap_->row(row);
+    if (stage_ == 0 && row.time_ns >= core::nanoseconds(0.2)) {
+      hand_.type("status\r");
+      ++stage_;
+    } else if (stage_ == 1 && row.time_ns >= core::nanoseconds(2.2)) {
+      hand_.finish();
+      ++stage_;
+    }
+  }
+  void truth(const emulator::TruthRow& row) noexcept override { tap_->truth(row); }
+  void exchange(core::Nanoseconds took_ns) noexcept override { tap_->exchange(took_ns); }
+  void event(std::string_view line) noexcept override { tap_->event(line); }
+  void console(std::string_view text) noexcept override { tap_->console(text); }
+  [[nodiscard]] LiveTap& tap() noexcept { return *tap_; }
+
+ private:
+  std::unique_ptr<LiveTap> tap_ = std::make_unique<LiveTap>();
+  RunHand& hand_;
+  int stage_ = 0;
+};
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+// Whether the host is quick enough for the run to count is another matter: every bit is there.
+TEST(RealtimeHand, WhatIsTypedByTheWallClockIsWrittenDownAndReplaysToTheLastBit) {
+  auto pattern = (fs::temp_directory_path() / "towbench-typed-XXXXXX").string();
+  const fs::path out = mkdtemp(pattern.data());
+  auto fixture = load_experiment("fixtures/experiments/wall-clock-window.toml");
+  fixture.experiment.hand = {{.text = "by hand"},
+                             {.kind = HandAct::Kind::kHolds, .text = "goes on"}};
+  const auto seed = fixture.experiment.seed;
+  RealtimeHand hand(fixture.experiment.hand, true);
+  Typist typist(hand);
+  RunOptions options;
+  options.out = out;
+  options.clock = RunClock::kReal;
+  options.carrier = Carrier::kLocal;
+  options.program = TOWBENCH_PROGRAM;
+  options.hand = &hand;
+  options.tap = &typist;
+  RunResult result;
+  std::thread([&] { result = run_experiment(fixture, options); }).join();  // keeps its own rights
+  ASSERT_TRUE(result.complete) << result.reason;
+  EXPECT_EQ(typist.tap().folder(), result.folder);
+  EXPECT_THAT(typist.tap().take_console(), HasSubstr("amplifier"));
+  const auto events = text_of(result.folder / "events.jsonl");
+  EXPECT_THAT(events, HasSubstr(R"("side":"hand","kind":"typed")"));
+  EXPECT_THAT(events, HasSubstr(R"("side":"hand","kind":"finished")"));
+
+  const auto written = load_experiment(result.folder / "inputs/experiments/wall-clock-window.toml");
+  const auto again = replay_by_inputs(written, seed, result.folder, out);
+  for (const char* file : {"log.csv", "truth.csv", "events.jsonl"}) {
+    EXPECT_EQ(text_of(result.folder / file), text_of(again.folder / file)) << file;
+  }
+  fs::remove_all(out);
+}
+
+TEST(RealtimeHand, BreaksPausesAndStepsNothing) {
+  RealtimeHand hand({}, false);
+  EXPECT_THROW(hand.break_now(parse_fault("kill_switch pressed at=0s")), FixtureError);
+  EXPECT_THROW(hand.mend({}, FaultKind::kPressed), FixtureError);
+  EXPECT_THROW(hand.set_speed(0.1), FixtureError);
+  EXPECT_THROW(hand.pause(true), FixtureError);
+  EXPECT_THROW(hand.step(1), FixtureError);
+}
+
+TEST(RealtimeHand, MoreThanTheQueueHoldsIsRefusedWhole) {
+  RealtimeHand hand({}, false);
+  hand.type(std::string(4000, 'x'));
+  EXPECT_THROW(hand.type(std::string(4000, 'y')), FixtureError);
+}
+
+}  // namespace
+}  // namespace towbench::harness
