@@ -65,7 +65,11 @@ bool AxisControl::amplifier_failed(core::Nanoseconds now_ns, bool ready) const n
 }
 
 BrakeState AxisControl::serve_brake(core::Nanoseconds now_ns) noexcept {
-  const BrakeState state = brake_.update(now_ns, observer_.speed_count_per_s());
+  const BrakeState state =
+      brake_.update({.now_ns = now_ns,
+                     .speed_count_per_s = observer_.speed_count_per_s(),
+                     .age_ns = now_ns - observer_.reading().time_ns,
+                     .momentum_count_per_s = reckoning_.momentum_count_per_s()});
   set_ticks(brake_.torque_Nm() * ticks_per_Nm_);
   return state;
 }
@@ -123,8 +127,9 @@ bool AxisControl::encoder_keeps_up() const noexcept {
          kLeastRatio * std::fabs(reckoning_.speed_count_per_s());
 }
 
-bool AxisControl::begin_blind_braking(core::Nanoseconds now_ns) noexcept {
-  const double speed_count_per_s = reckoning_.speed_count_per_s();
+bool AxisControl::begin_blind_braking(core::Nanoseconds now_ns, Suspect suspect) noexcept {
+  const double speed_count_per_s = suspect == Suspect::kEncoder ? reckoning_.speed_count_per_s()
+                                                                : reckoning_.momentum_count_per_s();
   if (speed_count_per_s == 0 || safety_.coasting_stop) {
     return false;
   }

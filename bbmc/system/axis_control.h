@@ -60,8 +60,10 @@ class AxisControl {
   void allow_moving_reference(bool allowed) noexcept { law_.allow_moving(allowed); }
   void begin_braking(core::Nanoseconds now_ns) noexcept;
   // Without the encoder. False when the speed is not known well enough, or braking is switched off:
-  // nothing has changed then.
-  [[nodiscard]] bool begin_blind_braking(core::Nanoseconds now_ns) noexcept;
+  // nothing has changed then. What an encoder has said of late counts where only the link or the
+  // clock is in doubt.
+  enum class Suspect : std::uint8_t { kEncoder, kLink };
+  [[nodiscard]] bool begin_blind_braking(core::Nanoseconds now_ns, Suspect suspect) noexcept;
   // No power from now on.
   void power_off(AxisMode mode) noexcept;
 

@@ -17,6 +17,13 @@ constexpr double kSlowingRatio = 3.0;
 constexpr double kSwing_s = 0.15;
 constexpr double kSlowedRatio = 0.5;
 constexpr double kSlowedSlack_count_per_s = 10'000;
+// A speed that is no older than this is served by the law as it is.
+constexpr core::Nanoseconds kPrompt_ns = 3 * core::kNanosecondsPerMillisecond;
+// A link that was late will be late again: remembered for some exchanges.
+constexpr core::Nanoseconds kLatenessLasts_ns = 100 * core::kNanosecondsPerMillisecond;
+constexpr double kDampedGainTimesDelay = 0.5;
+// From one exchange to the effect of the next.
+constexpr core::Nanoseconds kOwnDelay_ns = core::kNanosecondsPerMillisecond;
 // A blind brake is rather too long than too short: what it leaves goes back, away from the end.
 constexpr double kBlindRatio = 1.1;
 // What the encoder says meanwhile counts when it says so for longer than a jump or a burst of noise
@@ -34,24 +41,31 @@ Brake::Brake(const AxisConfiguration& axis) noexcept
     : settings_(axis.braking),
       limit_Nm_(braking_torque_Nm(axis)),
       rad_per_count_(axis.rad_per_count()),
-      standstill_count_per_s_(axis.braking.standstill_m_per_s * axis.counts_per_m()) {}
+      standstill_count_per_s_(axis.braking.standstill_m_per_s * axis.counts_per_m()),
+      free_chain_Hz_(axis.braking.held_motor_chain_Hz *
+                     std::sqrt(axis.braking.inertia_kg_m2 / axis.braking.rotor_inertia_kg_m2)) {}
+
+core::Nanoseconds Brake::rigid_stop_ns(double speed_count_per_s) const noexcept {
+  return core::nanoseconds(std::fabs(speed_count_per_s) * rad_per_count_ * settings_.inertia_kg_m2 /
+                           limit_Nm_);
+}
 
 void Brake::begin(core::Nanoseconds now_ns, double speed_count_per_s, bool coasting) noexcept {
   begun_ns_ = now_ns;
   moved_ns_ = now_ns;
   start_speed_count_per_s_ = std::fabs(speed_count_per_s);
-  const double stands_s =
-      start_speed_count_per_s_ * rad_per_count_ * settings_.inertia_kg_m2 / limit_Nm_;
+  const double stands_s = core::seconds(rigid_stop_ns(speed_count_per_s));
   must_have_slowed_ns_ = now_ns + core::nanoseconds(kSlowingRatio * stands_s + kSwing_s);
   torque_Nm_ = 0;
+  stalest_ns_ = 0;
   coasting_ = coasting;
   blind_ = false;
+  late_ = false;
 }
 
 void Brake::begin_blind(core::Nanoseconds now_ns, double speed_count_per_s) noexcept {
   begin(now_ns, speed_count_per_s, false);
-  const double stands_s =
-      start_speed_count_per_s_ * rad_per_count_ * settings_.inertia_kg_m2 / limit_Nm_;
+  const double stands_s = core::seconds(rigid_stop_ns(speed_count_per_s));
   blind_until_ns_ =
       now_ns + core::nanoseconds(std::min(kBlindRatio * stands_s, settings_.timeout_s));
   blind_direction_ = speed_count_per_s > 0 ? 1.0 : -1.0;
@@ -76,36 +90,73 @@ bool Brake::encoder_explains(core::Nanoseconds now_ns, double onwards_count_per_
   return now_ns - unexplained_ns_ >= kBlindLasting_ns;
 }
 
-BrakeState Brake::update_blind(core::Nanoseconds now_ns, double speed_count_per_s) noexcept {
-  if (now_ns < blind_until_ns_ && !encoder_explains(now_ns, blind_direction_ * speed_count_per_s)) {
+BrakeState Brake::update_blind(const BrakeInput& input) noexcept {
+  if (input.now_ns < blind_until_ns_ &&
+      !encoder_explains(input.now_ns, blind_direction_ * input.speed_count_per_s)) {
     return BrakeState::kBraking;
   }
   torque_Nm_ = 0;
   return BrakeState::kStandstill;
 }
 
-BrakeState Brake::update(core::Nanoseconds now_ns, double speed_count_per_s) noexcept {
-  if (blind_) {
-    return update_blind(now_ns, speed_count_per_s);
+void Brake::heed_age(const BrakeInput& input) noexcept {
+  if (input.age_ns >= stalest_ns_ || input.now_ns - stalest_at_ns_ > kLatenessLasts_ns) {
+    stalest_ns_ = input.age_ns;
+    stalest_at_ns_ = input.now_ns;
   }
-  const double speed = std::fabs(speed_count_per_s);
+  const bool was_late = late_;
+  late_ = stalest_ns_ > kPrompt_ns;
+  if (late_ && !was_late) {
+    push_until_ns_ = input.now_ns + rigid_stop_ns(input.momentum_count_per_s);
+    push_direction_ = input.momentum_count_per_s > 0 ? -1.0 : 1.0;
+  }
+}
+
+double Brake::damped_gain_Nm_s_per_rad() const noexcept {
+  const double delay_s = core::seconds(stalest_ns_ + kOwnDelay_ns);
+  return kDampedGainTimesDelay * settings_.rotor_inertia_kg_m2 / delay_s *
+         std::max(0.0, 1.0 - 4.0 * delay_s * free_chain_Hz_);
+}
+
+double Brake::wanted_torque_Nm(const BrakeInput& input) const noexcept {
+  double gain_Nm_s_per_rad = settings_.speed_gain_Nm_s_per_rad;
+  if (late_) {
+    if (input.now_ns < push_until_ns_) {
+      return push_direction_ * limit_Nm_;
+    }
+    gain_Nm_s_per_rad = std::min(gain_Nm_s_per_rad, damped_gain_Nm_s_per_rad());
+  }
+  return -gain_Nm_s_per_rad * input.speed_count_per_s * rad_per_count_;
+}
+
+BrakeState Brake::judge(const BrakeInput& input) noexcept {
+  const double speed = std::fabs(input.speed_count_per_s);
   if (speed > standstill_count_per_s_) {
-    moved_ns_ = now_ns;
+    moved_ns_ = input.now_ns;
   }
-  BrakeState state = BrakeState::kBraking;
-  if (now_ns - moved_ns_ >= core::nanoseconds(settings_.standstill_time_s)) {
-    state = BrakeState::kStandstill;
-  } else if (now_ns - begun_ns_ >= core::nanoseconds(settings_.timeout_s)) {
-    state = BrakeState::kTimedOut;
-  } else if (speed > kRunawayRatio * start_speed_count_per_s_ + kRunawaySlack_count_per_s) {
-    state = BrakeState::kRanAway;
-  } else if (!coasting_ && now_ns > must_have_slowed_ns_ &&
-             speed > kSlowedRatio * start_speed_count_per_s_ + kSlowedSlack_count_per_s) {
-    state = BrakeState::kRanAway;
+  if (input.now_ns - moved_ns_ >= core::nanoseconds(settings_.standstill_time_s)) {
+    return BrakeState::kStandstill;
   }
-  const double wanted = -settings_.speed_gain_Nm_s_per_rad * speed_count_per_s * rad_per_count_;
-  torque_Nm_ =
-      state != BrakeState::kBraking || coasting_ ? 0.0 : std::clamp(wanted, -limit_Nm_, limit_Nm_);
+  if (input.now_ns - begun_ns_ >= core::nanoseconds(settings_.timeout_s)) {
+    return BrakeState::kTimedOut;
+  }
+  const bool runs_away =
+      speed > kRunawayRatio * start_speed_count_per_s_ + kRunawaySlack_count_per_s;
+  const bool has_not_slowed =
+      !coasting_ && input.now_ns > must_have_slowed_ns_ &&
+      speed > kSlowedRatio * start_speed_count_per_s_ + kSlowedSlack_count_per_s;
+  return runs_away || has_not_slowed ? BrakeState::kRanAway : BrakeState::kBraking;
+}
+
+BrakeState Brake::update(const BrakeInput& input) noexcept {
+  if (blind_) {
+    return update_blind(input);
+  }
+  heed_age(input);
+  const BrakeState state = judge(input);
+  torque_Nm_ = state != BrakeState::kBraking || coasting_
+                   ? 0.0
+                   : std::clamp(wanted_torque_Nm(input), -limit_Nm_, limit_Nm_);
   return state;
 }
 

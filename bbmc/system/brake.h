@@ -11,6 +11,17 @@
 // the speed grows well beyond what it was, or has not fallen long after it should have, the drive
 // is given up.
 //
+// A speed that comes late (a slow link, a clock that leapt ahead) turns that law into an
+// oscillator: the light motor answers within 2 ms. Then the brake first takes the axis's momentum
+// out, full reverse for as long as the rigid axis takes, and is as soft afterwards as the delay
+// asks:
+//
+//   K_b <= 0.5 J_rotor / d (1 - 4 d f)     d delay, f of the motor against the carriage, free
+//
+// The first factor is a third of what makes J_rotor omega' = -K omega(t - d) swing for ever (pi/2),
+// the second ends it where a quarter of the chain's own swing has passed, beyond which the law
+// would drive the swing.
+//
 // Blind, with an encoder that is not believed, it is full reverse torque for as long as the rigid
 // axis takes to stand from a speed that is still known (dead_reckoning.h), and no longer. The
 // encoder has one say left: when it begins with the speed as it was and then goes the way that the
@@ -23,6 +34,14 @@
 #include "core/time.h"
 
 namespace towbench::bbmc {
+
+struct BrakeInput {
+  core::Nanoseconds now_ns = 0;
+  double speed_count_per_s = 0;  // as the encoder tells it
+  core::Nanoseconds age_ns = 0;  // of that
+  // Of the whole axis, without the motor's swing on the chain (dead_reckoning.h).
+  double momentum_count_per_s = 0;
+};
 
 enum class BrakeState : std::uint8_t { kBraking, kStandstill, kTimedOut, kRanAway };
 
@@ -37,8 +56,7 @@ class Brake {
   void begin_blind(core::Nanoseconds now_ns, double speed_count_per_s) noexcept;
   [[nodiscard]] bool blind() const noexcept { return blind_; }
 
-  TOWBENCH_REALTIME [[nodiscard]] BrakeState update(core::Nanoseconds now_ns,
-                                                    double speed_count_per_s) noexcept;
+  TOWBENCH_REALTIME [[nodiscard]] BrakeState update(const BrakeInput& input) noexcept;
 
   // Motor torque to apply until the next update; 0 once it does not brake any more.
   [[nodiscard]] double torque_Nm() const noexcept { return torque_Nm_; }
@@ -47,8 +65,12 @@ class Brake {
   // Whether the encoder has something to say for itself (see above).
   [[nodiscard]] bool encoder_explains(core::Nanoseconds now_ns,
                                       double onwards_count_per_s) noexcept;
-  [[nodiscard]] BrakeState update_blind(core::Nanoseconds now_ns,
-                                        double speed_count_per_s) noexcept;
+  [[nodiscard]] BrakeState update_blind(const BrakeInput& input) noexcept;
+  [[nodiscard]] BrakeState judge(const BrakeInput& input) noexcept;
+  void heed_age(const BrakeInput& input) noexcept;
+  [[nodiscard]] double damped_gain_Nm_s_per_rad() const noexcept;
+  [[nodiscard]] double wanted_torque_Nm(const BrakeInput& input) const noexcept;
+  [[nodiscard]] core::Nanoseconds rigid_stop_ns(double speed_count_per_s) const noexcept;
 
   BrakingConfiguration settings_;
   double limit_Nm_;
@@ -61,9 +83,15 @@ class Brake {
   core::Nanoseconds blind_until_ns_ = 0;
   double blind_direction_ = 0;            // of the motion
   core::Nanoseconds unexplained_ns_ = 0;  // last time it had not
+  core::Nanoseconds stalest_ns_ = 0;      // the greatest age of late
+  core::Nanoseconds stalest_at_ns_ = 0;   // when that was
+  core::Nanoseconds push_until_ns_ = 0;
+  double push_direction_ = 0;
+  double free_chain_Hz_;
   double torque_Nm_ = 0;
   bool coasting_ = false;
   bool blind_ = false;
+  bool late_ = false;
   bool swapped_ = false;
 };
 

@@ -6,6 +6,11 @@
 // A lying encoder is found within 50 ms (60 ms on a machine that is not the one configured), so
 // what it said 64 ms ago is true, unless it has lied from the start. Then it is found within 5 mm,
 // which at more than 0.078 m/s takes less than 64 ms: slower speeds are not believed here.
+//
+// Where only the link is in doubt, what the encoder said last was true. But the motor swings on the
+// chain: the speed of the axis as a whole is the mean over the last 64 ms of
+//
+//   omega(t_k) + 1/J integral from t_k of tau_motor dt
 #pragma once
 
 #include <algorithm>
@@ -45,13 +50,23 @@ class DeadReckoning {
     }
     const double trusted =
         std::clamp(then.speed_count_per_s, -most_count_per_s_, most_count_per_s_);
-    const double now = trusted + (impulse_Nm_s_ - then.impulse_Nm_s) * count_per_s_per_Nm_s_;
-    // Turned round meanwhile: too slow to be worth a guess.
-    return now * trusted > 0 ? now : 0;
+    return unless_turned(trusted, since(then));
+  }
+
+  // With an encoder that is believed; 0 where the axis (nearly) stands.
+  TOWBENCH_REALTIME [[nodiscard]] double momentum_count_per_s() const noexcept {
+    double told = 0;
+    double gained = 0;
+    for (const Entry& entry : history_) {
+      told += entry.speed_count_per_s / static_cast<double>(kSteps);
+      gained += since(entry) / static_cast<double>(kSteps);
+    }
+    return std::fabs(told) < kNearlyStands * least_count_per_s_ ? 0 : unless_turned(told, gained);
   }
 
  private:
   static constexpr double kLeast_m_per_s = 0.08;
+  static constexpr double kNearlyStands = 0.125;  // of that
   static constexpr core::Nanoseconds kStep_ns = 8 * core::kNanosecondsPerMillisecond;
   static constexpr std::size_t kSteps = 9;  // the oldest of them is 64 to 72 ms old
 
@@ -60,6 +75,14 @@ class DeadReckoning {
     double speed_count_per_s = 0;
     double impulse_Nm_s = 0;
   };
+
+  [[nodiscard]] double since(const Entry& entry) const noexcept {
+    return (impulse_Nm_s_ - entry.impulse_Nm_s) * count_per_s_per_Nm_s_;
+  }
+  // Turned round meanwhile: too slow to be worth a guess.
+  [[nodiscard]] static double unless_turned(double told, double gained) noexcept {
+    return (told + gained) * told > 0 ? told + gained : 0;
+  }
 
   std::array<Entry, kSteps> history_{};
   std::size_t newest_ = 0;

@@ -119,7 +119,8 @@ void EncoderPlausibility::count_events(const EncoderChange& change) noexcept {
     bucket_start_ns_ = change.time_ns;
   }
   illegal_.current += change.illegal_transitions;
-  if (change.edges_known) {
+  // In an exchange longer than a bucket the axis may have turned round: that is no noise.
+  if (change.edges_known && core::nanoseconds(change.elapsed_s) <= kBucket_ns) {
     const std::int64_t net = change.counts < 0 ? -change.counts : change.counts;
     noise_.current += std::max<std::int64_t>(0, static_cast<std::int64_t>(change.edges) - net);
   }

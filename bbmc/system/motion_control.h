@@ -89,7 +89,8 @@ class MotionControl {
   void latch(core::ErrorCode code, core::Axis which) noexcept;
   void brake_all(core::ErrorCode code, core::Axis which) noexcept;
   void cut_one(core::ErrorCode code, core::Axis which) noexcept;
-  void give_up_encoder(core::ErrorCode code, core::Axis which) noexcept;
+  void give_up_encoder(core::ErrorCode code, core::Axis which,
+                       AxisControl::Suspect suspect) noexcept;
   void give_up_encoders(core::ErrorCode code) noexcept;
   void cut_all(core::ErrorCode code, core::Axis which) noexcept;
   void settle_after_fault() noexcept;

@@ -18,6 +18,7 @@ namespace {
 using core::Axis;
 using core::ErrorCode;
 using Kind = SystemEvent::Kind;
+using Suspect = AxisControl::Suspect;
 
 // Served so much later than due, an axis ran blind. Counted in exchanges, not in control ticks: at
 // 10 Hz as soon as at 1 kHz.
@@ -110,7 +111,7 @@ void MotionControl::watch_axis(Axis which, const ControlSample& sample) noexcept
   if (encoder == ErrorCode::kFaultEncoderIndex) {
     brake_all(encoder, which);  // the place is in doubt, the speed is not
   } else if (encoder != ErrorCode::kNone) {
-    give_up_encoder(encoder, which);
+    give_up_encoder(encoder, which, Suspect::kEncoder);
     return;
   }
   const bool ready = (sample.lines & mask_of(amplifier_ready_of(which))) != 0;
@@ -170,7 +171,7 @@ void MotionControl::brake_all(ErrorCode code, Axis which) noexcept {
     AxisControl& axis = axes_[each];
     if (is_driven(axis.mode())) {
       // A frozen encoder that nothing has noticed yet would say that there is nothing to brake.
-      if (axis.encoder_keeps_up() || !axis.begin_blind_braking(now_ns_)) {
+      if (axis.encoder_keeps_up() || !axis.begin_blind_braking(now_ns_, Suspect::kEncoder)) {
         axis.begin_braking(now_ns_);
       }
       set_mode_event(each);
@@ -183,8 +184,8 @@ void MotionControl::cut_one(ErrorCode code, Axis which) noexcept {
   brake_all(code, which);
 }
 
-void MotionControl::give_up_encoder(ErrorCode code, Axis which) noexcept {
-  if (axes_[which].begin_blind_braking(now_ns_)) {
+void MotionControl::give_up_encoder(ErrorCode code, Axis which, Suspect suspect) noexcept {
+  if (axes_[which].begin_blind_braking(now_ns_, suspect)) {
     set_mode_event(which);
     brake_all(code, which);
   } else {
@@ -197,7 +198,7 @@ void MotionControl::give_up_encoders(ErrorCode code) noexcept {
   for (Axis which : core::kAxes) {
     const AxisMode mode = axes_[which].mode();
     if (is_driven(mode) || (mode == AxisMode::kBraking && !axes_[which].brakes_blind())) {
-      give_up_encoder(code, which);
+      give_up_encoder(code, which, Suspect::kLink);
     }
   }
 }

@@ -71,6 +71,9 @@ struct CampaignCase {
   std::vector<std::string> faults;     // in words; the first is the one that the case is about
   std::size_t machine = 0;             // 0: nominal
   std::string carrier = "in-process";  // as `run --carrier` takes it
+  // Of the same phase, tried in turn while the fault takes no effect at the moment before: an edge
+  // cannot go missing where there is none.
+  std::vector<double> further_moments_s{};
 };
 
 // Throws FixtureError. `seeds` instead of every number of seeds in the fixture when it is not 0.

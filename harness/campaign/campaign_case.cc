@@ -67,6 +67,36 @@ CaseVerdict verdict_of(const Campaign& campaign, const CampaignCase& one) {
   return judge_case(motion.plain, prepared, *motion.twin, motion.plain.experiment.seed);
 }
 
+// Nothing was there for the fault to act on: no edge to drop, no duty above the saturation, or a
+// link that died before the motion's first edge.
+bool took_no_effect(const CaseVerdict& verdict) {
+  return std::any_of(verdict.checks.begin(), verdict.checks.end(), [&](const Check& check) {
+    return check.verdict == Verdict::kInvalid &&
+           (check.name == "edges_seen" || (check.name == "fault_fired" && !verdict.fired));
+  });
+}
+
+// At the first of the case's moments at which its fault takes effect; `one` becomes that case.
+CaseVerdict verdict_where_it_acts(const Campaign& campaign, CampaignCase& one, json& line) {
+  auto verdict = verdict_of(campaign, one);
+  std::size_t drawn = 1;
+  for (const double at_s : one.further_moments_s) {
+    if (!took_no_effect(verdict)) {
+      break;
+    }
+    auto fault = parse_fault(one.faults.front());
+    fault.trigger.value = at_s;
+    one.faults.front() = describe(fault);
+    verdict = verdict_of(campaign, one);
+    ++drawn;
+  }
+  if (drawn > 1) {
+    line["faults"] = one.faults;
+    line["remarks"].push_back("the fault takes no effect at the moment drawn first: drawn again");
+  }
+  return verdict;
+}
+
 }  // namespace
 
 FaultPlan plan_of(const CampaignCase& one) {
@@ -77,10 +107,11 @@ FaultPlan plan_of(const CampaignCase& one) {
   return plan;
 }
 
-std::string run_campaign_case(const Campaign& campaign, const CampaignCase& one) {
+std::string run_campaign_case(const Campaign& campaign, const CampaignCase& asked) {
+  auto one = asked;
   auto line = identity_of(campaign, one);
   try {
-    const auto verdict = verdict_of(campaign, one);
+    const auto verdict = verdict_where_it_acts(campaign, one, line);
     const auto& figures = verdict.figures;
     line["verdict"] = name_of(verdict.verdict());
     line["fired"] = verdict.fired;

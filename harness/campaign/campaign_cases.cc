@@ -12,11 +12,18 @@ namespace towbench::harness {
 namespace {
 
 constexpr const char* kNoCarrier = "in-process";
+constexpr std::size_t kFurtherMoments = 7;
 
 std::uint64_t hash_of(const std::string& text) {
   CanonicalHash hash;
   hash.add(text);
   return hash.value();
+}
+
+double moment_of(const std::vector<PhaseSpan>& fitting, core::Random& random) {
+  const auto& span = fitting[random.bits() % fitting.size()];
+  const auto length_ns = static_cast<double>(span.to_ns - span.from_ns);
+  return core::seconds(span.from_ns + static_cast<core::Nanoseconds>(random.uniform() * length_ns));
 }
 
 class CaseList {
@@ -99,18 +106,18 @@ class CaseList {
       for (std::uint64_t seed = 1; seed <= seeds(entry); ++seed) {
         core::Random random(hash_of(
             fmt::format("{}/{}/{}/{}/{}", motion.plain.experiment.name, part, kind, phase, seed)));
-        const auto& span = fitting[random.bits() % fitting.size()];
-        const auto length_ns = static_cast<double>(span.to_ns - span.from_ns);
-        const auto at_ns =
-            span.from_ns + static_cast<core::Nanoseconds>(random.uniform() * length_ns);
-        add(entry, motion, part, kind, phase, fmt::format("at_s={}", core::seconds(at_ns)), seed);
+        const double at_s = moment_of(fitting, random);
+        std::vector<double> further_s(kFurtherMoments);
+        std::generate(further_s.begin(), further_s.end(),
+                      [&] { return moment_of(fitting, random); });
+        add(entry, motion, part, kind, phase, fmt::format("at_s={}", at_s), seed, further_s);
       }
     }
   }
 
   void add(const CampaignEntry& entry, const CampaignMotion& motion, const std::string& part,
            const std::string& kind, const std::string& moment, const std::string& trigger,
-           std::uint64_t seed) {
+           std::uint64_t seed, const std::vector<double>& further_moments_s = {}) {
     const auto& name = motion.plain.experiment.name;
     auto words = fmt::format("{} {}", part, kind);
     for (const auto& more : {trigger, entry.words}) {
@@ -129,7 +136,8 @@ class CaseList {
     const auto machine = static_cast<std::size_t>((seed - 1) % (campaign_.machines + 1));
     for (const auto& carrier : carriers_of(entry)) {
       const auto over = carrier == kNoCarrier ? std::string() : "/over " + carrier;
-      cases_.push_back({id + over, name, part, kind, moment, faults, machine, carrier});
+      cases_.push_back(
+          {id + over, name, part, kind, moment, faults, machine, carrier, further_moments_s});
       auto& named = cases_.back().id;
       std::replace(named.begin(), named.end(), ' ', ',');
     }

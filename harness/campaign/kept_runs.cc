@@ -20,17 +20,6 @@ using nlohmann::json;
 constexpr std::size_t kMostFailed = 20;
 constexpr const char* kIndex = "kept.json";
 
-CampaignCase case_of(const json& line) {
-  return {line.value("case", ""),
-          line.value("motion", ""),
-          line.value("part", ""),
-          line.value("kind", ""),
-          line.value("moment", ""),
-          line.at("faults").get<std::vector<std::string>>(),
-          line.value("machine", std::size_t{0}),
-          line.value("carrier", "in-process")};
-}
-
 std::vector<json> wanted(const std::vector<json>& results) {
   std::vector<json> lines;
   std::set<std::string> names;
@@ -69,6 +58,18 @@ std::map<std::string, std::string> already_kept(const Campaign& campaign,
 }
 
 }  // namespace
+
+CampaignCase case_of(const json& line) {
+  return {line.value("case", ""),
+          line.value("motion", ""),
+          line.value("part", ""),
+          line.value("kind", ""),
+          line.value("moment", ""),
+          line.at("faults").get<std::vector<std::string>>(),
+          line.value("machine", std::size_t{0}),
+          line.value("carrier", "in-process"),
+          {}};
+}
 
 ExperimentFixture experiment_of(const Campaign& campaign, const CampaignCase& one,
                                 const std::filesystem::path& folder) {

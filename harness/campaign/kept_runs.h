@@ -13,6 +13,9 @@
 
 namespace towbench::harness {
 
+// The case of a result, with the moment at which its fault took effect.
+[[nodiscard]] CampaignCase case_of(const nlohmann::json& line);
+
 // The experiment of a case, faults and all, as `towbench run` would take it.
 [[nodiscard]] ExperimentFixture experiment_of(const Campaign& campaign, const CampaignCase& one,
                                               const std::filesystem::path& folder);

@@ -214,7 +214,9 @@ int keep_one(const Options& options, const Campaign& campaign,
   if (found == all.end()) {
     throw FixtureError({"--keep"}, '"' + options.keep + '"', "the name of a case of this campaign");
   }
-  std::printf("%s\n", keep_run(campaign, *found, options.out).c_str());
+  // At the moment where its fault takes effect, which the case itself finds out.
+  const auto line = nlohmann::json::parse(run_campaign_case(campaign, *found));
+  std::printf("%s\n", keep_run(campaign, case_of(line), options.out).c_str());
   return kExitPass;
 }
 

@@ -197,7 +197,9 @@ bool SocketCan::set_receive_timeout(core::Nanoseconds timeout_ns) noexcept {
   const core::Nanoseconds timeout_us =
       std::max<core::Nanoseconds>(1, timeout_ns / core::kNanosecondsPerMicrosecond);
   constexpr core::Nanoseconds kMicrosecondsPerSecond = 1'000'000;
-  const timeval timeout{timeout_us / kMicrosecondsPerSecond, timeout_us % kMicrosecondsPerSecond};
+  timeval timeout{};
+  timeout.tv_sec = static_cast<decltype(timeout.tv_sec)>(timeout_us / kMicrosecondsPerSecond);
+  timeout.tv_usec = static_cast<decltype(timeout.tv_usec)>(timeout_us % kMicrosecondsPerSecond);
   if (::setsockopt(descriptor_, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof(timeout)) != 0) {
     return false;
   }

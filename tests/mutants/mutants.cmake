@@ -13,7 +13,7 @@ mutant(kill_releases_itself system/motion_safety.cc
 
 # ---- how it stops
 mutant(coasting_stop system/brake.cc
-  "|| coasting_ ? 0.0" "|| true ? 0.0")
+  "BrakeState::kBraking || coasting_" "BrakeState::kBraking || true")
 mutant(weak_brake system/brake.cc
   "limit_Nm_(braking_torque_Nm(axis))" "limit_Nm_(0.25 * braking_torque_Nm(axis))")
 mutant(kill_brakes_instead system/motion_safety.cc
@@ -22,9 +22,11 @@ mutant(only_the_other_axis_brakes system/motion_safety.cc
   "    if (is_driven(axis.mode())) {\n      // A frozen"
   "    if (each != which && is_driven(axis.mode())) {\n      // A frozen")
 mutant(no_blind_brake system/motion_safety.cc
-  "  if (axes_[which].begin_blind_braking(now_ns_)) {" "  if (false) {")
+  "  if (axes_[which].begin_blind_braking(now_ns_, suspect)) {" "  if (false) {")
 mutant(blind_brake_pushes_on system/brake.cc
   "-blind_direction_ * limit_Nm_" "blind_direction_ * limit_Nm_")
+mutant(late_speed_taken_for_prompt system/brake.cc
+  "late_ = stalest_ns_ > kPrompt_ns;" "late_ = false;")
 
 # ---- who is heard
 mutant(hall_ends_swapped system/motion_safety.cc

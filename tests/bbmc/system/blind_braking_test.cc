@@ -145,8 +145,8 @@ class BlindBrake : public ::testing::Test {
     bbmc::Brake brake(settings);
     brake.begin_blind(0, start_count_per_s);
     int ms = 0;
-    while (ms < 1000 &&
-           brake.update(ms * kNanosecondsPerMillisecond, speed(ms)) == BrakeState::kBraking) {
+    while (ms < 1000 && brake.update({.now_ns = ms * kNanosecondsPerMillisecond,
+                                      .speed_count_per_s = speed(ms)}) == BrakeState::kBraking) {
       EXPECT_EQ(brake.torque_Nm(), -bbmc::braking_torque_Nm(settings));
       ++ms;
     }

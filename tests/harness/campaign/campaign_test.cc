@@ -60,6 +60,34 @@ TEST(Campaign, ACaseGivesTheSameLineInEveryProcess) {
   EXPECT_EQ(here, there);
 }
 
+// Whose first moment is before anything moves: there no edge can go missing.
+CampaignCase edges_missing_at_rest() {
+  CampaignCase one;
+  one.id = "trapezoid-y/encoder.y.missing_edges/cruise/1";
+  one.motion = "trapezoid-y";
+  one.part = "encoder.y";
+  one.kind = "missing_edges";
+  one.moment = "cruise";
+  one.faults = {"encoder.y missing_edges at_s=0.01 for=30ms seed=1"};
+  return one;
+}
+
+TEST(Campaign, AMomentWithoutEffectIsDrawnAgain) {
+  auto one = edges_missing_at_rest();
+  one.further_moments_s = {0.02, 1.7, 1.8};
+  const auto line = nlohmann::json::parse(run_campaign_case(standard(), one));
+  EXPECT_TRUE(line.at("fired").get<bool>()) << line.dump(2);
+  EXPECT_NE(line.at("faults").at(0).get<std::string>().find("at_s=1.7"), std::string::npos);
+  EXPECT_EQ(line.at("remarks").size(), 1U);
+}
+
+TEST(Campaign, NoMomentWithAnEffectIsInvalid) {
+  auto one = edges_missing_at_rest();
+  one.further_moments_s = {0.02, 0.03};
+  const auto line = nlohmann::json::parse(run_campaign_case(standard(), one));
+  EXPECT_EQ(line.at("verdict"), "INVALID");
+}
+
 // Whoever works on it dies of a motion that the campaign does not have.
 TEST(Campaign, ACaseThatEndsItsProcessFailsAndTheOthersGoOn) {
   const auto cases = cases_of(standard());
