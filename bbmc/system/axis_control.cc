@@ -134,7 +134,7 @@ bool AxisControl::begin_blind_braking(core::Nanoseconds now_ns, Suspect suspect)
     return false;
   }
   mode_ = AxisMode::kBraking;
-  brake_.begin_blind(now_ns, speed_count_per_s);
+  brake_.begin_blind(now_ns, speed_count_per_s, suspect == Suspect::kEncoder);
   return true;
 }
 

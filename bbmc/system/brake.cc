@@ -13,8 +13,8 @@ constexpr double kRunawayRatio = 2.0;
 constexpr double kRunawaySlack_count_per_s = 40'000;
 // A brake that works has halved the speed in three times the time that a rigid axis takes to stand,
 // and a swing of the chain.
-constexpr double kSlowingRatio = 3.0;
-constexpr double kSwing_s = 0.15;
+constexpr core::Nanoseconds kSlowingTimes = 3;
+constexpr core::Nanoseconds kSwing_ns = 150 * core::kNanosecondsPerMillisecond;
 constexpr double kSlowedRatio = 0.5;
 constexpr double kSlowedSlack_count_per_s = 10'000;
 // A speed that is no older than this is served by the law as it is.
@@ -24,6 +24,10 @@ constexpr core::Nanoseconds kLatenessLasts_ns = 100 * core::kNanosecondsPerMilli
 constexpr double kDampedGainTimesDelay = 0.5;
 // From one exchange to the effect of the next.
 constexpr core::Nanoseconds kOwnDelay_ns = core::kNanosecondsPerMillisecond;
+// Served so much later than before, it has not been served at all for a while.
+constexpr core::Nanoseconds kGap_ns = 20 * core::kNanosecondsPerMillisecond;
+// The first speed after it is the mean of all that time.
+constexpr core::Nanoseconds kSpeedSettles_ns = 3 * core::kNanosecondsPerMillisecond;
 // A blind brake is rather too long than too short: what it leaves goes back, away from the end.
 constexpr double kBlindRatio = 1.1;
 // What the encoder says meanwhile counts when it says so for longer than a jump or a burst of noise
@@ -43,7 +47,8 @@ Brake::Brake(const AxisConfiguration& axis) noexcept
       rad_per_count_(axis.rad_per_count()),
       standstill_count_per_s_(axis.braking.standstill_m_per_s * axis.counts_per_m()),
       free_chain_Hz_(axis.braking.held_motor_chain_Hz *
-                     std::sqrt(axis.braking.inertia_kg_m2 / axis.braking.rotor_inertia_kg_m2)) {}
+                     std::sqrt(axis.braking.inertia_kg_m2 / axis.braking.rotor_inertia_kg_m2)),
+      top_speed_count_per_s_(axis.speed_limit_m_per_s * axis.counts_per_m()) {}
 
 core::Nanoseconds Brake::rigid_stop_ns(double speed_count_per_s) const noexcept {
   return core::nanoseconds(std::fabs(speed_count_per_s) * rad_per_count_ * settings_.inertia_kg_m2 /
@@ -54,16 +59,19 @@ void Brake::begin(core::Nanoseconds now_ns, double speed_count_per_s, bool coast
   begun_ns_ = now_ns;
   moved_ns_ = now_ns;
   start_speed_count_per_s_ = std::fabs(speed_count_per_s);
-  const double stands_s = core::seconds(rigid_stop_ns(speed_count_per_s));
-  must_have_slowed_ns_ = now_ns + core::nanoseconds(kSlowingRatio * stands_s + kSwing_s);
+  must_have_slowed_ns_ = now_ns + kSlowingTimes * rigid_stop_ns(speed_count_per_s) + kSwing_ns;
+  updated_ns_ = now_ns;
+  push_until_ns_ = now_ns;
   torque_Nm_ = 0;
   stalest_ns_ = 0;
   coasting_ = coasting;
   blind_ = false;
   late_ = false;
+  after_gap_ = false;
 }
 
-void Brake::begin_blind(core::Nanoseconds now_ns, double speed_count_per_s) noexcept {
+void Brake::begin_blind(core::Nanoseconds now_ns, double speed_count_per_s,
+                        bool may_explain) noexcept {
   begin(now_ns, speed_count_per_s, false);
   const double stands_s = core::seconds(rigid_stop_ns(speed_count_per_s));
   blind_until_ns_ =
@@ -72,6 +80,7 @@ void Brake::begin_blind(core::Nanoseconds now_ns, double speed_count_per_s) noex
   torque_Nm_ = -blind_direction_ * limit_Nm_;
   blind_ = true;
   swapped_ = false;
+  may_explain_ = may_explain;
   unexplained_ns_ = now_ns;
 }
 
@@ -91,12 +100,33 @@ bool Brake::encoder_explains(core::Nanoseconds now_ns, double onwards_count_per_
 }
 
 BrakeState Brake::update_blind(const BrakeInput& input) noexcept {
-  if (input.now_ns < blind_until_ns_ &&
-      !encoder_explains(input.now_ns, blind_direction_ * input.speed_count_per_s)) {
+  const bool explained =
+      may_explain_ && encoder_explains(input.now_ns, blind_direction_ * input.speed_count_per_s);
+  if (input.now_ns < blind_until_ns_ && !explained) {
     return BrakeState::kBraking;
   }
   torque_Nm_ = 0;
   return BrakeState::kStandstill;
+}
+
+void Brake::push(const BrakeInput& input) noexcept {
+  push_until_ns_ = input.now_ns + rigid_stop_ns(input.momentum_count_per_s);
+  push_direction_ = input.momentum_count_per_s > 0 ? -1.0 : 1.0;
+}
+
+void Brake::begin_again_after_gap(const BrakeInput& input) noexcept {
+  if (input.now_ns - updated_ns_ > kGap_ns) {
+    start_speed_count_per_s_ = std::max(start_speed_count_per_s_, top_speed_count_per_s_);
+    must_have_slowed_ns_ =
+        input.now_ns + kSlowingTimes * rigid_stop_ns(start_speed_count_per_s_) + kSwing_ns;
+    push_from_ns_ = input.now_ns + kSpeedSettles_ns;
+    after_gap_ = true;
+  }
+  updated_ns_ = input.now_ns;
+  if (after_gap_ && input.now_ns >= push_from_ns_) {
+    push(input);
+    after_gap_ = false;
+  }
 }
 
 void Brake::heed_age(const BrakeInput& input) noexcept {
@@ -107,8 +137,7 @@ void Brake::heed_age(const BrakeInput& input) noexcept {
   const bool was_late = late_;
   late_ = stalest_ns_ > kPrompt_ns;
   if (late_ && !was_late) {
-    push_until_ns_ = input.now_ns + rigid_stop_ns(input.momentum_count_per_s);
-    push_direction_ = input.momentum_count_per_s > 0 ? -1.0 : 1.0;
+    push(input);
   }
 }
 
@@ -119,11 +148,11 @@ double Brake::damped_gain_Nm_s_per_rad() const noexcept {
 }
 
 double Brake::wanted_torque_Nm(const BrakeInput& input) const noexcept {
+  if (input.now_ns < push_until_ns_) {
+    return push_direction_ * limit_Nm_;
+  }
   double gain_Nm_s_per_rad = settings_.speed_gain_Nm_s_per_rad;
   if (late_) {
-    if (input.now_ns < push_until_ns_) {
-      return push_direction_ * limit_Nm_;
-    }
     gain_Nm_s_per_rad = std::min(gain_Nm_s_per_rad, damped_gain_Nm_s_per_rad());
   }
   return -gain_Nm_s_per_rad * input.speed_count_per_s * rad_per_count_;
@@ -152,6 +181,7 @@ BrakeState Brake::update(const BrakeInput& input) noexcept {
   if (blind_) {
     return update_blind(input);
   }
+  begin_again_after_gap(input);
   heed_age(input);
   const BrakeState state = judge(input);
   torque_Nm_ = state != BrakeState::kBraking || coasting_

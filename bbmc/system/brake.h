@@ -22,6 +22,9 @@
 // the second ends it where a quarter of the chain's own swing has passed, beyond which the law
 // would drive the swing.
 //
+// After a gap (a host that slept) the last torque has gone on, whatever it was: the speed found
+// then says nothing against the brake, and its momentum is taken out first, too.
+//
 // Blind, with an encoder that is not believed, it is full reverse torque for as long as the rigid
 // axis takes to stand from a speed that is still known (dead_reckoning.h), and no longer. The
 // encoder has one say left: when it begins with the speed as it was and then goes the way that the
@@ -52,8 +55,9 @@ class Brake {
   // `coasting`: no torque, only the wait for standstill (for comparison, see SafetyConfiguration).
   void begin(core::Nanoseconds now_ns, double speed_count_per_s, bool coasting) noexcept;
 
-  // From a speed that is known now and will not be measured any more.
-  void begin_blind(core::Nanoseconds now_ns, double speed_count_per_s) noexcept;
+  // From a speed that is known now and will not be measured any more; `may_explain`: whether the
+  // encoder has that last say.
+  void begin_blind(core::Nanoseconds now_ns, double speed_count_per_s, bool may_explain) noexcept;
   [[nodiscard]] bool blind() const noexcept { return blind_; }
 
   TOWBENCH_REALTIME [[nodiscard]] BrakeState update(const BrakeInput& input) noexcept;
@@ -67,6 +71,8 @@ class Brake {
                                       double onwards_count_per_s) noexcept;
   [[nodiscard]] BrakeState update_blind(const BrakeInput& input) noexcept;
   [[nodiscard]] BrakeState judge(const BrakeInput& input) noexcept;
+  void begin_again_after_gap(const BrakeInput& input) noexcept;
+  void push(const BrakeInput& input) noexcept;
   void heed_age(const BrakeInput& input) noexcept;
   [[nodiscard]] double damped_gain_Nm_s_per_rad() const noexcept;
   [[nodiscard]] double wanted_torque_Nm(const BrakeInput& input) const noexcept;
@@ -85,14 +91,19 @@ class Brake {
   core::Nanoseconds unexplained_ns_ = 0;  // last time it had not
   core::Nanoseconds stalest_ns_ = 0;      // the greatest age of late
   core::Nanoseconds stalest_at_ns_ = 0;   // when that was
+  core::Nanoseconds updated_ns_ = 0;
+  core::Nanoseconds push_from_ns_ = 0;
   core::Nanoseconds push_until_ns_ = 0;
   double push_direction_ = 0;
   double free_chain_Hz_;
+  double top_speed_count_per_s_;
   double torque_Nm_ = 0;
   bool coasting_ = false;
   bool blind_ = false;
   bool late_ = false;
+  bool after_gap_ = false;
   bool swapped_ = false;
+  bool may_explain_ = false;
 };
 
 }  // namespace towbench::bbmc

@@ -8,7 +8,8 @@
 // which at more than 0.078 m/s takes less than 64 ms: slower speeds are not believed here.
 //
 // Where only the link is in doubt, what the encoder said last was true. But the motor swings on the
-// chain: the speed of the axis as a whole is the mean over the last 64 ms of
+// chain: the speed of the axis as a whole is the mean over the last 112 ms (a swing of Y's
+// chain, two of X's) of
 //
 //   omega(t_k) + 1/J integral from t_k of tau_motor dt
 #pragma once
@@ -36,6 +37,7 @@ class DeadReckoning {
   TOWBENCH_REALTIME void update(core::Nanoseconds now_ns, double speed_count_per_s,
                                 double torque_Nm, double elapsed_s) noexcept {
     impulse_Nm_s_ += torque_Nm * elapsed_s;
+    forget_after_gap(elapsed_s, speed_count_per_s, now_ns);
     if (now_ns - history_[newest_].time_ns >= kStep_ns) {
       newest_ = (newest_ + 1) % kSteps;
       history_[newest_] = {now_ns, speed_count_per_s, impulse_Nm_s_};
@@ -44,7 +46,7 @@ class DeadReckoning {
 
   // 0 where no speed can be trusted.
   TOWBENCH_REALTIME [[nodiscard]] double speed_count_per_s() const noexcept {
-    const Entry& then = history_[(newest_ + 1) % kSteps];  // the oldest
+    const Entry& then = history_[(newest_ + kSteps - kTrustedSteps) % kSteps];
     if (std::fabs(then.speed_count_per_s) < least_count_per_s_) {
       return 0;
     }
@@ -68,7 +70,9 @@ class DeadReckoning {
   static constexpr double kLeast_m_per_s = 0.08;
   static constexpr double kNearlyStands = 0.125;  // of that
   static constexpr core::Nanoseconds kStep_ns = 8 * core::kNanosecondsPerMillisecond;
-  static constexpr std::size_t kSteps = 9;  // the oldest of them is 64 to 72 ms old
+  static constexpr std::size_t kSteps = 14;        // the oldest is 104 to 112 ms old
+  static constexpr std::size_t kTrustedSteps = 8;  // before the newest: 64 to 72 ms old
+  static constexpr double kGap_s = 0.02;
 
   struct Entry {
     core::Nanoseconds time_ns = 0;
@@ -76,6 +80,17 @@ class DeadReckoning {
     double impulse_Nm_s = 0;
   };
 
+  // Nobody has looked for a while: what was before says nothing. The first speed after it is the
+  // mean of all that time, the next is true.
+  void forget_after_gap(double elapsed_s, double speed_count_per_s,
+                        core::Nanoseconds now_ns) noexcept {
+    if (elapsed_s > kGap_s) {
+      forgets_ = true;
+    } else if (forgets_ && elapsed_s > 0) {
+      history_.fill({now_ns, speed_count_per_s, impulse_Nm_s_});
+      forgets_ = false;
+    }
+  }
   [[nodiscard]] double since(const Entry& entry) const noexcept {
     return (impulse_Nm_s_ - entry.impulse_Nm_s) * count_per_s_per_Nm_s_;
   }
@@ -87,6 +102,7 @@ class DeadReckoning {
   std::array<Entry, kSteps> history_{};
   std::size_t newest_ = 0;
   double impulse_Nm_s_ = 0;
+  bool forgets_ = false;
   double count_per_s_per_Nm_s_;
   double least_count_per_s_;
   double most_count_per_s_;

@@ -39,8 +39,10 @@ EncoderPlausibility::EncoderPlausibility(const AxisConfiguration& axis) noexcept
 ErrorCode EncoderPlausibility::judge_kinematics(const EncoderChange& change) const noexcept {
   const double expected = last_rate_count_per_s_ * change.elapsed_s;
   const double moved = static_cast<double>(change.counts);
-  const double slack =
-      max_acceleration_count_per_s2_ * change.elapsed_s * change.elapsed_s + kRateSlack_counts;
+  // After a long exchange the rate before is a mean, and the axis may have left it long ago.
+  const double slack = max_acceleration_count_per_s2_ * change.elapsed_s *
+                           std::max(change.elapsed_s, last_elapsed_s_) +
+                       kRateSlack_counts;
   if (std::fabs(moved - expected) <= slack) {
     return ErrorCode::kNone;
   }
@@ -165,6 +167,7 @@ ErrorCode EncoderPlausibility::update(const EncoderChange& change, Scope scope) 
     index_.forget();  // moved by hand past a fault that nobody judged: learn anew
   }
   last_rate_count_per_s_ = static_cast<double>(change.counts) / change.elapsed_s;
+  last_elapsed_s_ = change.elapsed_s;
   if (found != ErrorCode::kNone) {
     // The next motion, after a reset, is judged from scratch.
     push_.direction = 0;

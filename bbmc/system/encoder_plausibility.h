@@ -101,6 +101,7 @@ class EncoderPlausibility {
   Bucket noise_;
   core::Nanoseconds bucket_start_ns_ = 0;
   double last_rate_count_per_s_ = 0;
+  double last_elapsed_s_ = 0;
 };
 
 }  // namespace towbench::bbmc

@@ -38,6 +38,15 @@ struct HostSchedule {
       return time_ns >= stall.from_ns && time_ns < stall.until_ns;
     });
   }
+  // The first moment from then on at which the host runs.
+  [[nodiscard]] core::Nanoseconds next_served_ns(core::Nanoseconds time_ns) const noexcept {
+    for (const HostStall& stall : stalls) {
+      if (time_ns >= stall.from_ns && time_ns < stall.until_ns) {
+        return stall.until_ns;
+      }
+    }
+    return time_ns;
+  }
   // By how much the controller's clock is ahead.
   [[nodiscard]] core::Nanoseconds ahead_ns(core::Nanoseconds time_ns) const noexcept {
     core::Nanoseconds ahead = 0;

@@ -86,7 +86,8 @@ void CaseRecord::typed(core::Nanoseconds time_ns, std::string_view text) noexcep
     if (letter != '\n' && letter != '\r') {
       typing_ += letter;
     } else if (!typing_.empty()) {
-      typed_lines.push_back({time_ns, std::move(typing_)});
+      const auto heard_ns = host_ == nullptr ? time_ns : host_->next_served_ns(time_ns);
+      typed_lines.push_back({heard_ns, std::move(typing_)});
       typing_.clear();
     }
   }

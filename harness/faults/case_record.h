@@ -56,7 +56,8 @@ class CaseRecord final : public BenchRecorder, public emulator::PlantObserver {
   std::vector<DutyMessage> duties;
   std::vector<Arrivals> arrivals;
   std::vector<ConsoleText> printed;
-  std::vector<ConsoleText> typed_lines;  // by the operator, each with the time of its end
+  std::vector<ConsoleText>
+      typed_lines;  // by the operator, each with the time at which it could be heard
   RunOutcome outcome;
 
   // The controller's clock may be off: rows and events are kept by the bench's. Null: it is

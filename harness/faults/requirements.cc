@@ -64,12 +64,7 @@ const Fault* fault_of(const CaseEvidence& evidence, FaultPart part) {
 }
 
 core::Nanoseconds served_ns(const CaseEvidence& evidence, core::Nanoseconds time_ns) {
-  for (const auto& stall : evidence.prepared.injection.host.stalls) {
-    if (time_ns >= stall.from_ns && time_ns < stall.until_ns) {
-      return stall.until_ns;
-    }
-  }
-  return time_ns;
+  return evidence.prepared.injection.host.next_served_ns(time_ns);
 }
 
 bbmc::AxisMode mode_at(const CaseRecord& run, core::Axis axis, core::Nanoseconds time_ns) {

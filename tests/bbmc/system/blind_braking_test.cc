@@ -143,7 +143,7 @@ class BlindBrake : public ::testing::Test {
   int lasts_ms(double start_count_per_s, Speed speed) {
     const bbmc::AxisConfiguration settings = bbmc::Configuration().axes[Axis::kY];
     bbmc::Brake brake(settings);
-    brake.begin_blind(0, start_count_per_s);
+    brake.begin_blind(0, start_count_per_s, true);
     int ms = 0;
     while (ms < 1000 && brake.update({.now_ns = ms * kNanosecondsPerMillisecond,
                                       .speed_count_per_s = speed(ms)}) == BrakeState::kBraking) {
