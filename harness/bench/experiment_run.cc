@@ -327,7 +327,7 @@ class Run {
     CaseRecord crossed;  // what it notes is of no use here: the judge makes its own
     const Injection planned = faults_->injection();
     CaseLink link(plant, peer, planned.link, crossed);
-    RecordFaults of_record(planned.host, folder_);
+    RecordFaults of_record(planned.host, folder_, recorder);
     link.tell(of_record);
     return play_on(link, planned.host, recorder);
   }

@@ -2,16 +2,18 @@
 //
 // The bound is found by doing it: the same case, fault and all, on the same elastic axis, but from
 // the moment at which the controller could have reacted the drive is turned to full reverse, as far
-// as the gear may take it, until the carriage stands. For two bodies on a spring and damper the
-// carriage answers an impulse on the motor with a displacement that is never negative, (t - sin(w
-// t)/w) / m without damping, so that no other sequence of torques stops the carriage shorter. If it
-// touches even so, nobody could have prevented it.
+// as the gear may take it, until the carriage stands and the axis as a whole has no momentum
+// outwards any more: a carriage that merely swings back on its chain will come again. For two
+// bodies on a spring and damper the carriage answers an impulse on the motor with a displacement
+// that is never negative, (t - sin(w t)/w) / m without damping, so that no other sequence of
+// torques stops the carriage shorter. If it touches even so, nobody could have prevented it.
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "bbmc/system/stopping_distance.h"
+#include "emulator/plant/derived_mechanics.h"
 #include "harness/faults/case_run.h"
 #include "harness/faults/requirements.h"
 
@@ -104,6 +106,15 @@ double reverse_duty(const CaseEvidence& evidence, const Contact& contact) {
   return std::min(1.0, bbmc::braking_torque_Nm(axis) / axis.drive.full_duty_torque_Nm());
 }
 
+// Of motor and carriage together, towards the end.
+double outward_kg_m_per_s(const emulator::AxisParameters& plant, const emulator::AxisTruth& axis,
+                          int side) {
+  const auto mechanics = emulator::derive(plant);
+  return side *
+         (mechanics.motor_inertia_kg_m2 * axis.motor_speed_rad_per_s / mechanics.metres_per_radian +
+          (mechanics.carriage_mass_kg + plant.water_mass_kg) * axis.carriage_speed_m_per_s);
+}
+
 bool touches_even_so(const CaseEvidence& evidence, const Contact& contact, Nanoseconds reverse_ns,
                      Nanoseconds until_ns) {
   constexpr double kLongEnough_s = 2.0;  // coasting included
@@ -113,10 +124,12 @@ bool touches_even_so(const CaseEvidence& evidence, const Contact& contact, Nanos
                 .reverse = FullReverse{contact.axis, reverse_ns, until_ns, -contact.side,
                                        reverse_duty(evidence, contact)},
                 .until_s = core::seconds(reverse_ns) + kLongEnough_s});
+  const auto& plant = evidence.prepared.built.axes[contact.axis].plant;
   Nanoseconds turned_ns = kNever;
   for (const auto& row : best->truth) {
-    if (row.time_ns > reverse_ns &&
-        contact.side * row.axes[contact.axis].carriage_speed_m_per_s <= 0) {
+    const auto& axis = row.axes[contact.axis];
+    if (row.time_ns > reverse_ns && contact.side * axis.carriage_speed_m_per_s <= 0 &&
+        outward_kg_m_per_s(plant, axis, contact.side) <= 0) {
       turned_ns = row.time_ns;
       break;
     }

@@ -8,8 +8,9 @@
 
 namespace towbench::harness {
 
-RecordFaults::RecordFaults(const HostSchedule& host, std::filesystem::path folder)
-    : host_(host), folder_(std::move(folder)) {
+RecordFaults::RecordFaults(const HostSchedule& host, std::filesystem::path folder,
+                           ControllerRecorder& recorder)
+    : host_(host), folder_(std::move(folder)), recorder_(recorder) {
   if (!host_.full_disks.empty()) {
     // Who writes is to be told by its write, as on a full disk, and not to be ended.
     (void)std::signal(SIGXFSZ, SIG_IGN);
@@ -22,6 +23,7 @@ RecordFaults::~RecordFaults() {
 
 void RecordFaults::runs_to(core::Nanoseconds until_ns) noexcept {
   if (host_.killed_ns && until_ns >= *host_.killed_ns) {
+    recorder_.catch_up();
     (void)kill(getpid(), SIGKILL);
   }
   const bool full = std::any_of(
@@ -36,6 +38,7 @@ void RecordFaults::runs_to(core::Nanoseconds until_ns) noexcept {
 
 // As the log is now, no file of this process may become longer than it.
 void RecordFaults::fill_disk() noexcept {
+  recorder_.catch_up();
   std::error_code error;
   const auto size = std::filesystem::file_size(folder_ / "log.csv", error);
   rlimit limit{};

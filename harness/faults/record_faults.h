@@ -8,13 +8,15 @@
 
 #include "harness/bench/host_schedule.h"
 #include "harness/bench/time_watcher.h"
+#include "harness/record/controller_recorder.h"
 
 namespace towbench::harness {
 
 class RecordFaults final : public TimeWatcher {
  public:
-  // Of the record in `folder`. The schedule outlives this.
-  RecordFaults(const HostSchedule& host, std::filesystem::path folder);
+  // Of the record in `folder`, which `recorder` writes. Schedule and recorder outlive this.
+  RecordFaults(const HostSchedule& host, std::filesystem::path folder,
+               ControllerRecorder& recorder);
   // The disk has room again.
   ~RecordFaults() override;
 
@@ -26,6 +28,7 @@ class RecordFaults final : public TimeWatcher {
 
   const HostSchedule& host_;
   std::filesystem::path folder_;
+  ControllerRecorder& recorder_;
   bool is_full_ = false;
   rlimit before_{};
 };

@@ -29,6 +29,10 @@ class ControllerRecorder final : public BenchRecorder {
   void timing(core::Nanoseconds time_ns, core::Nanoseconds host_ns,
               core::Nanoseconds exchange_ns) noexcept override;
 
+  // What was handed to the writer's thread is written; what waits to be handed over still waits. In
+  // lockstep the machine's seconds pass while that thread waits for a core: a moment of the
+  // machine's time is one of the record's only after this.
+  void catch_up() noexcept { writer_.wait(); }
   void flush() noexcept override;
   [[nodiscard]] std::uint64_t rows() const noexcept override { return log_.rows(); }
   [[nodiscard]] bool good() const noexcept override;
