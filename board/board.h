@@ -92,8 +92,14 @@ class Board final : private PeripheralBus {
   [[nodiscard]] core::Nanoseconds idle_ns() const noexcept { return idle_ns_; }
 
   // Faults of the board.
-  void stick(const StuckBit& bit) { stuck_.push_back(bit); }
-  void free_stuck_bits() { stuck_.clear(); }
+  void stick(const StuckBit& bit) {
+    stuck_.push_back(bit);
+    idle_ = false;
+  }
+  void free_stuck_bits() {
+    stuck_.clear();
+    idle_ = false;
+  }
   // Reads whose value a stuck bit has changed, so far.
   [[nodiscard]] std::uint64_t stuck_reads() const noexcept { return stuck_reads_; }
 
@@ -125,6 +131,7 @@ class Board final : private PeripheralBus {
   ExecutionProfile profile_;
   ElfImage image_;
   std::vector<std::unique_ptr<RegisterBlock>> owned_;
+  std::vector<RegisterBlock*> moving_;  // those that change by themselves
   std::vector<Mapped> mapped_;
   Aintc* aintc_ = nullptr;
   Uart* uart_ = nullptr;
@@ -143,7 +150,8 @@ class Board final : private PeripheralBus {
   core::Nanoseconds idle_ns_ = 0;
   bool on_ = false;
   bool started_ = false;
-  bool waiting_ = false;
+  bool waiting_ = false;  // in WFI
+  bool idle_ = false;     // in a loop that goes round until something happens
   std::uint64_t stuck_reads_ = 0;
   std::uint64_t signs_of_life_ = 0;  // accesses but to registers that are merely kept
   std::uint64_t life_seen_ = 0;
