@@ -4,9 +4,9 @@
 # A stage is a function stage_NAME that returns 0 (passed), 99 (skipped, reason in $skip_reason) or
 # anything else (failed). It adds what it counted to $passed and $failed.
 
-all_stages=(lint tests carriers step_cost tidy sanitize_address sanitize_thread fuzz fresh_start)
+all_stages=(lint tests carriers step_cost armhf tidy sanitize_address sanitize_thread fuzz fresh_start)
 quick_stages=(lint tests)
-on_request_stages=(carrier_table panel_lateness armhf tidy_everything campaign mutants slurm)
+on_request_stages=(carrier_table panel_lateness tidy_everything campaign mutants slurm)
 
 test_usage() {
   cat <<'TEXT'
@@ -23,6 +23,8 @@ stages: lint              format, shellcheck, include rules
         carriers          the demo over serial lines, CAN and GPIO lines, and the carriers' own tests, in an
                           emulated machine whose Debian kernel has both; a run by the wall clock
         step_cost         instructions of every control step, counted: independent of the data within 20 %
+        armhf             the controller built for armhf, under qemu-user: the same duty to the last bit, fed with a
+                          record and as a process against the emulator
         tidy              clang-tidy of plant, controller and protocol
         sanitize_address  the tests under address and undefined-behaviour sanitizers
         sanitize_thread   the same under the thread sanitizer
@@ -32,8 +34,6 @@ stages: lint              format, shellcheck, include rules
 on request only (--only):
         carrier_table     the table of docs/carriers.md, measured here: fidelity, bandwidth, load, round trip
         panel_lateness    what an open panel does to a run by the wall clock: lateness in alternating blocks, printed
-        armhf             the controller built for armhf, under qemu-user: the same duty to the last bit, fed with a
-                          record and as a process against the emulator
         tidy_everything   clang-tidy of the harness and carriers too; about half an hour
         campaign          the standard fault campaign, some 3,000 cases, from scratch
         mutants           controllers with one reaction removed: the campaign must catch each
