@@ -13,7 +13,9 @@
 
 #include <benchmark/benchmark.h>
 #include <nlohmann/json.hpp>
+#include <time.h>
 
+#include "harness/panel/live_hand.h"
 #include "harness/panel/panel_json.h"
 
 namespace {
@@ -51,6 +53,92 @@ double median(std::vector<double>& values) {
                    values.end());
   return values[values.size() / 2];
 }
+
+// Processor time of the bench's own thread between the first and the last time that a run tells how
+// far it has come: what a host that is busy otherwise leaves true.
+class ThreadTime {
+ public:
+  [[nodiscard]] LoopWatchers watchers() {
+    LoopWatchers watchers;
+    watchers.progress = [this](towbench::core::Nanoseconds /*now_ns*/) {
+      timespec now{};
+      clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+      last_s_ = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+      first_s_ = first_s_ < 0 ? last_s_ : first_s_;
+    };
+    return watchers;
+  }
+  [[nodiscard]] double passed_s() const { return last_s_ - first_s_; }
+
+ private:
+  double first_s_ = -1;
+  double last_s_ = -1;
+};
+
+double thread_s(const ExperimentFixture& fixture, const fs::path& out, LiveTap* tap) {
+  ThreadTime time;
+  const std::atomic<bool> stop{false};
+  LiveHand hand(fixture, 1, {.speed = 0, .paused = false}, false, stop);
+  RunOptions options;
+  options.out = out;
+  options.watchers = time.watchers();
+  if (tap != nullptr) {
+    tap->clear(0);
+    options.tap = tap;
+    options.hand = &hand;
+  }
+  std::thread([&] { (void)run_experiment(fixture, options); }).join();
+  return time.passed_s();
+}
+
+// Takes what there is, as a panel's frames do, while it lives.
+class Reader {
+ public:
+  explicit Reader(LiveTap& tap)
+      : thread_([this, &tap] {
+          while (!ending_) {
+            for (LiveRow row; tap.next(row);) {
+              benchmark::DoNotOptimize(row);
+            }
+            for (LiveTruth row; tap.next(row);) {
+              benchmark::DoNotOptimize(row);
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+          }
+        }) {}
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+  ~Reader() {
+    ending_ = true;
+    thread_.join();
+  }
+
+ private:
+  std::atomic<bool> ending_{false};
+  std::thread thread_;
+};
+
+void panel_thread_over_plain(benchmark::State& state, const char* experiment) {
+  const auto out = temporary_folder();
+  const auto fixture = load_experiment(experiment);
+  const auto tap = std::make_unique<LiveTap>();
+  std::vector<double> plain;
+  std::vector<double> watched;
+  for (auto _ : state) {
+    plain.push_back(thread_s(fixture, out, nullptr));
+    const Reader reader(*tap);
+    watched.push_back(thread_s(fixture, out, tap.get()));
+  }
+  state.counters["thread_over_plain"] = median(watched) / median(plain);
+  state.counters["plain_ms"] = 1e3 * median(plain);
+  fs::remove_all(out);
+}
+BENCHMARK_CAPTURE(panel_thread_over_plain, circle, "fixtures/experiments/circle.toml")
+    ->Iterations(25)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(panel_thread_over_plain, exercise, "fixtures/diagnosis/exercise-y.toml")
+    ->Iterations(15)
+    ->Unit(benchmark::kMillisecond);
 
 void panel_over_plain(benchmark::State& state, const char* experiment) {
   const auto out = temporary_folder();
