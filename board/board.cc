@@ -189,6 +189,7 @@ std::uint32_t Board::load(std::uint32_t address, unsigned bytes) {
   block->advance(bus_.now_ns);
   if (block->is_configuration()) {
     polled_ = address;
+    polled_ns_ = bus_.now_ns;
   } else {
     ++signs_of_life_;
   }
@@ -282,6 +283,7 @@ void Board::run_until(core::Nanoseconds until_ns) {
   advance_all();
   if (on_ && !verdict_ && until_ns >= next_look_ns_) {
     next_look_ns_ = until_ns + kLookEvery_ns;
+    idle_ = false;  // the loop goes round once more, and what it polls is seen
     watch_for_life();
   }
 }

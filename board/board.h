@@ -155,8 +155,8 @@ class Board final : private PeripheralBus {
   std::uint64_t stuck_reads_ = 0;
   std::uint64_t signs_of_life_ = 0;  // accesses but to registers that are merely kept
   std::uint64_t life_seen_ = 0;
-  std::uint64_t accesses_seen_ = 0;
   std::uint32_t polled_ = 0;  // the last of those
+  core::Nanoseconds polled_ns_ = 0;
   core::Nanoseconds last_access_ns_ = 0;
   core::Nanoseconds last_unmasked_ns_ = 0;
   core::Nanoseconds next_look_ns_ = 0;

@@ -45,8 +45,8 @@ void Board::watch_for_life() {
     return;
   }
   const std::uint32_t pc = processor_->pc();
-  const bool polls = polled_ != 0 && bus_.accesses != accesses_seen_;
-  accesses_seen_ = bus_.accesses;
+  constexpr core::Nanoseconds kLately_ns = 10 * core::kNanosecondsPerMillisecond;
+  const bool polls = polled_ != 0 && time_ns_ - polled_ns_ < kLately_ns;
   if (polls && (masked || !aintc_->anything_enabled())) {
     fail(BoardFailure::kPollsWhatStands, pc,
          fmt::format("the image hangs: at {} it has done nothing for {} s but read {}, which does "

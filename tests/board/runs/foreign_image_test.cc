@@ -35,7 +35,7 @@ class Bench {
 
 constexpr const char* kServo = R"(
 console = [
-  { expect = "servo:~$ ", timeout_s = 5.0 },
+  { expect = "servo:~$ ", timeout_s = 5.0, wait_s = 2.0 },
   { send = "move", expect = "[Y/n]", timeout_s = 1.0 },
   { send = "Y", expect = "EOR", wait = "idle", timeout_s = 8.0 },
 ]
