@@ -90,9 +90,10 @@ class AxisControl {
   [[nodiscard]] double torque_Nm() const noexcept {
     return static_cast<double>(ticks_) / ticks_per_Nm_;
   }
-  // Since it was last seen moving.
-  [[nodiscard]] core::Nanoseconds stood_ns() const noexcept {
-    return observer_.reading().time_ns - moved_ns_;
+  // Not just at a turning point: half a swing of the slowest chain, 4 Hz, is shorter.
+  [[nodiscard]] bool is_at_rest() const noexcept {
+    constexpr core::Nanoseconds kAtRest_ns = 250 * core::kNanosecondsPerMillisecond;
+    return observer_.reading().time_ns - moved_ns_ >= kAtRest_ns;
   }
   // Estimated by the law, if it does; + pushes towards max.
   [[nodiscard]] double disturbance_Nm() const noexcept { return law_.disturbance_Nm(); }

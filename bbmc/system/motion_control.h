@@ -101,15 +101,17 @@ class MotionControl {
   void begin_waiting_order(core::Nanoseconds now_ns) noexcept;
   void drive_axis(core::Axis which, double time_s, double step_s) noexcept;
   void drive_approach(core::Axis which, double step_s) noexcept;
-  [[nodiscard]] bool tuning_is_over(core::ErrorCode& result) noexcept;
   void find_error_across_path(double time_s) noexcept;
+  void check_tracking() noexcept;
 
   // motion_homing.cc: finds out where it is.
   void begin_homing(core::Axis which) noexcept;
   void drive_homing(core::Axis which, double step_s) noexcept;
   void declare_at_switch(core::Axis which) noexcept;
 
+  // motion_end.cc: when a motion is over.
   [[nodiscard]] bool motion_is_over(double time_s, core::ErrorCode& result) noexcept;
+  [[nodiscard]] bool tuning_is_over(core::ErrorCode& result) noexcept;
   // Whether the axis is as near to its reference as a settled motion must be.
   [[nodiscard]] bool is_near(core::Axis which) const noexcept;
   // For the integral of an axis whose reference has come to rest.
@@ -118,7 +120,8 @@ class MotionControl {
   [[nodiscard]] bool broke_away() noexcept;
   void end_motion(core::ErrorCode result) noexcept;
   void finish_motion_when_at_rest() noexcept;
-  void check_tracking() noexcept;
+
+  // motion_record.cc: what is kept of it.
   void record(const ControlSample& sample) noexcept;
   void record_log() noexcept;
   void post(SystemEvent::Kind kind, core::Axis which, core::ErrorCode code,
