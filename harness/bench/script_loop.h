@@ -16,9 +16,9 @@ struct LoopWatchers {
   // Set from outside (a signal): the run ends orderly and is incomplete. May be null.
   const std::atomic<bool>* stop = nullptr;
   // Called every few thousand exchanges with the virtual time. May be empty.
-  std::function<void(core::Nanoseconds)> progress;
+  std::function<void(core::Nanoseconds)> progress{};
   // Told the path of a person's terminal before the run begins. May be empty.
-  std::function<void(const std::string& path)> terminal;
+  std::function<void(const std::string& path)> terminal{};
 };
 
 // Without `hand` the experiment's own is repeated, if it has one.
