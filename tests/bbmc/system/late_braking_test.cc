@@ -1,5 +1,6 @@
-// A brake whose speed comes late neither swings nor gives up. Judged on two bodies on a spring,
-// integrated here: the motor answers at once, the carriage follows over the chain.
+// A brake whose speed comes late, or that nobody has served for a while, neither swings nor gives
+// up. Judged on two bodies on a spring, integrated here: the motor answers at once, the carriage
+// follows over the chain.
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -9,6 +10,8 @@
 #include "bbmc/system/brake.h"
 #include "bbmc/system/configuration.h"
 #include "bbmc/system/dead_reckoning.h"
+#include "bbmc/system/encoder_plausibility.h"
+#include "bbmc/system/stopping_distance.h"
 #include "core/axis.h"
 
 namespace towbench::tests {
@@ -153,6 +156,47 @@ TEST(Momentum, OfAnAxisThatStandsIsNothingHoweverLongItIsHeld) {
     reckoning.update(ms * kNanosecondsPerMillisecond, 0.0, 0.01, 1e-3);
   }
   EXPECT_EQ(reckoning.momentum_count_per_s(), 0.0);
+}
+
+// ---- after a host that slept ----
+
+TEST(BrakeAfterAGap, FindsNoRunawayAndTakesTheMomentumOut) {
+  const bbmc::AxisConfiguration settings = bbmc::Configuration().axes[core::Axis::kY];
+  bbmc::Brake brake(settings);
+  constexpr double kSpeed_count_per_s = 90'000;
+  brake.begin(0, 100'000, false);
+  (void)brake.update({.now_ns = kNanosecondsPerMillisecond, .speed_count_per_s = 100'000});
+  // As fast as this after 0.45 s would be a drive that pushes, had anybody looked meanwhile.
+  EXPECT_EQ(brake.update({.now_ns = 450 * kNanosecondsPerMillisecond,
+                          .speed_count_per_s = kSpeed_count_per_s,
+                          .momentum_count_per_s = kSpeed_count_per_s}),
+            BrakeState::kBraking);
+  // The motor stands against the chain, the axis as a whole does not.
+  EXPECT_EQ(brake.update({.now_ns = 455 * kNanosecondsPerMillisecond,
+                          .momentum_count_per_s = kSpeed_count_per_s}),
+            BrakeState::kBraking);
+  EXPECT_EQ(brake.torque_Nm(), -bbmc::braking_torque_Nm(settings));
+}
+
+TEST(EncoderAfterAGap, MayHaveTurnedRoundWithoutNoiseOrJump) {
+  bbmc::AxisConfiguration settings = bbmc::Configuration().axes[core::Axis::kY];
+  settings.plausibility.index_fitted = false;
+  bbmc::EncoderPlausibility plausibility(settings);
+  bbmc::EncoderChange change;
+  const auto after = [&](double elapsed_s, std::int64_t counts, std::uint32_t edges) {
+    change.time_ns += core::nanoseconds(elapsed_s);
+    change.elapsed_s = elapsed_s;
+    change.counts = counts;
+    change.raw_count += counts;
+    change.edges = edges;
+    return plausibility.update(change, bbmc::EncoderPlausibility::Scope::kSignals);
+  };
+  (void)after(1e-3, 10, 10);
+  EXPECT_EQ(after(1e-3, 20, 20), core::ErrorCode::kNone);
+  EXPECT_EQ(after(0.2, 10'000, 50'000), core::ErrorCode::kNone);
+  EXPECT_EQ(after(1e-3, -250, 250), core::ErrorCode::kNone);
+  // Looked at every millisecond it is as strict as ever.
+  EXPECT_NE(after(1e-3, 250, 250), core::ErrorCode::kNone);
 }
 
 }  // namespace
