@@ -29,6 +29,7 @@ class CanFramedPlant final : public PlantEnd, public PeerControl {
       if (const auto heard = far_.wait(plant_.sink()); !heard) {
         return core::failure(heard.error());
       }
+      (void)plant_.wait_for(expected);
     }
     return near_.wait_for(expected, *controller_);
   }

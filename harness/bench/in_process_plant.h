@@ -1,5 +1,5 @@
 // The plant in the same process and thread: a message is a call, and when it returns the answer has
-// been heard.
+// been heard; complaints about commands at the end of the exchange (turn_answers.h).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,9 @@
 #include "emulator/plant_node.h"
 #include "harness/bench/peer_control.h"
 #include "harness/bench/plant_end.h"
+#include "harness/bench/turn_answers.h"
 #include "harness/bench/unrecorded_plant.h"
+#include "protocol/each_message.h"
 
 namespace towbench::harness {
 
@@ -23,12 +25,15 @@ class InProcessPlant final : public PlantEnd, public PeerControl {
     node_.emplace(rig, seed, events, observer);
   }
 
-  [[nodiscard]] protocol::MessageSink& sink() noexcept override { return *node_; }
+  [[nodiscard]] protocol::MessageSink& sink() noexcept override { return commands_; }
   void connect(protocol::MessageSink& controller) noexcept override {
-    controller_ = &controller;
-    node_->connect(controller);
+    answers_.connect(controller);
+    node_->connect(answers_);
   }
-  [[nodiscard]] core::Status wait_for(protocol::Turn /*expected*/) noexcept override { return {}; }
+  [[nodiscard]] core::Status wait_for(protocol::Turn /*expected*/) noexcept override {
+    answers_.deliver();
+    return {};
+  }
   [[nodiscard]] bool happen(const emulator::ScheduledEvent& event) override {
     node_->add_event(event);
     return true;
@@ -40,8 +45,9 @@ class InProcessPlant final : public PlantEnd, public PeerControl {
   }
   // The new one was greeted by nobody: it refuses what it is told.
   [[nodiscard]] core::ErrorCode restart_peer() noexcept override {
+    answers_.forget();
     node_.emplace(rig_, seed_, std::span<const emulator::ScheduledEvent>{}, unrecorded_);
-    node_->connect(*controller_);
+    node_->connect(answers_);
     return core::ErrorCode::kNone;
   }
   // As the driver of a node that is off the bus.
@@ -50,10 +56,20 @@ class InProcessPlant final : public PlantEnd, public PeerControl {
   }
 
  private:
+  struct Commands final : protocol::EachMessage<Commands> {
+    explicit Commands(InProcessPlant& owner) noexcept : plant(owner) {}
+    template <typename Message>
+    void handle(const Message& message) noexcept {
+      plant.answers_.give(message, *plant.node_);
+    }
+    InProcessPlant& plant;
+  };
+
   emulator::RigParameters rig_;
   std::uint64_t seed_;
   UnrecordedPlant unrecorded_;
-  protocol::MessageSink* controller_ = nullptr;
+  TurnAnswers answers_;
+  Commands commands_{*this};
   std::optional<emulator::PlantNode> node_;
 };
 

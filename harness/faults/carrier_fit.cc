@@ -17,6 +17,14 @@ std::string_view why_not_over(CarrierKind carrier, FaultKind fault) noexcept {
         return "needs a CAN bus: there is none to leave";
       }
       return {};
+    case FaultKind::kReorder:
+      return carrier == CarrierKind::kCan ? "a bus does not reorder: a node's frames leave in "
+                                            "order, and all hear them at once"
+                                          : "";
+    case FaultKind::kCorruptByte:
+      return carrier == CarrierKind::kCan ? "a bus repeats what its own checksum finds damaged: "
+                                            "what is left is loss, or bus_off"
+                                          : "";
     case FaultKind::kPeerRestart:
       return is_socket ? "a socket ends with its process: there it is peer_killed" : "";
     case FaultKind::kKilledWhileLogging:

@@ -1,5 +1,5 @@
-// Which carrier can have which fault: a bus has no baud rate of its own to disagree about, a socket
-// nothing to leave.
+// Which carrier can have which fault: a bus has no baud rate of its own to disagree about and keeps
+// its order, a socket has nothing to leave.
 #pragma once
 
 #include <cstdint>

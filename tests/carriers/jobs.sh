@@ -203,7 +203,7 @@ in_machine() {
   job 'a send queue that stays full in a run leaves both sides safe' send_queue_stays_full
   job "a node that babbles with the bench's identifiers leaves both sides safe" node_babbles
   job 'a flood of foreign frames changes no verdict' flood_of_foreign_frames
-  job 'faults over CAN: bus-off, a plant killed and restarted, a killed controller, lost frames' faults_over_can
+  job 'faults over CAN: bus-off, a plant killed and restarted, a killed controller, lost and doubled frames' faults_over_can
   job "can-utils play the bench's candump.log" candump_is_played
 }
 
