@@ -28,6 +28,8 @@ namespace {
 using procedures::ChainResult;
 using procedures::ProcedureOutcome;
 
+constexpr double kSpread = 0.4;  // of drawn machines, experiments.md
+
 struct Options {
   std::string rig;
   std::string controller;
@@ -43,6 +45,7 @@ struct Options {
   std::string data;
   std::string columns;
   std::uint64_t drawn = 0;
+  std::uint64_t machine = 0;
   std::uint64_t seeds = 1;
   std::size_t workers = 1;
 };
@@ -208,6 +211,7 @@ int execute_set(const Options& options, const Bench& bench) {
                         .out = options.out,
                         .machines = options.drawn,
                         .seeds = options.seeds,
+                        .spread = kSpread,
                         .workers = options.workers,
                         .axes = axes_of(options.axis),
                         .stop = &stop_requested(),
@@ -234,7 +238,7 @@ int execute_set(const Options& options, const Bench& bench) {
 }
 
 int execute(const Options& options) {
-  const auto bench = bench_of(options);
+  auto bench = bench_of(options);
   if (!options.data.empty()) {
     return execute_on_log(options, bench);
   }
@@ -243,6 +247,7 @@ int execute(const Options& options) {
   }
   const auto all = procedures::identification_procedures();
   refuse_unknown(options.only, all);
+  bench.rig = drawn_machine(std::move(bench.rig), options.machine, kSpread);
   std::filesystem::create_directories(options.out);
   const LoopWatchers watchers{.stop = &stop_requested(), .progress = {}};
   const procedures::Machine machine(bench.rig, bench.controller, options.seed, watchers);
@@ -251,8 +256,8 @@ int execute(const Options& options) {
       .axes = axes_of(options.axis),
       .settings = bench.settings,
       .out = options.out,
-      .fingerprint =
-          fmt::format("{:016x}-{:016x}-{}", bench.rig.hash, bench.controller.hash, options.seed),
+      .fingerprint = fmt::format("{:016x}-{:016x}-{}-{}", bench.rig.hash, bench.controller.hash,
+                                 options.machine, options.seed),
       .resume = options.resume,
       .progress = [&](const std::string& what,
                       double share) { show_progress(what, share, !options.quiet); },
@@ -294,6 +299,9 @@ void add_identify(CLI::App& app, int& exit_code) {
   verb->add_option("--drawn", options->drawn,
                    "so many machines, the first nominal, the rest drawn within 40 %")
       ->check(CLI::Range(1, 1000));
+  verb->add_option("--machine", options->machine,
+                   "the machine of that number in such a set, 0: the rig itself")
+      ->check(CLI::Range(0, 999));
   verb->add_option("--seeds", options->seeds, "with --drawn: seeds of each")
       ->check(CLI::Range(1, 10000));
   verb->add_option("--workers", options->workers, "with --drawn: processes at once")
@@ -301,6 +309,7 @@ void add_identify(CLI::App& app, int& exit_code) {
   verb->footer(
       "Example: towbench identify fixtures/rigs/tow-dry.toml --out identified\n"
       "         towbench identify --data log.csv --axis y --columns map.toml\n"
+      "         towbench identify --machine 2 --axis x --only EXP-P-1 --only EXP-P-3\n"
       "         towbench identify --drawn 10 --seeds 40 --workers 2 --out set   (hours; "
       "continues)\n"
       "Writes estimates.json, identified_plant.toml, report.html. Exit: 0 all experiments done,\n"

@@ -1,6 +1,8 @@
 #include "harness/identify/drive_constants.h"
 
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace towbench::harness::identify {
 namespace {
@@ -10,41 +12,54 @@ struct Slope {
   double deviation = 0;
 };
 
-// y over x, one line for each direction with a slope in common.
+// Runs over one stretch in one direction share their friction.
+using Group = std::pair<bool, int>;
+
+Group group_of(const PushedRun& run) {
+  return {run.towards_max, run.stretch};
+}
+
+// y over x, one line for each group with a slope in common.
 template <typename X, typename Y>
 Slope common_slope(const std::vector<PushedRun>& runs, X x_of, Y y_of) {
+  constexpr std::size_t kEnough = 8;  // degrees of freedom to judge by
+  struct Sums {
+    double n = 0;
+    double x = 0;
+    double y = 0;
+  };
+  std::map<Group, Sums> groups;
+  for (const auto& run : runs) {
+    auto& sums = groups[group_of(run)];
+    sums.n += 1;
+    sums.x += x_of(run).value;
+    sums.y += y_of(run).value;
+  }
+  const auto centred = [&](const PushedRun& run) {
+    const auto& sums = groups.at(group_of(run));
+    return std::pair(x_of(run).value - sums.x / sums.n, y_of(run).value - sums.y / sums.n);
+  };
   double xx = 0;
   double xy = 0;
-  double noise = 0;
-  for (const bool direction : {true, false}) {
-    double n = 0;
-    double mx = 0;
-    double my = 0;
-    for (const auto& run : runs) {
-      if (run.towards_max == direction) {
-        n += 1;
-        mx += x_of(run).value;
-        my += y_of(run).value;
-      }
-    }
-    if (n < 2) {
-      continue;
-    }
-    for (const auto& run : runs) {
-      if (run.towards_max == direction) {
-        const double dx = x_of(run).value - mx / n;
-        xx += dx * dx;
-        xy += dx * (y_of(run).value - my / n);
-      }
-    }
+  for (const auto& run : runs) {
+    const auto [x, y] = centred(run);
+    xx += x * x;
+    xy += x * y;
   }
   Slope slope;
   slope.value = xx > 0 ? xy / xx : 0;
+  double left = 0;
+  double given = 0;
   for (const auto& run : runs) {
+    const auto [x, y] = centred(run);
+    left += (y - slope.value * x) * (y - slope.value * x);
     const double e = std::hypot(y_of(run).deviation, slope.value * x_of(run).deviation);
-    noise += e * e;
+    given += e * e / static_cast<double>(runs.size());
   }
-  slope.deviation = xx > 0 ? std::sqrt(noise / static_cast<double>(runs.size()) / xx) : 0;
+  const std::size_t used = groups.size() + 1;
+  const bool enough = runs.size() >= used + kEnough;
+  const double noise = enough ? left / static_cast<double>(runs.size() - used) : given;
+  slope.deviation = xx > 0 ? std::sqrt(noise / xx) : 0;
   return slope;
 }
 

@@ -4,7 +4,8 @@
 //   i = K_amp v_c                              v_c = duty x PWM amplitude
 //
 // Friction is the same in runs of one direction at one speed over one stretch, and so are the
-// biases of both sensors within one session: only differences count.
+// biases of both sensors within one session: only differences count. With ten stretches a run or
+// more, how far their slopes lie apart tells how sure they are; with fewer, the deviations given.
 #pragma once
 
 #include <vector>
@@ -15,6 +16,7 @@ namespace towbench::harness::identify {
 
 struct PushedRun {
   bool towards_max = true;
+  int stretch = 0;  // of the way: friction may differ from one to the next
   Mean current_A;
   Mean force_N;
   Mean command_V;

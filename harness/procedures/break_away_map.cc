@@ -33,6 +33,7 @@ struct Settings {
 };
 
 constexpr int kRepeatsATalk = 40;
+constexpr double kNormal95 = 1.959964;
 
 class BreakAwayMap final : public Procedure {
  public:
@@ -134,9 +135,9 @@ class BreakAwayMap final : public Procedure {
       }
       const double value = sum / n;
       const double spread = std::sqrt(std::max(0.0, square / n - value * value) / (n - 1));
-      // The level is known to within a step either way (one early: the chain's swing helps; one
-      // late: slipping starts slowly), and every ramp of a stretch misses it alike.
-      const double resolution = step / std::sqrt(3.0);
+      // Anywhere between two levels, and every ramp of a stretch misses it alike: the middle 95 %
+      // of an even spread.
+      const double resolution = 0.95 * 0.5 * step / kNormal95;
       outcome.estimates.push_back(identify::with_deviation(
           {.quantity = "breakaway_Nm",
            .axis = std::string(core::name_of(context.axis)),

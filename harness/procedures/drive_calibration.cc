@@ -29,6 +29,7 @@ struct Settings {
 
 constexpr double kWait_s = 1;
 constexpr double kRise_s = 0.3;
+constexpr int kStretches = 10;  // of each pushed run
 
 class DriveCalibration final : public Procedure {
  public:
@@ -52,16 +53,23 @@ class DriveCalibration final : public Procedure {
     for (int i = 0; i < 4; ++i) {
       // The middle of the pushed stretch: the chain has come to rest.
       const double start_s = 1 + i * every_s + kWait_s + kRise_s;
-      const auto from = identify::row_at(data, start_s + 0.35 * cruise_s);
-      const auto to = identify::row_at(data, start_s + 0.78 * cruise_s);
-      identify::PushedRun run;
-      run.towards_max = i % 2 == 0;
-      run.current_A = identify::mean_of(data.axes[context.axis].current_A, from, to);
-      run.force_N = identify::mean_of(data.force_N[context.axis], from, to);
-      run.command_V = identify::mean_of(data.axes[context.axis].duty_pct, from, to);
-      run.command_V.value *= plate.pwm_amplitude_V / 100;
-      run.command_V.deviation *= plate.pwm_amplitude_V / 100;
-      runs.push_back(run);
+      for (int stretch = 0; stretch < kStretches; ++stretch) {
+        const auto edge = [&](int of) {
+          const double share = 0.35 + (0.78 - 0.35) * of / kStretches;
+          return identify::row_at(data, start_s + share * cruise_s);
+        };
+        const auto from = edge(stretch);
+        const auto to = edge(stretch + 1);
+        identify::PushedRun run;
+        run.towards_max = i % 2 == 0;
+        run.stretch = stretch;
+        run.current_A = identify::mean_of(data.axes[context.axis].current_A, from, to);
+        run.force_N = identify::mean_of(data.force_N[context.axis], from, to);
+        run.command_V = identify::mean_of(data.axes[context.axis].duty_pct, from, to);
+        run.command_V.value *= plate.pwm_amplitude_V / 100;
+        run.command_V.deviation *= plate.pwm_amplitude_V / 100;
+        runs.push_back(run);
+      }
     }
     return judged(context, runs);
   }
@@ -152,9 +160,12 @@ class DriveCalibration final : public Procedure {
         "their drawings, no loss in the gear");
     add("amplifier_gain_A_per_V", found.amplifier_gain_A_per_V, found.amplifier_gain_deviation,
         "A/V", "current monitor over the mean of the duty written");
-    ResultTable table{.title = "Steady runs under a push",
+    ResultTable table{.title = "Steady runs under a push, the middle stretch of each",
                       .head = {"direction", "force, N", "current, A", "command, V"}};
     for (const auto& run : runs) {
+      if (run.stretch != kStretches / 2) {
+        continue;
+      }
       table.rows.push_back({run.towards_max ? "+" : "-", fmt::format("{:.3f}", run.force_N.value),
                             fmt::format("{:.4f}", run.current_A.value),
                             fmt::format("{:.4f}", run.command_V.value)});

@@ -1,17 +1,21 @@
 // EXP-P-5: the safe range of motion (thesis 4.1.2): each hall switch approached below the speed
 // that can be stopped before the hard end, by the controller's own homing.
 //
-// The min switch is the origin. Coming to the max switch the controller declares where it stands by
-// its belief of the distance; by how much its count is shifted is what that belief was off.
+// A switch acts on the carriage, the encoder sits on the motor, and at the edge the chain between
+// them is stretched by some hundred counts. Homing takes that off by its belief of friction and
+// chain. Here it is taken off again from the log, by the torque at the edge and the chain and the
+// motor's friction that the pulses have found (switch_study.h); so this comes after them. The
+// searches, many times faster, must tell the same to within a row's way. The min switch is the
+// origin.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include <fmt/format.h>
 
 #include "harness/procedures/believed_model.h"
 #include "harness/procedures/procedures.h"
 #include "harness/procedures/settings.h"
+#include "harness/procedures/switch_study.h"
 
 namespace towbench::harness::procedures {
 namespace {
@@ -26,57 +30,6 @@ struct Settings {
     v.value("near_m", near_m, core::between(0.02, 0.5), "from a soft limit, where homing begins");
   }
 };
-
-struct Range {
-  double shift_counts = 0;  // of the max switch against belief
-  double beyond_min_m = 0;  // furthest beyond each switch
-  double beyond_max_m = 0;
-  bool found = false;
-};
-
-// A jump of the reference while it stands: there the controller declared its place.
-struct Declared {
-  std::size_t row = 0;  // the first in the new frame
-  double shift_counts = 0;
-};
-
-std::vector<Declared> declared_in(const identify::Recording& data, core::Axis axis) {
-  std::vector<Declared> found;
-  const auto& columns = data.axes[axis];
-  for (std::size_t k = 2; k + 1 < data.rows(); ++k) {
-    const double jump = columns.reference_m[k] - columns.reference_m[k - 1];
-    const bool stands = columns.reference_velocity_m_per_s[k] == 0 &&
-                        columns.reference_velocity_m_per_s[k - 1] == 0;
-    if (stands && std::fabs(jump) > 0.4 * data.metres_per_count[axis]) {
-      found.push_back({k, std::round(jump / data.metres_per_count[axis])});
-    }
-  }
-  return found;
-}
-
-// In the frame of the min switch, which the first declaration begins and the last one ends.
-Range range_of(const identify::Recording& data, core::Axis axis,
-               const bbmc::AxisConfiguration& belief) {
-  Range range;
-  const double m = data.metres_per_count[axis];
-  const double low_m = belief.position_m(belief.ends.hall_min_count);
-  const double high_m = belief.position_m(belief.ends.hall_max_count);
-  Declared first{};
-  Declared last{.row = data.rows()};
-  for (const auto& each : declared_in(data, axis)) {
-    const bool at_max = data.position_m(axis, each.row) > 0.5 * (low_m + high_m);
-    (at_max ? last : first) = each;
-  }
-  // A switch exactly where it was believed makes no jump.
-  range.found = first.row < last.row;
-  range.shift_counts = last.shift_counts;
-  for (std::size_t k = 0; k < last.row; ++k) {
-    const double x = data.position_m(axis, k) + (k < first.row ? first.shift_counts * m : 0.0);
-    range.beyond_min_m = std::max(range.beyond_min_m, low_m - x);
-    range.beyond_max_m = std::max(range.beyond_max_m, x - (high_m - last.shift_counts * m));
-  }
-  return range;
-}
 
 class SafeRange final : public Procedure {
  public:
@@ -98,31 +51,49 @@ class SafeRange final : public Procedure {
     const double room_max_m =
         belief.m_per_count() *
         static_cast<double>(belief.ends.hard_max_count - belief.ends.hall_max_count);
-    std::vector<double> shifts;
-    ResultTable table{
-        .title = "Approaches",
-        .head = {"max switch against belief, counts", "furthest beyond min switch, mm (room)",
-                 "beyond max switch, mm (room)"}};
+    const auto [chain, doubts, known] = known_chain(context);
+    const double slow_m_per_s = belief.homing.approach_speed_m_per_s;
+    std::vector<Edges> all;
+    std::vector<double> doubted(doubts.size(), 0.0);
+    ResultTable table{.title = "Approaches",
+                      .head = {"between the motor's counts at the edges", "the chain's stretch",
+                               "between the switches, counts", "the same at seeking speed",
+                               "furthest beyond min switch, mm (room)",
+                               "beyond max switch, mm (room)", "controller's own shift, counts"}};
     for (int i = 0; i < settings.repeats; ++i) {
       const auto data = play(context, settings, track, i);
       if (!data.trouble.empty()) {
         return ProcedureOutcome::failed(data.trouble);
       }
-      const auto range = range_of(data, context.axis, belief);
-      if (!range.found) {
-        return ProcedureOutcome::failed("the log does not show where the max switch was declared");
+      const auto approaches = identify::find_switch_approaches(data, context.axis, slow_m_per_s);
+      if (approaches.size() != 2 || approaches[0].outward > 0 || approaches[1].outward < 0 ||
+          approaches[0].fast_edge < approaches[0].fast_from + kSeek_rows ||
+          approaches[1].fast_edge < approaches[1].fast_from + kSeek_rows) {
+        return ProcedureOutcome::failed("the log does not show where the switches closed");
       }
-      if (range.beyond_min_m > room_min_m || range.beyond_max_m > room_max_m) {
+      const SwitchStudy study(data, context.axis, approaches);
+      const double beyond_min_m = study.beyond_m(approaches[0]);
+      const double beyond_max_m = study.beyond_m(approaches[1]);
+      if (beyond_min_m > room_min_m || beyond_max_m > room_max_m) {
         return ProcedureOutcome::failed("the approach went as far as the hard end should be");
       }
-      shifts.push_back(range.shift_counts);
-      table.rows.push_back(
-          {fmt::format("{:+.0f}", -range.shift_counts),
-           fmt::format("{:.2f} ({:.2f})", 1e3 * range.beyond_min_m, 1e3 * room_min_m),
-           fmt::format("{:.2f} ({:.2f})", 1e3 * range.beyond_max_m, 1e3 * room_max_m)});
+      const auto edges = study.edges(chain);
+      for (std::size_t k = 0; k < doubts.size(); ++k) {
+        auto other = chain;
+        other.*doubts[k].what += doubts[k].deviation;
+        doubted[k] += (study.edges(other).slow_counts - edges.slow_counts) / settings.repeats;
+      }
+      all.push_back(edges);
+      table.rows.push_back({fmt::format("{:.1f}", edges.motor_counts),
+                            fmt::format("{:+.1f}", edges.slow_counts - edges.motor_counts),
+                            fmt::format("{:.1f}", edges.slow_counts),
+                            fmt::format("{:.1f}", edges.fast_counts),
+                            fmt::format("{:.2f} ({:.2f})", 1e3 * beyond_min_m, 1e3 * room_min_m),
+                            fmt::format("{:.2f} ({:.2f})", 1e3 * beyond_max_m, 1e3 * room_max_m),
+                            fmt::format("{:+.0f}", approaches[1].shift_counts)});
       context.tell(static_cast<double>(i + 1) / settings.repeats);
     }
-    return judged(context, belief, shifts, std::move(table));
+    return judged(context, belief, all, doubted, known, std::move(table));
   }
 
  private:
@@ -147,22 +118,21 @@ class SafeRange final : public Procedure {
 
   static ProcedureOutcome judged(const ProcedureContext& context,
                                  const bbmc::AxisConfiguration& belief,
-                                 const std::vector<double>& shifts, ResultTable table) {
-    // What the stretch of the chain at each switch, which homing takes off by its belief of
-    // friction (homing.h), is off by on a machine nobody knows yet: up to 15 counts were seen.
-    constexpr double kLead_counts = 8;
-    const auto n = static_cast<double>(shifts.size());
+                                 const std::vector<Edges>& all, const std::vector<double>& doubted,
+                                 bool identified, ResultTable table) {
+    const auto n = static_cast<double>(all.size());
     double mean = 0;
-    for (const double each : shifts) {
-      mean += each / n;
+    for (const auto& each : all) {
+      mean += each.slow_counts / n;
     }
-    double square = kLead_counts * kLead_counts;
-    for (const double each : shifts) {
-      square += (each - mean) * (each - mean) / (n - 1) / n;
+    double square = kEdge_counts * kEdge_counts;
+    for (const auto& each : all) {
+      square += (each.slow_counts - mean) * (each.slow_counts - mean) / (n - 1) / n;
+    }
+    for (const double each : doubted) {
+      square += each * each;
     }
     const double m = belief.m_per_count();
-    const double believed_m =
-        static_cast<double>(belief.ends.hall_max_count - belief.ends.hall_min_count) * m;
     ProcedureOutcome outcome;
     const auto add = [&](const char* quantity, double value) {
       outcome.estimates.push_back(identify::with_deviation(
@@ -170,17 +140,24 @@ class SafeRange final : public Procedure {
            .axis = std::string(core::name_of(context.axis)),
            .value = value,
            .unit = "m",
-           .rests_on = fmt::format("{} approaches at the controller's homing speed; the min switch "
-                                   "is the origin",
-                                   shifts.size()),
+           .rests_on = fmt::format(
+               "{} approaches at the controller's homing speed, less the chain's stretch by "
+               "the torque at the edge with {}; the min switch is the origin",
+               all.size(),
+               identified ? "the chain and friction of EXP-OL-2"
+                          : "a chain and friction that were only believed"),
            .procedure = "EXP-P-5"},
           std::sqrt(square) * m));
     };
-    add("hall_distance_m", believed_m - mean * m);
-    add("hall_max_m", belief.position_m(belief.ends.hall_max_count) - 0.5 * m - mean * m);
+    add("hall_distance_m", mean * m);
+    add("hall_max_m", static_cast<double>(belief.ends.hall_min_count) * m + mean * m);
     outcome.tables.push_back(std::move(table));
     return outcome;
   }
+
+  static constexpr std::size_t kSeek_rows = 100;
+  // A switch's own delay, the row in which it closed, the encoder's phase: of both edges.
+  static constexpr double kEdge_counts = 2;
 };
 
 }  // namespace

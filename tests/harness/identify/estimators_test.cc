@@ -32,6 +32,32 @@ TEST(DriveConstants, AreTheSlopesWhateverFrictionAndBiasAre) {
   EXPECT_GT(found.torque_constant_deviation, 0);
 }
 
+// Friction of the place would look like noise of the current, twenty times what is there.
+TEST(DriveConstants, AreAsSureAsStretchesOfTheSameWayAgree) {
+  constexpr double kRadius = 1.43e-3;
+  core::Random random(3);
+  std::vector<PushedRun> runs;
+  for (int stretch = 0; stretch < 10; ++stretch) {
+    for (const bool up : {true, false}) {
+      for (const double force : {15.0, -15.0}) {
+        const double friction = (up ? 1 : -1) * (2e-3 + 1e-4 * stretch * stretch);
+        const double current = (friction - kRadius * force) / 0.03 + 1e-4 * random.gaussian();
+        runs.push_back({.towards_max = up,
+                        .stretch = stretch,
+                        .current_A = {current, 0.02},
+                        .force_N = {force, 0.02},
+                        .command_V = {current / 0.4, 0.02}});
+      }
+    }
+  }
+  const auto found = find_drive_constants(runs, kRadius);
+  ASSERT_TRUE(found.found);
+  // 1e-4 A over sqrt(40) x 0.715 A of current from the push.
+  EXPECT_NEAR(found.torque_constant_deviation / 0.03, 1e-4 / std::sqrt(40.0) / 0.715, 1e-5);
+  EXPECT_NEAR(found.torque_constant_Nm_per_A, 0.03, 3 * found.torque_constant_deviation);
+  EXPECT_LT(found.amplifier_gain_deviation, 1e-9);  // the current is the command's
+}
+
 TEST(DriveConstants, AreNotFoundWithoutAPush) {
   std::vector<PushedRun> runs(4);
   for (auto& run : runs) {
