@@ -143,8 +143,9 @@ class Run {
   }
   static bool takes_edges(const RunOptions& options) {
     const auto kind = kind_of(options);
+    const bool only_when_time_waits = kind == CarrierKind::kSerial || kind == CarrierKind::kCanFd;
     return kind != CarrierKind::kCan &&
-           (kind != CarrierKind::kSerial || options.clock == RunClock::kLockstep);
+           (!only_when_time_waits || options.clock == RunClock::kLockstep);
   }
   static std::unique_ptr<FaultedExperiment> faults_of(const ExperimentFixture& fixture,
                                                       const RunOptions& options) {

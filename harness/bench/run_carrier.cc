@@ -1,6 +1,7 @@
 #include "harness/bench/run_carrier.h"
 
 #include "harness/fixtures/fixture_error.h"
+#include "protocol/carriers/paced_can.h"
 
 namespace towbench::harness {
 
@@ -17,7 +18,7 @@ void choose_carrier(const std::string& text, RunOptions& options) {
   } else {
     throw FixtureError({"command line", 0, "--carrier"}, '"' + text + '"',
                        "in-process, local, serial-pty, serial:DEVICE,DEVICE[@BAUD] or "
-                       "can:INTERFACE[,INTERFACE][@BIT/S]");
+                       "can:INTERFACE[,INTERFACE][@BIT/S[/BIT/S] or @fd]");
   }
 }
 
@@ -32,7 +33,10 @@ CarrierKind kind_of(const RunOptions& options) noexcept {
     case Carrier::kWire:
       break;
   }
-  return kind_of(options.wire->controller.scheme);
+  const auto& address = options.wire->controller;
+  const bool is_fd =
+      address.scheme == protocol::Scheme::kCan && protocol::named_bus(address.place)->is_fd;
+  return is_fd ? CarrierKind::kCanFd : kind_of(address.scheme);
 }
 
 }  // namespace towbench::harness

@@ -10,8 +10,8 @@ namespace towbench::harness {
 
 inline constexpr const char* kCarrierHelp =
     "in-process; local: the emulator in a process of its own; serial-pty: the same over two "
-    "pseudo-terminals; serial:DEVICE,DEVICE[@BAUD] or can:INTERFACE[,INTERFACE]: the same over "
-    "wires";
+    "pseudo-terminals; serial:DEVICE,DEVICE[@BAUD] or can:INTERFACE[,INTERFACE][@fd]: the same "
+    "over wires";
 
 // One of these; empty: in-process. Throws FixtureError.
 void choose_carrier(const std::string& text, RunOptions& options);

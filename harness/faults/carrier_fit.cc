@@ -6,9 +6,10 @@ namespace towbench::harness {
 
 std::string_view why_not_over(CarrierKind carrier, FaultKind fault) noexcept {
   const bool is_socket = carrier == CarrierKind::kLocal;
+  const bool is_bus = carrier == CarrierKind::kCan || carrier == CarrierKind::kCanFd;
   switch (fault) {
     case FaultKind::kBaudMismatch:
-      if (is_socket || carrier == CarrierKind::kCan) {
+      if (is_socket || is_bus) {
         return "needs a serial line: no other carrier has two ends with a baud rate each";
       }
       return {};
@@ -18,13 +19,13 @@ std::string_view why_not_over(CarrierKind carrier, FaultKind fault) noexcept {
       }
       return {};
     case FaultKind::kReorder:
-      return carrier == CarrierKind::kCan ? "a bus does not reorder: a node's frames leave in "
-                                            "order, and all hear them at once"
-                                          : "";
+      return is_bus ? "a bus does not reorder: a node's frames leave in "
+                      "order, and all hear them at once"
+                    : "";
     case FaultKind::kCorruptByte:
-      return carrier == CarrierKind::kCan ? "a bus repeats what its own checksum finds damaged: "
-                                            "what is left is loss, or bus_off"
-                                          : "";
+      return is_bus ? "a bus repeats what its own checksum finds damaged: "
+                      "what is left is loss, or bus_off"
+                    : "";
     case FaultKind::kPeerRestart:
       return is_socket ? "a socket ends with its process: there it is peer_killed" : "";
     case FaultKind::kKilledWhileLogging:
@@ -44,8 +45,8 @@ std::string_view why_not_by_hand(const FaultRow& row) noexcept {
 }
 
 std::string_view name_of(CarrierKind carrier) noexcept {
-  constexpr std::array<std::string_view, 4> kNames{"in-process", "local socket", "serial line",
-                                                   "CAN"};
+  constexpr std::array<std::string_view, 5> kNames{"in-process", "local socket", "serial line",
+                                                   "CAN", "CAN FD"};
   return kNames[static_cast<std::size_t>(carrier)];
 }
 

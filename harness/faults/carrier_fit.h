@@ -10,7 +10,7 @@
 
 namespace towbench::harness {
 
-enum class CarrierKind : std::uint8_t { kInProcess, kLocal, kSerial, kCan };
+enum class CarrierKind : std::uint8_t { kInProcess, kLocal, kSerial, kCan, kCanFd };
 
 // Why a fault cannot happen there, in one line; empty: it can.
 [[nodiscard]] std::string_view why_not_over(CarrierKind carrier, FaultKind fault) noexcept;

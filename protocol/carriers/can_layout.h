@@ -2,7 +2,7 @@
 // and compares.
 //
 // The lower an identifier, the earlier it wins the bus: end of the run and faults, then lines, then
-// duty, then the digest, then lockstep, then everything long.
+// duty, then the digest or the edges, then lockstep, then everything long.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,7 @@ inline constexpr std::uint32_t kLines = 0x080;
 inline constexpr std::uint32_t kDuty = 0x100;
 inline constexpr std::uint32_t kIndex = 0x180;
 inline constexpr std::uint32_t kDigest = 0x190;
+inline constexpr std::uint32_t kEdges = 0x1a0;  // FD frames
 // + the direction: Advance goes to the plant, Advanced to the controller.
 inline constexpr std::uint32_t kLockstep = 0x200;
 inline constexpr std::uint32_t kLong = 0x600;

@@ -7,12 +7,17 @@ constexpr CanDirection opposite(CanDirection direction) noexcept {
   return direction == CanDirection::kToPlant ? CanDirection::kToController : CanDirection::kToPlant;
 }
 
+std::uint64_t bits_of(const CanFrame& frame) noexcept {
+  const CanFdBits fd = worst_can_fd_bits(frame.size);
+  return frame.is_fd ? fd.nominal + fd.data : worst_can_bits(frame.size);
+}
+
 }  // namespace
 
 CanLink::CanLink(CanPort& port, CanDirection direction, core::Nanoseconds silence_limit_ns) noexcept
     : TurnLink(silence_limit_ns),
       port_(port),
-      writer_(*this, direction),
+      writer_(*this, direction, port.carries_fd()),
       unpacker_(opposite(direction)) {}
 
 void CanLink::Queue::on(const CanFrame& frame) noexcept {
@@ -31,8 +36,11 @@ void CanLink::Queue::flush() noexcept {
   status = link.port_.send(turn);
   if (status.has_value()) {
     link.writer_.frames_sent += turn.size();
-    for (std::size_t i = 0; link.log_ != nullptr && i < turn.size(); ++i) {
-      link.log_->on(turn[i]);
+    for (const CanFrame& frame : turn) {
+      link.writer_.bits_sent += bits_of(frame);
+      if (link.log_ != nullptr) {
+        link.log_->on(frame);
+      }
     }
   }
 }
@@ -53,7 +61,8 @@ core::Result<CanLink::Progress> CanLink::read_once(core::Nanoseconds timeout_ns)
     if (log_ != nullptr) {
       log_->on(received_[i]);
     }
-    unpacker_.take(received_[i], watch());
+    bits_received_ += bits_of(received_[i]);
+    unpacker_.take(received_[i], hearer_);
   }
   return Progress::kSomething;
 }

@@ -4,9 +4,10 @@
 // but only one in fifty becomes a frame, which tells that its side lives; the rest would be a third
 // of the bus.
 //
-// A bus carries the digest, not edges, so this takes "edges" out of the capabilities of the Hello
-// that it sends: the plant then chooses what the bus can carry. A bus has no end of stream: a peer
-// that dies is noticed after the silence limit.
+// A classic bus carries the digest, not edges, so this takes "edges" out of the capabilities of the
+// Hello that it sends and of the one that it hears: the plant then chooses what both ends can
+// carry. Edges go over FD frames, where the port has them. A bus has no end of stream: a peer that
+// dies is noticed after the silence limit.
 #pragma once
 
 #include <array>
@@ -36,6 +37,9 @@ class CanLink final : public TurnLink {
   [[nodiscard]] MessageSink& peer() noexcept override { return writer_; }
   [[nodiscard]] const LinkCounts& counts() const noexcept override { return unpacker_.counts(); }
   [[nodiscard]] std::uint64_t frames_sent() const noexcept { return writer_.frames_sent; }
+  // With the worst stuffing, both rates of FD frames together.
+  [[nodiscard]] std::uint64_t bits_sent() const noexcept { return writer_.bits_sent; }
+  [[nodiscard]] std::uint64_t bits_received() const noexcept { return bits_received_; }
   [[nodiscard]] std::uint64_t frames_received() const noexcept { return frames_received_; }
   // Messages that CAN does not carry, and reports that could not be expanded (can_unpacker.h).
   [[nodiscard]] std::uint64_t refused() const noexcept { return writer_.packer.refused(); }
@@ -61,17 +65,19 @@ class CanLink final : public TurnLink {
       std::is_same_v<Message, Heartbeat>;
   static constexpr std::uint64_t kTurnsBetweenSigns = 50;
   struct Writer final : EachMessage<Writer> {
-    Writer(CanLink& owner, CanDirection direction) noexcept
-        : queue(owner), packer(direction, queue) {}
+    Writer(CanLink& owner, CanDirection direction, bool carries_fd) noexcept
+        : queue(owner),
+          capabilities(carries_fd ? ~0U : ~kCapabilityEdges),
+          packer(direction, queue, carries_fd) {}
     template <typename Message>
     void handle(const Message& message) noexcept {
       if constexpr (std::is_same_v<Message, Hello>) {
         Hello ours = message;
-        ours.capabilities &= ~kCapabilityEdges;
+        ours.capabilities &= capabilities;
         packer.on(ours);
       } else if constexpr (std::is_same_v<Message, HelloReply>) {
         HelloReply ours = message;
-        ours.plant.capabilities &= ~kCapabilityEdges;
+        ours.plant.capabilities &= capabilities;
         packer.on(ours);
       } else if constexpr (kTellsTimeOnly<Message>) {
         if (!quiet || time_messages++ % kTurnsBetweenSigns == 0) {
@@ -86,10 +92,27 @@ class CanLink final : public TurnLink {
     }
 
     Queue queue;
+    std::uint32_t capabilities;  // of any side on this bus
     CanPacker packer;
     std::uint64_t frames_sent = 0;
+    std::uint64_t bits_sent = 0;
     bool quiet = false;
     std::uint64_t time_messages = 0;
+  };
+
+  // On to the watch; what the bus cannot carry is not heard of.
+  struct Hearer final : EachMessage<Hearer> {
+    explicit Hearer(CanLink& owner) noexcept : link(owner) {}
+    template <typename Message>
+    void handle(const Message& message) noexcept {
+      link.watch().on(message);
+    }
+    void handle(const Hello& message) noexcept {
+      Hello theirs = message;
+      theirs.capabilities &= link.writer_.capabilities;
+      link.watch().on(theirs);
+    }
+    CanLink& link;
   };
 
   core::Result<Progress> read_once(core::Nanoseconds timeout_ns) noexcept override;
@@ -98,7 +121,9 @@ class CanLink final : public TurnLink {
   CanFrameSink* log_ = nullptr;
   Writer writer_;
   CanUnpacker unpacker_;
+  Hearer hearer_{*this};
   std::uint64_t frames_received_ = 0;
+  std::uint64_t bits_received_ = 0;
   std::array<CanFrame, 64> received_{};
 };
 

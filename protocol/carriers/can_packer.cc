@@ -3,6 +3,7 @@
 #include <array>
 #include <type_traits>
 
+#include "protocol/carriers/can_fd_segments.h"
 #include "protocol/carriers/can_segments.h"
 #include "protocol/codec.h"
 
@@ -48,6 +49,17 @@ bool CanPacker::pack(const PwmDuty& m) noexcept {
                        kDutyChannelA.put(m.channel_a_ticks) | kDutyChannelB.put(m.channel_b_ticks) |
                            kDutyPeriod.put(m.period_ticks) | kDutyEnable.put(m.enable ? 1U : 0U) |
                            kDutySequence.put(m.sequence));
+}
+
+bool CanPacker::pack(const EncoderEdges& m) noexcept {
+  if (!carries_fd_) {
+    return false;
+  }
+  std::array<std::byte, kMaxPayloadSize> payload;
+  const std::size_t size = encode(m, payload);
+  return send_fd_segmented(std::span<const std::byte>(payload).first(size),
+                           can_id::kEdges + static_cast<std::uint32_t>(core::index_of(m.axis)),
+                           out_);
 }
 
 bool CanPacker::pack(const EncoderReport& m) noexcept {

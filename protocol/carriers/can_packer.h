@@ -1,9 +1,10 @@
-// Messages to classic CAN frames. What a run sends in every exchange takes one frame each; the
+// Messages to CAN frames. What a run sends in every exchange takes one frame each; the
 // rest, and whatever does not follow from what was sent before, goes over several (can_segments.h).
 // No message loses a bit on the way.
 //
-// EncoderEdges do not go over CAN: a bus of 1 Mbit/s carries a thirtieth of them. They are counted
-// as refused, and the handshake offers the digest.
+// EncoderEdges go over FD frames (can_fd_segments.h), where the bus has them: a classic bus of
+// 1 Mbit/s carries a thirtieth of them. There they are counted as refused, and the handshake offers
+// the digest. Everything else is classic frames on either.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +22,8 @@ inline constexpr std::uint32_t kReportsBetweenWholeOnes = 256;
 class CanPacker final : public EachMessage<CanPacker> {
  public:
   // `out` outlives this.
-  CanPacker(CanDirection direction, CanFrameSink& out) noexcept
-      : direction_(direction), out_(out) {}
+  CanPacker(CanDirection direction, CanFrameSink& out, bool carries_fd = false) noexcept
+      : direction_(direction), carries_fd_(carries_fd), out_(out) {}
 
   template <typename Message>
   void handle(const Message& message) noexcept;
@@ -32,6 +33,7 @@ class CanPacker final : public EachMessage<CanPacker> {
 
  private:
   bool pack(const PwmDuty& m) noexcept;
+  bool pack(const EncoderEdges& m) noexcept;
   bool pack(const EncoderReport& m) noexcept;
   bool pack(const DigitalInputs& m) noexcept;
   bool pack(const DigitalOutputs& m) noexcept;
@@ -51,6 +53,7 @@ class CanPacker final : public EachMessage<CanPacker> {
   }
 
   CanDirection direction_;
+  bool carries_fd_;
   CanFrameSink& out_;
   core::PerAxis<CanDigest> digests_;
   core::PerAxis<std::uint32_t> last_duty_{{~0U, ~0U}};

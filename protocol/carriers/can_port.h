@@ -17,6 +17,9 @@ class CanPort {
   CanPort& operator=(const CanPort&) = delete;
   virtual ~CanPort() = default;
 
+  // Whether FD frames may be sent and received.
+  [[nodiscard]] virtual bool carries_fd() const noexcept { return false; }
+
   // All of them in this order, or an error: kPeerClosed (the interface is down or gone),
   // kPeerSilent (the send queue stays full: nobody acknowledges), kTransportFailed (bus-off,
   // others).

@@ -36,7 +36,12 @@ void CanUnpacker::take(const CanFrame& frame, MessageSink& sink) noexcept {
   if (!is_carried(direction_, frame.id)) {
     return;
   }
-  if (frame.size != kCanDataSize) {
+  const bool carries_edges = (frame.id & ~std::uint32_t{1}) == can_id::kEdges;
+  if (carries_edges && frame.is_fd) {
+    take_payload(edges_[static_cast<core::Axis>(frame.id & 1U)].take(frame, counts_), sink);
+    return;
+  }
+  if (carries_edges || frame.is_fd || frame.size != kCanDataSize) {
     ++counts_.malformed;
     counts_.skipped_bytes += frame.size;
     return;
@@ -63,7 +68,8 @@ bool CanUnpacker::is_carried(CanDirection direction, std::uint32_t id) noexcept 
   };
   return direction == CanDirection::kToPlant
              ? is_axis_of(can_id::kDuty)
-             : is_axis_of(can_id::kIndex) || is_axis_of(can_id::kDigest);
+             : is_axis_of(can_id::kIndex) || is_axis_of(can_id::kDigest) ||
+                   is_axis_of(can_id::kEdges);
 }
 
 void CanUnpacker::take_packed(const CanFrame& frame, MessageSink& sink) noexcept {

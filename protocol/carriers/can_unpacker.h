@@ -1,4 +1,4 @@
-// Classic CAN frames to messages. Any frames in any order leave it running; what it delivers is
+// CAN frames to messages. Any frames in any order leave it running; what it delivers is
 // legal, because packed messages pass the same checks as every other payload.
 #pragma once
 
@@ -6,6 +6,7 @@
 
 #include "core/axis.h"
 #include "protocol/carriers/can_digest.h"
+#include "protocol/carriers/can_fd_segments.h"
 #include "protocol/carriers/can_layout.h"
 #include "protocol/carriers/can_segments.h"
 #include "protocol/codec.h"
@@ -54,6 +55,7 @@ class CanUnpacker {
   std::uint32_t last_heartbeat_ = ~0U;
   CanReassembler faults_;
   CanReassembler long_messages_;
+  core::PerAxis<CanFdReassembler> edges_;
   Decoder decoder_;
 };
 

@@ -70,11 +70,21 @@ std::optional<CanFrame> read_frame(std::string_view text) noexcept {
     return std::nullopt;
   }
   const auto id = number<std::uint32_t>(*id_text, 16);
-  const std::string_view data = text.substr(0, text.find_first_of(" \t\r\n"));
-  if (!id || *id > kMaxStandardId || data.size() % 2 != 0 || data.size() > 2 * kCanDataSize) {
+  std::string_view data = text.substr(0, text.find_first_of(" \t\r\n"));
+  const bool is_fd = data.starts_with('#');
+  if (is_fd) {
+    if (data.size() < 2 || !number<std::uint8_t>(data.substr(1, 1), 16)) {
+      return std::nullopt;
+    }
+    data.remove_prefix(2);
+  }
+  const std::size_t size = data.size() / 2;
+  const bool is_sized =
+      is_fd ? size <= kCanFdDataSize && can_fd_size(size) == size : size <= kCanDataSize;
+  if (!id || *id > kMaxStandardId || data.size() % 2 != 0 || !is_sized) {
     return std::nullopt;
   }
-  CanFrame frame{.id = *id, .size = static_cast<std::uint8_t>(data.size() / 2)};
+  CanFrame frame{.id = *id, .size = static_cast<std::uint8_t>(size), .is_fd = is_fd};
   for (std::size_t i = 0; i < frame.size; ++i) {
     const auto byte = number<std::uint8_t>(data.substr(2 * i, 2), 16);
     if (!byte) {
@@ -107,6 +117,11 @@ std::string_view write_candump(const CandumpLine& line, std::span<char> into) no
   *at++ = ' ';
   append_number(at, line.frame.id, 16, 3);
   *at++ = '#';
+  if (line.frame.is_fd) {
+    constexpr char kRateSwitched = '1';
+    *at++ = '#';
+    *at++ = kRateSwitched;
+  }
   for (const std::uint8_t byte : line.frame.view()) {
     append_number(at, byte, 16, 2);
   }

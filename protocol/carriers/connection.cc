@@ -84,9 +84,10 @@ Opened Connection::open_port(const CarrierAddress& address, CanDirection directi
     connection->stream_ = std::move(*port);
   } else {
     const auto named = named_bus(address.place).value_or(NamedBus{.interface = address.place});
-    auto bus = SocketCan::open(named.interface, direction == CanDirection::kToPlant
-                                                    ? CanDirection::kToController
-                                                    : CanDirection::kToPlant);
+    auto bus = SocketCan::open(
+        named.interface,
+        direction == CanDirection::kToPlant ? CanDirection::kToController : CanDirection::kToPlant,
+        named.is_fd);
     if (!bus) {
       return tl::unexpected<CarrierError>(bus.error());
     }
@@ -98,8 +99,8 @@ Opened Connection::open_port(const CarrierAddress& address, CanDirection directi
                                  "bitrate)");
     }
     if (named.bit_per_s > 0) {
-      connection->paced_bus_ =
-          std::make_unique<PacedCan>(*connection->bus_, connection->wire_clock_, named.bit_per_s);
+      connection->paced_bus_ = std::make_unique<PacedCan>(
+          *connection->bus_, connection->wire_clock_, named.bit_per_s, named.data_bit_per_s);
     }
   }
   connection->make_link();
@@ -124,8 +125,7 @@ WireUse Connection::wire_use() const noexcept {
     return WireUse{link.bytes_sent() * bits_a_byte, link.bytes_received() * bits_a_byte};
   };
   if (can_link_ != nullptr) {
-    constexpr std::uint64_t kBitsAFrame = worst_can_bits(kCanDataSize);
-    return {can_link_->frames_sent() * kBitsAFrame, can_link_->frames_received() * kBitsAFrame};
+    return {can_link_->bits_sent(), can_link_->bits_received()};
   }
   constexpr std::uint64_t kBitsAByte = 8;
   return is_local_ ? bits(static_cast<const LockstepLink&>(*link_), kBitsAByte)

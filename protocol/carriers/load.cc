@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "protocol/carriers/can_fd_segments.h"
 #include "protocol/carriers/can_packer.h"
 #include "protocol/carriers/can_segments.h"
 #include "protocol/carriers/serial_port.h"
@@ -36,6 +37,24 @@ double edges_bits(double edges) noexcept {
 template <typename Message>
 double whole_message_frames() noexcept {
   return static_cast<double>(segments_of(encoded_size(Message{})));
+}
+
+// All edges of one axis in one exchange over FD frames; full messages first. `ratio`: nominal rate
+// over that of the data.
+double fd_edges_bits(double edges, double ratio) noexcept {
+  const auto message_bits = [ratio](std::size_t payload) {
+    const auto frame_bits = [ratio](std::size_t size) {
+      const CanFdBits bits = worst_can_fd_bits(static_cast<unsigned>(size));
+      return bits.nominal + bits.data * ratio;
+    };
+    return static_cast<double>(fd_segments_of(payload) - 1) * frame_bits(kCanFdDataSize) +
+           frame_bits(last_fd_segment_of(payload));
+  };
+  const double full = std::floor(edges / static_cast<double>(kMaxEdgesPerMessage));
+  const auto rest =
+      static_cast<std::size_t>(edges - full * static_cast<double>(kMaxEdgesPerMessage));
+  return full * message_bits(kMaxPayloadSize) +
+         message_bits(kEdgesHeaderSize + kBytesPerEdge * rest);
 }
 
 std::string rounded(double value) {
@@ -76,17 +95,24 @@ Load serial_load(const Traffic& traffic, std::uint32_t baud) noexcept {
           .capacity_bit_per_s = static_cast<double>(baud)};
 }
 
-Load can_load(const Traffic& traffic, std::uint32_t bit_per_s) noexcept {
+Load can_load(const Traffic& traffic, std::uint32_t bit_per_s,
+              std::uint32_t data_bit_per_s) noexcept {
   const double exchanges_per_s = 1.0 / core::seconds(traffic.exchange_ns);
   const double axes = traffic.axes;
 
   double to_plant = axes * exchanges_per_s + traffic.line_changes_per_s;
-  double to_controller =
-      axes * exchanges_per_s + axes * traffic.index_pulses_per_s + traffic.line_changes_per_s;
-  to_controller += axes * exchanges_per_s * 2.0 / kReportsBetweenWholeOnes *
-                   whole_message_frames<EncoderReport>();
-  if (traffic.fidelity == Fidelity::kEdges) {
-    to_controller = std::numeric_limits<double>::infinity();
+  double to_controller = traffic.line_changes_per_s;
+  double edges_bit_per_s = 0.0;
+  if (traffic.fidelity == Fidelity::kDigest) {
+    to_controller += axes * exchanges_per_s + axes * traffic.index_pulses_per_s;
+    to_controller += axes * exchanges_per_s * 2.0 / kReportsBetweenWholeOnes *
+                     whole_message_frames<EncoderReport>();
+  } else if (data_bit_per_s > 0) {
+    const double edges = std::ceil(traffic.edges_per_s / exchanges_per_s);
+    const double ratio = static_cast<double>(bit_per_s) / data_bit_per_s;
+    edges_bit_per_s = axes * exchanges_per_s * fd_edges_bits(edges, ratio);
+  } else {
+    edges_bit_per_s = std::numeric_limits<double>::infinity();
   }
   to_controller +=
       traffic.force_samples ? exchanges_per_s * whole_message_frames<ForceSample>() : 0.0;
@@ -98,7 +124,7 @@ Load can_load(const Traffic& traffic, std::uint32_t bit_per_s) noexcept {
     to_controller += exchanges_per_s;
   }
   return {.to_plant_bit_per_s = to_plant * worst_can_bits(kCanDataSize),
-          .to_controller_bit_per_s = to_controller * worst_can_bits(kCanDataSize),
+          .to_controller_bit_per_s = to_controller * worst_can_bits(kCanDataSize) + edges_bit_per_s,
           .capacity_bit_per_s = static_cast<double>(bit_per_s),
           .is_shared = true};
 }

@@ -43,9 +43,11 @@ struct Load {
 // COBS frames on a serial line of ten bits a byte, full duplex.
 [[nodiscard]] Load serial_load(const Traffic& traffic, std::uint32_t baud) noexcept;
 
-// Classic CAN frames with the worst bit stuffing, both directions on one bus. Edges do not go over
-// CAN (can_packer.h): their load is infinite.
-[[nodiscard]] Load can_load(const Traffic& traffic, std::uint32_t bit_per_s) noexcept;
+// CAN frames with the worst bit stuffing, both directions on one bus. Edges need FD frames
+// (can_packer.h), whose data go at a rate of their own and count for the time that they take, in
+// bits of the nominal rate. A data rate of 0: a bus without FD, and the load of edges is infinite.
+[[nodiscard]] Load can_load(const Traffic& traffic, std::uint32_t bit_per_s,
+                            std::uint32_t data_bit_per_s = 0) noexcept;
 
 // Refuses a load above kMaxLoad with kCarrierOverloaded and both figures.
 [[nodiscard]] CarrierResult<void> accept_load(const Load& load, const std::string& carrier_name);

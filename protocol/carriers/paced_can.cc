@@ -5,6 +5,15 @@
 #include <system_error>
 
 namespace towbench::protocol {
+namespace {
+
+bool read_rate(std::string_view text, std::uint32_t& bit_per_s) noexcept {
+  const char* const end = text.data() + text.size();
+  const auto number = std::from_chars(text.data(), end, bit_per_s);
+  return number.ec == std::errc() && number.ptr == end && bit_per_s > 0;
+}
+
+}  // namespace
 
 std::optional<NamedBus> named_bus(std::string_view place) {
   const auto at = place.rfind('@');
@@ -12,16 +21,30 @@ std::optional<NamedBus> named_bus(std::string_view place) {
   if (at == std::string_view::npos) {
     return bus;
   }
-  const char* const end = place.data() + place.size();
-  const auto number = std::from_chars(place.data() + at + 1, end, bus.bit_per_s);
-  const bool is_rate = number.ec == std::errc() && number.ptr == end && bus.bit_per_s > 0;
-  return is_rate ? std::optional(bus) : std::nullopt;
+  const auto rates = place.substr(at + 1);
+  if (rates == "fd") {
+    bus.is_fd = true;
+    return bus;
+  }
+  const auto slash = rates.find('/');
+  bus.is_fd = slash != std::string_view::npos;
+  const bool are_rates = read_rate(rates.substr(0, slash), bus.bit_per_s) &&
+                         (!bus.is_fd || read_rate(rates.substr(slash + 1), bus.data_bit_per_s));
+  return are_rates ? std::optional(bus) : std::nullopt;
+}
+
+std::uint64_t PacedCan::bits_of(const CanFrame& frame) const noexcept {
+  if (!frame.is_fd) {
+    return worst_can_bits(frame.size);
+  }
+  const CanFdBits bits = worst_can_fd_bits(frame.size);
+  return bits.nominal + (bits.data * bit_per_s_ + data_bit_per_s_ - 1) / data_bit_per_s_;
 }
 
 core::Status PacedCan::send(std::span<const CanFrame> frames) noexcept {
   const core::Nanoseconds now_ns = clock_.now_ns();
   for (const CanFrame& frame : frames) {
-    (void)pacer_.reserve(now_ns, worst_can_bits(frame.size));
+    (void)pacer_.reserve(now_ns, bits_of(frame));
   }
   return bus_.send(frames);
 }
@@ -52,8 +75,8 @@ core::Status PacedCan::take_in(core::Nanoseconds timeout_ns) noexcept {
     const auto size = bus_.receive(std::span(received_).first(room), timeout_ns);
     const core::Nanoseconds now_ns = clock_.now_ns();
     for (std::size_t i = 0; size && i < *size; ++i) {
-      under_way_[(first_ + held_++) % kCapacity] = {
-          received_[i], pacer_.reserve(now_ns, worst_can_bits(received_[i].size))};
+      under_way_[(first_ + held_++) % kCapacity] = {received_[i],
+                                                    pacer_.reserve(now_ns, bits_of(received_[i]))};
     }
     ended_ = size ? core::Status() : core::failure(size.error());
   }

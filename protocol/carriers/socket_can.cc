@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
@@ -49,11 +50,16 @@ std::vector<can_filter> filters_for(CanDirection heard) {
   return filters;
 }
 
-::can_frame to_kernel(const CanFrame& frame) noexcept {
-  ::can_frame out{};
+// A classic frame is the beginning of one of FD (linux/can.h); how much of it is written says
+// which.
+static_assert(offsetof(::can_frame, data) == offsetof(canfd_frame, data));
+
+canfd_frame to_kernel(const CanFrame& frame) noexcept {
+  canfd_frame out{};
   out.can_id = frame.id;
-  out.can_dlc = frame.size;
-  std::copy(frame.data.begin(), frame.data.end(), out.data);
+  out.len = frame.size;
+  out.flags = frame.is_fd ? CANFD_BRS : 0;
+  std::copy_n(frame.data.begin(), frame.size, out.data);
   return out;
 }
 
@@ -94,7 +100,7 @@ bool is_virtual_can(const std::string& interface) {
 }
 
 CarrierResult<std::unique_ptr<SocketCan>> SocketCan::open(const std::string& interface,
-                                                          CanDirection heard) {
+                                                          CanDirection heard, bool with_fd) {
   const int descriptor = ::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW);
   if (descriptor < 0) {
     return refuse(interface, errno == EAFNOSUPPORT || errno == EPROTONOSUPPORT
@@ -108,6 +114,10 @@ CarrierResult<std::unique_ptr<SocketCan>> SocketCan::open(const std::string& int
   if (const auto bound = port->bind_to(interface); !bound) {
     return tl::unexpected<CarrierError>(bound.error());
   }
+  if (with_fd && !port->has_fd_) {
+    return refuse(interface, "has no CAN FD (ip link set " + interface + " mtu 72, or fd on)");
+  }
+  port->with_fd_ = with_fd;
   return port;
 }
 
@@ -160,13 +170,13 @@ core::Status SocketCan::send(std::span<const CanFrame> frames) noexcept {
   }
   const auto deadline = Clock::now() + std::chrono::nanoseconds(silence_limit_ns_);
   while (!frames.empty()) {
-    std::array<::can_frame, kBatch> out;
+    std::array<canfd_frame, kBatch> out;
     std::array<iovec, kBatch> pieces;
     std::array<mmsghdr, kBatch> messages{};
     const std::size_t size = std::min(frames.size(), kBatch);
     for (std::size_t i = 0; i < size; ++i) {
       out[i] = to_kernel(frames[i]);
-      pieces[i] = {&out[i], sizeof(::can_frame)};
+      pieces[i] = {&out[i], frames[i].is_fd ? std::size_t{CANFD_MTU} : std::size_t{CAN_MTU}};
       messages[i].msg_hdr.msg_iov = &pieces[i];
       messages[i].msg_hdr.msg_iovlen = 1;
     }
@@ -231,15 +241,17 @@ core::Result<std::size_t> SocketCan::receive(std::span<CanFrame> into,
     const canfd_frame& frame = batch.frames[i];
     if ((frame.can_id & CAN_ERR_FLAG) != 0) {
       note_error(frame.can_id & CAN_ERR_MASK, frame.data);
-    } else if (batch.messages[i].msg_len != CAN_MTU) {
+    } else if (batch.messages[i].msg_len != CAN_MTU && !with_fd_) {
       ++counts_.fd_frames;
     } else if ((frame.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG)) != 0) {
       ++counts_.foreign_frames;
     } else {
       CanFrame& ours = into[size++];
       ours.id = frame.can_id & CAN_SFF_MASK;
-      ours.size = std::min<std::uint8_t>(frame.len, kCanDataSize);
-      std::copy_n(frame.data, kCanDataSize, ours.data.begin());
+      ours.is_fd = batch.messages[i].msg_len != CAN_MTU;
+      ours.size = std::min<std::uint8_t>(frame.len, ours.is_fd ? kCanFdDataSize : kCanDataSize);
+      ours.data = {};
+      std::copy_n(frame.data, ours.size, ours.data.begin());
     }
   }
   counts_.dropped += dropped - last_dropped_;

@@ -1,8 +1,9 @@
 // One raw socket on a SocketCAN interface: can0, vcan0.
 //
-// The kernel passes on only the identifiers that this side listens to, and error frames. Classic
-// frames are sent. Where the interface has CAN FD the socket takes FD frames too, so that a node
-// that sends them disturbs nobody: they are counted and ignored.
+// The kernel passes on only the identifiers that this side listens to, and error frames. FD frames
+// are sent and taken where they are asked for. Otherwise, where the interface has them, the socket
+// takes FD frames too, so that a node that sends them disturbs nobody: they are counted and
+// ignored.
 #pragma once
 
 #include <cstdint>
@@ -36,11 +37,13 @@ struct CanBusCounts {
 class SocketCan final : public CanPort {
  public:
   // `heard` is the direction of the frames that are to be received. Refused, in words that name the
-  // interface: no CAN in this kernel, no such interface, not a CAN interface, not up.
+  // interface: no CAN in this kernel, no such interface, not a CAN interface, not up, no
+  // FD where it is asked for.
   static CarrierResult<std::unique_ptr<SocketCan>> open(const std::string& interface,
-                                                        CanDirection heard);
+                                                        CanDirection heard, bool with_fd = false);
   ~SocketCan() override;
 
+  [[nodiscard]] bool carries_fd() const noexcept override { return with_fd_; }
   // As CanPort. Bus-off ends this socket with kTransportFailed, whatever the interface does then:
   // the run is lost, both sides are in their safe state, and a new run opens the bus anew.
   core::Status send(std::span<const CanFrame> frames) noexcept override;
@@ -62,6 +65,7 @@ class SocketCan final : public CanPort {
 
   int descriptor_;
   bool has_fd_ = false;
+  bool with_fd_ = false;
   bool is_bus_off_ = false;
   core::Nanoseconds silence_limit_ns_ = core::kNanosecondsPerSecond;
   core::Nanoseconds receive_timeout_ns_ = 0;

@@ -173,6 +173,15 @@ faults_over_can() {
   bench campaign can --fresh --quiet --workers 1 --out "$runs/faults"
 }
 
+# Edges over FD frames: the same bits as without a wire, and FD frames they were.
+edges_over_can_fd() {
+  rm -rf "${runs:?}/fd"
+  bench run trapezoid-400 -q --no-report --carrier can:vcan0@fd --out "$runs/fd" || return 1
+  cmp "$runs"/in-process/*trapezoid-400*/log.csv "$runs"/fd/*/log.csv &&
+    grep -q '"fidelity": "edges"' "$runs"/fd/*/result.json &&
+    grep -q ' vcan0 1A0##1' "$runs"/fd/*/candump.log
+}
+
 on_host() {
   valid_windows=0
   wall_clock 'a local socket' 12
@@ -193,6 +202,7 @@ in_machine() {
   job 'SocketCAN: filters, error frames, bus-off, queues' \
     "$build/tests/protocol/test_protocol" --gtest_brief=1 '--gtest_filter=SocketCan*'
   demo_over vcan can:vcan0
+  job 'edges over CAN FD: the log of a run in one process, bit for bit' edges_over_can_fd
   job 'GPIO lines: both sides, edges, debouncing, taken lines' \
     "$build/tests/protocol/test_protocol" --gtest_brief=1 '--gtest_filter=GpioLines*'
   job "GPIO lines behind BBMC's drivers" \

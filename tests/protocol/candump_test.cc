@@ -26,6 +26,21 @@ TEST(Candump, WritesAndReadsTheLogFormat) {
   EXPECT_EQ(written(*line), text);
 }
 
+// cansend and candump of can-utils: ID##FLAGS and the data of an FD frame.
+TEST(Candump, WritesAndReadsFdFrames) {
+  const std::string text = "(1.000000) vcan0 1A0##1" + std::string(48, 'A');
+  const auto line = read_candump(text);
+  ASSERT_TRUE(line.has_value());
+  EXPECT_TRUE(line->frame.is_fd);
+  EXPECT_EQ(line->frame.size, 24U);
+  EXPECT_EQ(line->frame.data[23], 0xaa);
+  EXPECT_EQ(written(*line), text);
+  EXPECT_FALSE(read_candump("(1.000000) vcan0 1A0##").has_value());
+  EXPECT_FALSE(read_candump("(1.000000) vcan0 1A0##G00").has_value());
+  EXPECT_FALSE(read_candump("(1.000000) vcan0 1A0##1" + std::string(18, '0')).has_value())
+      << "no FD frame has nine bytes";
+}
+
 TEST(Candump, ReadsWhatComesBehindTheData) {
   EXPECT_EQ(read_candump("(0.000001) can0 7FF#00 R\r\n")->frame.size, 1U);
   EXPECT_EQ(read_candump("(0.000001) can0 000#\n")->frame.size, 0U);
@@ -53,7 +68,7 @@ TEST(Candump, EveryFrameSurvivesTheRoundTrip) {
   }
 }
 
-TEST(Candump, RefusesWhatIsNoClassicDataFrame) {
+TEST(Candump, RefusesWhatIsNoDataFrame) {
   for (const char* text : {"",
                            "(",
                            "()",
@@ -61,7 +76,7 @@ TEST(Candump, RefusesWhatIsNoClassicDataFrame) {
                            "(1.000000) can0",
                            "(1.000000) can0 ",
                            "(1.000000) can0 123",
-                           "(1.000000) can0 123##0AB",
+                           "(1.000000) can0 123##0A",
                            "(1.000000) can0 123#R",
                            "(1.000000) can0 20000080#0000",
                            "(1.000000) can0 1234#00",
@@ -100,7 +115,7 @@ TEST(Candump, NoBytesCrashTheReader) {
     const auto line = read_candump(std::string_view(text).substr(0, random.bits() % text.size()));
     if (line) {
       ASSERT_LE(line->frame.id, kMaxStandardId);
-      ASSERT_LE(line->frame.size, kCanDataSize);
+      ASSERT_LE(line->frame.size, line->frame.is_fd ? kCanFdDataSize : kCanDataSize);
     }
   }
 }

@@ -6,8 +6,9 @@ namespace towbench::protocol {
 namespace {
 
 TEST(CarrierAddress, ReadsEverySchemeAndWritesItAgain) {
-  for (const std::string text : {"local:/run/towbench/plant", "serial:/dev/ttyUSB0@115200",
-                                 "serial:/dev/pts/3@921600", "can:vcan0", "can:vcan0@500000"}) {
+  for (const std::string text :
+       {"local:/run/towbench/plant", "serial:/dev/ttyUSB0@115200", "serial:/dev/pts/3@921600",
+        "can:vcan0", "can:vcan0@500000", "can:vcan0@fd", "can:vcan0@1000000/5000000"}) {
     const auto address = parse_carrier_address(text);
     ASSERT_TRUE(address.has_value()) << text;
     EXPECT_EQ(address->text(), text);
@@ -18,7 +19,8 @@ TEST(CarrierAddress, ReadsEverySchemeAndWritesItAgain) {
 TEST(CarrierAddress, RefusesWhatIsNoneAndSaysWhatIsAllowed) {
   for (const std::string text :
        {"", "can", "can:", "tcp:0.0.0.0:80", "serial:@115200", "serial:/dev/ttyS1@fast",
-        "serial:/dev/ttyS1@0", "serial:x@", "can:vcan0@", "can:vcan0@0", "can:vcan0@1M"}) {
+        "serial:/dev/ttyS1@0", "serial:x@", "can:vcan0@", "can:vcan0@0", "can:vcan0@1M",
+        "can:vcan0@1000/", "can:vcan0@/1000", "can:vcan0@1/2/3"}) {
     const auto address = parse_carrier_address(text);
     ASSERT_FALSE(address.has_value()) << text;
     EXPECT_NE(address.error().message.find(std::string(kAddressForms)), std::string::npos);

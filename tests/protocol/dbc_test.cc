@@ -46,7 +46,8 @@ TEST_F(Dbc, IsReadWhole) {
 
 TEST_F(Dbc, GivesEveryBitOfAFrameToOneSignal) {
   for (const auto& [id, message] : messages_) {
-    EXPECT_EQ(message.size, 8U) << message.name;
+    const bool is_fd = (id & ~1U) == can_id::kEdges;
+    EXPECT_EQ(message.size, is_fd ? kCanFdDataSize : kCanDataSize) << message.name;
     std::set<unsigned> bits;
     for (const DbcSignal& s : message.signals) {
       EXPECT_TRUE(s.is_little_endian) << s.name;
@@ -54,20 +55,20 @@ TEST_F(Dbc, GivesEveryBitOfAFrameToOneSignal) {
         EXPECT_TRUE(bits.insert(s.start + i).second) << message.name << ": " << s.name;
       }
     }
-    EXPECT_EQ(bits.size(), 64U) << message.name;
-    EXPECT_EQ(*bits.rbegin(), 63U) << message.name;
+    EXPECT_EQ(bits.size(), 8 * message.size) << message.name;
+    EXPECT_EQ(*bits.rbegin(), 8 * message.size - 1) << message.name;
   }
 }
 
 TEST_F(Dbc, KnowsEveryFrameThatIsSentItsSenderAndItsRanges) {
   for (const auto direction : {CanDirection::kToPlant, CanDirection::kToController}) {
     KeepingFrames frames;
-    CanPacker packer(direction, frames);
+    CanPacker packer(direction, frames, true);
     AnyMessage any(6);
     for (int i = 0; i < 5000; ++i) {
       // Each side sends its own messages only.
-      const unsigned kinds[2][7] = {{0, 2, 6, 9, 11, 12, 13}, {1, 4, 5, 7, 10, 11, 12}};
-      any.send_to(packer, kinds[static_cast<unsigned>(direction)][i % 7]);
+      const unsigned kinds[2][8] = {{0, 2, 6, 9, 11, 12, 13, 13}, {1, 4, 5, 7, 10, 11, 12, 3}};
+      any.send_to(packer, kinds[static_cast<unsigned>(direction)][i % 8]);
     }
     for (const CanFrame& frame : frames.frames) {
       ASSERT_TRUE(messages_.contains(frame.id)) << std::hex << frame.id;

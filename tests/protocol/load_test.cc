@@ -84,5 +84,35 @@ TEST(CanLoad, RefusesEdges) {
   EXPECT_NE(refusal.error().message.find("infinitely many"), std::string::npos);
 }
 
+// By hand from ISO 11898-1:2015. Without data: 17 bits up to the switch of the rate, 4 stuffed, 13
+// behind the checksum; 5 of length, 1 stuffed, 4 + 17 of count and checksum with 6 fixed stuff
+// bits. With 64 bytes: 517 bits, 129 stuffed, 4 + 21, 7.
+TEST(CanLoad, CountsTheWorstBitsOfAnFdFrameAtEachRate) {
+  EXPECT_EQ(worst_can_fd_bits(0).nominal, 34U);
+  EXPECT_EQ(worst_can_fd_bits(0).data, 5U + 1U + 21U + 6U);
+  EXPECT_EQ(worst_can_fd_bits(64).nominal, 34U);
+  EXPECT_EQ(worst_can_fd_bits(64).data, 517U + 129U + 25U + 7U);
+}
+
+// 284 edges of an axis in a millisecond at its voltage limit: 25 + 4 x 284 bytes, with length and
+// checksum 1167 bytes, 18 frames of 63 and one of the 33 that are left: 34 -> 48.
+TEST(CanLoad, RefusesTheEdgesAtTopSpeedOverFdWithBothFigures) {
+  const Load load = can_load({.fidelity = Fidelity::kEdges}, 1'000'000, 5'000'000);
+  const double last = 34.0 + (5.0 + 384.0 + 97.0 + 25.0 + 7.0) / 5.0;
+  const double axis = 18.0 * (34.0 + 678.0 / 5.0) + last;
+  EXPECT_NEAR(load.to_controller_bit_per_s, 2.0 * 1000.0 * axis + 200.0 * 135.0, 1e-3);
+  const auto refusal = accept_load(load, "can:can0@1000000/5000000");
+  ASSERT_FALSE(refusal.has_value());
+  EXPECT_EQ(refusal.error().code, core::ErrorCode::kCarrierOverloaded);
+  EXPECT_NE(refusal.error().message.find("% of 1000000 bit/s"), std::string::npos);
+}
+
+// A tenth of that speed fits: 29 edges, 25 + 4 x 29 + 6 bytes in three frames an axis.
+TEST(CanLoad, CarriesTheEdgesOfASlowAxisOverFd) {
+  const Traffic slow{.axes = 1, .fidelity = Fidelity::kEdges, .edges_per_s = 28'354.0};
+  EXPECT_TRUE(accept_load(can_load(slow, 1'000'000, 5'000'000), "can0").has_value());
+  EXPECT_FALSE(accept_load(can_load(slow, 1'000'000), "can0").has_value());
+}
+
 }  // namespace
 }  // namespace towbench::protocol

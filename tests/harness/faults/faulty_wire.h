@@ -80,7 +80,8 @@ struct BusFrames {
     namespace can_id = protocol::can_id;
     constexpr std::uint32_t kEitherDirection = ~std::uint32_t{1};
     return target == WireTarget::kTurn ? (frame.id & kEitherDirection) == can_id::kLockstep
-                                       : frame.id == can_id::kDuty || frame.id == can_id::kDigest;
+                                       : frame.id == can_id::kDuty || frame.id == can_id::kDigest ||
+                                             frame.id == can_id::kEdges;
   }
 };
 
@@ -230,6 +231,7 @@ class FaultyBus final : public protocol::CanPort {
   FaultyBus(protocol::CanPort& inner, protocol::CanDirection direction)
       : inner_(inner), direction_(direction) {}
 
+  [[nodiscard]] bool carries_fd() const noexcept override { return inner_.carries_fd(); }
   void strike_sender(const WireFault& fault) {
     constexpr std::size_t kMessages = 10;
     Collected flood;

@@ -20,7 +20,7 @@
 
 namespace towbench::harness {
 
-enum class WireName : std::uint8_t { kSocket, kLine, kBus };
+enum class WireName : std::uint8_t { kSocket, kLine, kBus, kFdBus };
 
 // One side's end of a wire: the link, and what may befall it.
 class WireEnd {
@@ -62,8 +62,9 @@ struct MemoryBus {
 
 class MemoryNode final : public protocol::CanPort {
  public:
-  MemoryNode(std::deque<protocol::CanFrame>& out, std::deque<protocol::CanFrame>& in)
-      : out_(out), in_(in) {}
+  MemoryNode(std::deque<protocol::CanFrame>& out, std::deque<protocol::CanFrame>& in, bool has_fd)
+      : out_(out), in_(in), has_fd_(has_fd) {}
+  [[nodiscard]] bool carries_fd() const noexcept override { return has_fd_; }
   core::Status send(std::span<const protocol::CanFrame> frames) noexcept override {
     out_.insert(out_.end(), frames.begin(), frames.end());
     return {};
@@ -80,6 +81,7 @@ class MemoryNode final : public protocol::CanPort {
  private:
   std::deque<protocol::CanFrame>& out_;
   std::deque<protocol::CanFrame>& in_;
+  bool has_fd_;
 };
 
 // Both ends of one wire, and what it runs through.
@@ -104,11 +106,14 @@ struct WholeWire {
       far = std::make_unique<LineEnd>(std::move(*SerialPort::open(line->far_end(), kBaud)),
                                       kSilenceOfLine_ns);
     } else {
+      const bool has_fd = name == WireName::kFdBus;
       using BusEnd = EndOver<FaultyBus, protocol::CanLink, MemoryNode>;
-      near = std::make_unique<BusEnd>(std::make_unique<MemoryNode>(bus.to_plant, bus.to_controller),
-                                      kSilence_ns, CanDirection::kToPlant);
-      far = std::make_unique<BusEnd>(std::make_unique<MemoryNode>(bus.to_controller, bus.to_plant),
-                                     kSilence_ns, CanDirection::kToController);
+      near = std::make_unique<BusEnd>(
+          std::make_unique<MemoryNode>(bus.to_plant, bus.to_controller, has_fd), kSilence_ns,
+          CanDirection::kToPlant);
+      far = std::make_unique<BusEnd>(
+          std::make_unique<MemoryNode>(bus.to_controller, bus.to_plant, has_fd), kSilence_ns,
+          CanDirection::kToController);
     }
   }
 

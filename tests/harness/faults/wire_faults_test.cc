@@ -9,6 +9,7 @@
 
 #include "harness/bench/lockstep_bench.h"
 #include "harness/bench/script_loop.h"
+#include "harness/faults/carrier_fit.h"
 #include "harness/faults/case_record.h"
 #include "harness/faults/case_run.h"
 #include "tests/harness/end_to_end/run_support.h"
@@ -48,7 +49,8 @@ std::vector<ErrorCode> numbers_of(Latched latched) {
 }
 
 const char* name_of(WireName wire) {
-  return wire == WireName::kSocket ? "socket" : wire == WireName::kLine ? "line" : "bus";
+  constexpr std::array<const char*, 4> kNames{"socket", "line", "bus", "fd_bus"};
+  return kNames[static_cast<std::size_t>(wire)];
 }
 
 const char* name_of(WireKind kind) {
@@ -134,7 +136,7 @@ std::vector<Cell> cells() {
   using enum WireTarget;
   using enum Latched;
   std::vector<Cell> all;
-  for (const auto wire : {WireName::kSocket, WireName::kLine, WireName::kBus}) {
+  for (const auto wire : {WireName::kSocket, WireName::kLine, WireName::kBus, WireName::kFdBus}) {
     const auto add = [&](bool to_plant, WireKind kind, WireTarget target, Latched latched,
                          std::size_t bit = 0) {
       all.push_back({wire, to_plant, {.kind = kind, .target = target, .bit = bit}, latched});
@@ -144,13 +146,15 @@ std::vector<Cell> cells() {
       const bool is_digest = wire == WireName::kBus && !to_plant;
       add(to_plant, kLoss, kData, is_digest ? kLost : kCorrupt);
       add(to_plant, kLoss, kTurn, kLost);
-      add(to_plant, kDuplicate, kData, is_digest ? kLost : kCorrupt);
+      // Edges take several FD frames; their first one sent twice begins the message anew.
+      const bool is_segment = wire == WireName::kFdBus && !to_plant;
+      add(to_plant, kDuplicate, kData, is_digest ? kLost : is_segment ? kNothing : kCorrupt);
       add(to_plant, kDuplicate, kTurn, kLost);
       add(to_plant, kFlood, kData, kNothing);
       add(to_plant, kJitter, kData, kNothing);
       add(to_plant, kDelay, kData, kLost);
       add(to_plant, kBabble, kData, kLost);
-      if (wire == WireName::kBus) {
+      if (wire == WireName::kBus || wire == WireName::kFdBus) {
         add(to_plant, kBusOff, kData, kLost);
         continue;  // a bus does not reorder, and repeats what it damages
       }
@@ -176,6 +180,37 @@ INSTANTIATE_TEST_SUITE_P(Matrix, WireFaults, testing::ValuesIn(cells()), [](cons
       cell.fault.kind == WireKind::kCorruption ? fmt::format("_bit_{}", cell.fault.bit) : "",
       name_of(cell.wire), cell.to_plant ? "to_plant" : "to_controller");
 });
+
+// ---- what a carrier cannot have ----
+
+TEST(WhatACarrierCannotHave, IsRefusedInALine) {
+  using enum FaultKind;
+  for (const auto bus : {CarrierKind::kCan, CarrierKind::kCanFd}) {
+    for (const auto kind : {kReorder, kCorruptByte, kBaudMismatch}) {
+      EXPECT_FALSE(why_not_over(bus, kind).empty()) << static_cast<int>(kind);
+    }
+    EXPECT_TRUE(why_not_over(bus, kBusOff).empty());
+    EXPECT_TRUE(why_not_over(bus, kDuplicate).empty());
+  }
+  for (const auto stream : {CarrierKind::kLocal, CarrierKind::kSerial}) {
+    EXPECT_FALSE(why_not_over(stream, kBusOff).empty());
+    EXPECT_TRUE(why_not_over(stream, kReorder).empty());
+  }
+}
+
+// ---- without a fault ----
+
+// A classic bus carries the digest and gives bits of its own.
+TEST(SoundWires, OfEdgesGiveTheSameBits) {
+  const auto& socket = sound_run_over(WireName::kSocket);
+  for (const auto wire : {WireName::kLine, WireName::kFdBus}) {
+    const auto& run = sound_run_over(wire);
+    EXPECT_EQ(first_difference_ns(run, socket), -1) << name_of(wire);
+    EXPECT_EQ(run.log.size(), socket.log.size());
+    EXPECT_GT(run.truth.back().axes[Axis::kY].edges_total, 10'000);
+  }
+  EXPECT_GE(first_difference_ns(sound_run_over(WireName::kBus), socket), 0);
+}
 
 // ---- a greeting that is refused ----
 
@@ -210,7 +245,8 @@ TEST_P(RefusedGreeting, OfAPlantOfAnotherVersionMovesNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Wires, RefusedGreeting,
-                         testing::Values(WireName::kSocket, WireName::kLine, WireName::kBus),
+                         testing::Values(WireName::kSocket, WireName::kLine, WireName::kBus,
+                                         WireName::kFdBus),
                          [](const auto& each) { return std::string(name_of(each.param)); });
 
 }  // namespace
