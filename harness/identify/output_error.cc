@@ -254,19 +254,36 @@ TwoMassFit fit_from(const TwoMassStart& start, const Recording& data, core::Axis
 }  // namespace
 
 TwoMassFit fit_two_mass(const TwoMassStart& start, const Recording& data, core::Axis axis) {
-  // A right model leaves a third of a count; one that is stuck beside a wrong swing leaves tens.
+  // A right model leaves a third of a count; one that is stuck beside a wrong swing leaves tens,
+  // and one in which break-away and Stribeck's fall have made up for one another a half or more.
   constexpr double kStuck_counts = 2;
+  constexpr double kRight_counts = 0.5;
   auto best = fit_from(start, data, axis);
+  const auto better = [&](const TwoMassStart& other) {
+    auto fit = fit_from(other, data, axis);
+    if (fit.converged && (!best.converged || fit.residual_rms_counts < best.residual_rms_counts)) {
+      best = std::move(fit);
+    }
+  };
   for (const double factor : {0.7, 1.4}) {
     if (best.converged && best.residual_rms_counts < kStuck_counts) {
       break;
     }
     auto other = start;
     other.axis.chain.resonance_Hz *= factor;
-    auto fit = fit_from(other, data, axis);
-    if (fit.converged && (!best.converged || fit.residual_rms_counts < best.residual_rms_counts)) {
-      best = std::move(fit);
-    }
+    better(other);
+  }
+  if (best.converged && best.residual_rms_counts > kRight_counts &&
+      best.residual_rms_counts < kStuck_counts) {
+    // From there, with the rise towards standstill where it was first believed.
+    auto other = start;
+    const auto& friction = start.axis.friction;
+    other.axis = best.axis;
+    other.coulomb_Nm = best.coulomb_Nm;
+    other.axis.friction.stribeck_speed_rad_per_s = friction.stribeck_speed_rad_per_s;
+    other.axis.friction.breakaway_Nm =
+        best.axis.coulomb_friction_Nm + friction.breakaway_Nm - start.axis.coulomb_friction_Nm;
+    better(other);
   }
   return best;
 }

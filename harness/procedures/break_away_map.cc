@@ -135,9 +135,9 @@ class BreakAwayMap final : public Procedure {
       }
       const double value = sum / n;
       const double spread = std::sqrt(std::max(0.0, square / n - value * value) / (n - 1));
-      // Anywhere between two levels, and every ramp of a stretch misses it alike: the middle 95 %
-      // of an even spread.
-      const double resolution = 0.95 * 0.5 * step / kNormal95;
+      // Anywhere between two levels, or up to a tenth of a step above them (the chain's swing
+      // helps), and every ramp of a stretch misses it alike: the middle 95 % of an even spread.
+      const double resolution = 0.95 * (0.5 + 0.1) * step / kNormal95;
       outcome.estimates.push_back(identify::with_deviation(
           {.quantity = "breakaway_Nm",
            .axis = std::string(core::name_of(context.axis)),
