@@ -22,7 +22,7 @@ struct LinkCase {
 
 class LinkFaultOverACarrier : public testing::TestWithParam<LinkCase> {};
 
-TEST_P(LinkFaultOverACarrier, EndsInTheDocumentedState) {
+TEST_P(LinkFaultOverACarrier, EndsInTheDocumentedStateWithTheFilesOfARunInOneProcess) {
   Runs runs;
   auto fixture = Runs::shipped("wall-clock-window");
   add_faults(fixture, {parse_fault(GetParam().words)});
@@ -37,6 +37,13 @@ TEST_P(LinkFaultOverACarrier, EndsInTheDocumentedState) {
   } else {
     EXPECT_THAT(events, HasSubstr("fault_latched"));
     EXPECT_THAT(events, HasSubstr("\"code\":" + std::to_string(GetParam().latched)));
+  }
+  // A plant that is killed takes the end of its record along.
+  if (std::string_view(GetParam().words).find("peer_killed") == std::string_view::npos) {
+    const auto memory = runs.run(fixture);
+    for (const char* file : {"log.csv", "truth.csv", "events.jsonl"}) {
+      EXPECT_TRUE(contents_of(run.folder / file) == contents_of(memory.folder / file)) << file;
+    }
   }
 }
 
@@ -55,6 +62,8 @@ std::vector<LinkCase> link_cases() {
     cases.push_back({"link.to_plant reorder at=0.9s", carrier, 321});
     cases.push_back({"link.to_plant corrupt_byte at=0.9s", carrier, 321});
     cases.push_back({"link.to_plant duplicate at=0.9s", carrier, 321});
+    // As the motion begins, every one.
+    cases.push_back({"link.to_plant duplicate at=0.52s probability=1", carrier, 321});
   }
   return cases;
 }
@@ -65,6 +74,8 @@ INSTANTIATE_TEST_SUITE_P(Carriers, LinkFaultOverACarrier, testing::ValuesIn(link
                            name = name.substr(name.find('.') + 1);
                            name = name.substr(0, name.find(' ', name.find(' ') + 1));
                            name[name.find(' ')] = '_';
+                           const std::string_view words = each.param.words;
+                           name += words.find("probability") != words.npos ? "_of_all" : "";
                            return name + (each.param.carrier == Carrier::kLocal ? "_over_a_socket"
                                                                                 : "_over_a_line");
                          });
