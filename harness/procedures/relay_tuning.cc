@@ -4,10 +4,10 @@
 //
 // Dry friction makes K_C depend on the amplitude, so it is shown as a curve and named with one.
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -110,17 +110,22 @@ class RelayTuning final : public Procedure {
     if (!chosen || 2 * curve.size() < settings.amplitudes_m.size()) {
       return ProcedureOutcome::failed(fmt::format("no oscillation of {}", fmt::join(lost, "; ")));
     }
+    const auto stiffest = *std::max_element(
+        curve.begin(), curve.end(),
+        [](const Critical& a, const Critical& b) { return a.gain_Nm_per_rad < b.gain_Nm_per_rad; });
     std::string why;
-    for (const double share : kShares) {
-      const auto gains = gains_of(*chosen, share);
+    for (const auto& [of, share] :
+         {std::pair(*chosen, 1.0), std::pair(stiffest, 1.0), std::pair(stiffest, 1.5),
+          std::pair(*chosen, 0.7), std::pair(*chosen, 0.5)}) {
+      const auto gains = gains_of(of, share);
       const auto trial = try_gains(context, settings, gains);
       if (trial.trouble.empty()) {
-        return judged(context, curve, lost, *chosen,
-                      {.share = share, .gains = gains, .run = trial});
+        return judged(context, curve, lost, of, {.share = share, .gains = gains, .run = trial});
       }
-      why += fmt::format("{}at {:.0f} %: {}", why.empty() ? "" : "; ", 100 * share, trial.trouble);
+      why += fmt::format("{}{:.0f} % at {:.2f} mm: {}", why.empty() ? "" : "; ", 100 * share,
+                         1e3 * of.amplitude_m, trial.trouble);
     }
-    return ProcedureOutcome::failed("the loop with shares of these gains: " + why);
+    return ProcedureOutcome::failed("the loop with shares of Table 4.1's gains: " + why);
   }
 
  private:
@@ -130,10 +135,9 @@ class RelayTuning final : public Procedure {
     identify::Recording run;
   };
 
-  // Table 4.1 leaves a quarter of an amplitude from swing to swing: where a chain takes more of the
-  // phase than the relay met, that is too much, and the guard of the encoder says so.
-  static constexpr std::array<double, 3> kShares{1.0, 0.7, 0.5};
-
+  // Friction makes the relay's K_C too small where its amplitude is large, and a soft loop hunts
+  // until the encoder's guard takes it for a broken one: then the stiffest of the curve, and more.
+  // Where a chain takes more of the phase than the relay met they are too much: then less.
   static std::string gains_of(const Critical& chosen, double share) {
     const auto p = number_after(chosen.gains, "--kp ");
     const auto i = number_after(chosen.gains, "--ki ");

@@ -117,15 +117,18 @@ TEST(SaturationSpeed, OfAWeakMotorIsReached) {
   }
 }
 
-// On X one amplitude does not settle; on Y the gains of Table 4.1 are too much for the guard.
-TEST(Tuning, GoesOnWhereOneAmplitudeOrAllOfTheGainIsTooMuch) {
+// On X one amplitude does not settle; on Y the gains of Table 4.1 are so soft that the guard of the
+// encoder takes the loop for a broken one.
+TEST(Tuning, GoesOnWhereAnAmplitudeDoesNotSettleOrALoopIsTooSoft) {
   const auto bench = drawn(2);
-  for (const auto axis : core::kAxes) {
-    const Machine machine(bench.rig, bench.controller, 1);
-    const auto outcome =
-        relay_tuning()->run({.machine = machine, .axis = axis, .known = drive_of(bench.rig, axis)});
-    EXPECT_EQ(outcome.status, ProcedureOutcome::Status::kDone)
-        << core::name_of(axis) << ": " << outcome.reason;
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    for (const auto axis : core::kAxes) {
+      const Machine machine(bench.rig, bench.controller, seed);
+      const auto outcome = relay_tuning()->run(
+          {.machine = machine, .axis = axis, .known = drive_of(bench.rig, axis)});
+      EXPECT_EQ(outcome.status, ProcedureOutcome::Status::kDone)
+          << core::name_of(axis) << ", seed " << seed << ": " << outcome.reason;
+    }
   }
 }
 
