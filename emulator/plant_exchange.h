@@ -47,6 +47,10 @@ class PlantExchange {
 
   [[nodiscard]] bool finished() const noexcept { return finished_; }
   [[nodiscard]] core::Nanoseconds now_ns() const noexcept { return rig_.now_ns(); }
+  [[nodiscard]] protocol::EncoderLevels encoder_levels(core::Axis which) const noexcept {
+    const RigAxis* axis = rig_.axis(which);
+    return axis != nullptr ? axis->encoder().levels() : protocol::EncoderLevels{0};
+  }
 
  private:
   struct AxisOutputs {

@@ -50,4 +50,8 @@ core::Nanoseconds PlantNode::now_ns() const noexcept {
   return implementation_->now_ns();
 }
 
+protocol::EncoderLevels PlantNode::encoder_levels(core::Axis axis) const noexcept {
+  return implementation_->encoder_levels(axis);
+}
+
 }  // namespace towbench::emulator

@@ -52,6 +52,9 @@ class PlantNode : public protocol::MessageSink {
 
   [[nodiscard]] bool finished() const noexcept;
   [[nodiscard]] core::Nanoseconds now_ns() const noexcept;
+  // Of an encoder's lines before the first step: what real lines are set to before anybody counts
+  // their edges. 0 for an axis that the rig has not.
+  [[nodiscard]] protocol::EncoderLevels encoder_levels(core::Axis axis) const noexcept;
 
  private:
   class Implementation;

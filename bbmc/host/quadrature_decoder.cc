@@ -194,7 +194,9 @@ bool QuadratureDecoder::take(const protocol::EncoderReport& report) noexcept {
   }
   if (report.last_edge_ns != 0) {
     counter_.last_edge_ns = report.last_edge_ns;
-    counter_.edge_before_ns = report.last_edge_ns - report.capture_period_ns;
+    // Without a period there is no edge before that one.
+    counter_.edge_before_ns =
+        report.capture_period_ns == 0 ? 0 : report.last_edge_ns - report.capture_period_ns;
   }
   time_ns_ = report.time_ns;
   return good;

@@ -1,9 +1,13 @@
 #include "harness/bench/carrier_name.h"
 
+#include "harness/bench/run_carrier.h"
+
 namespace towbench::harness {
 
 std::string name_of_carrier(const RunOptions& options) {
-  const auto lines = options.lines.controller.empty() ? "" : " and " + options.lines.controller;
+  const auto& encoders = options.encoder_lines.controller;
+  const auto lines = (options.lines.controller.empty() ? "" : " and " + options.lines.controller) +
+                     (encoders.empty() ? "" : " and encoders on " + encoders);
   switch (options.carrier) {
     case Carrier::kInProcess:
       return options.firmware.empty() ? "in-process" : "virtual board";
@@ -15,6 +19,19 @@ std::string name_of_carrier(const RunOptions& options) {
       break;
   }
   return options.wire->controller.text() + lines;
+}
+
+bool takes_edges(const RunOptions& options) {
+  const auto kind = kind_of(options);
+  const bool only_when_time_waits = kind == CarrierKind::kSerial || kind == CarrierKind::kCanFd;
+  return kind != CarrierKind::kCan &&
+         (!only_when_time_waits || options.clock == RunClock::kLockstep);
+}
+
+const char* fidelity_of(const RunOptions& options) {
+  return !options.encoder_lines.controller.empty() ? "lines"
+         : takes_edges(options)                    ? "edges"
+                                                   : "digest";
 }
 
 }  // namespace towbench::harness

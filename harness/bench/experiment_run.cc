@@ -21,8 +21,8 @@
 #include "harness/bench/linked_plant.h"
 #include "harness/bench/lockstep_bench.h"
 #include "harness/bench/pty_line.h"
-#include "harness/bench/real_lines.h"
 #include "harness/bench/run_carrier.h"
+#include "harness/bench/wires.h"
 #include "harness/bench/witnessed_plant.h"
 #include "harness/faults/case_link.h"
 #include "harness/faults/faulted_experiment.h"
@@ -40,7 +40,6 @@
 #include "harness/record/result_files.h"
 #include "harness/record/run_folder.h"
 #include "protocol/carriers/connection.h"
-#include "protocol/carriers/line_address.h"
 #include "protocol/carriers/paced_can.h"
 #include "protocol/tee_sink.h"
 
@@ -64,7 +63,7 @@ class Run {
     wire_ = options.wire;
     identity_.carrier = name_of_carrier(options);
     identity_.clock = options.clock == RunClock::kReal ? "real" : "lockstep";
-    identity_.fidelity = takes_edges(options) ? "edges" : "digest";
+    identity_.fidelity = fidelity_of(options);
     identity_.seed = seed_of(fixture, options);
     identity_.started_utc = utc_now();
     constexpr std::size_t kShortHash = 8;
@@ -141,16 +140,15 @@ class Run {
   static std::uint64_t seed_of(const ExperimentFixture& fixture, const RunOptions& options) {
     return options.seed.value_or(fixture.experiment.seed);
   }
-  static bool takes_edges(const RunOptions& options) {
-    const auto kind = kind_of(options);
-    const bool only_when_time_waits = kind == CarrierKind::kSerial || kind == CarrierKind::kCanFd;
-    return kind != CarrierKind::kCan &&
-           (!only_when_time_waits || options.clock == RunClock::kLockstep);
-  }
   static std::unique_ptr<FaultedExperiment> faults_of(const ExperimentFixture& fixture,
                                                       const RunOptions& options) {
     if (!options.firmware.empty()) {
       return nullptr;  // firmware_faults.h
+    }
+    if (!fixture.experiment.faults.empty() && !options.encoder_lines.controller.empty()) {
+      throw FixtureError({.file = "fault plan"}, "a run with its encoders on lines",
+                         "encoders over the carrier: a fault is judged beside a twin of the same "
+                         "bits");
     }
     if (!fixture.experiment.faults.empty() && options.clock == RunClock::kReal) {
       throw FixtureError({.file = "fault plan"}, "a run by the wall clock",
@@ -207,6 +205,9 @@ class Run {
                                        std::to_string(identity_.seed), "--out", folder_.string()};
     if (!options_.lines.plant.empty()) {
       arguments.insert(arguments.end(), {"--lines", options_.lines.plant});
+    }
+    if (!options_.encoder_lines.plant.empty()) {
+      arguments.insert(arguments.end(), {"--encoder-lines", options_.encoder_lines.plant});
     }
     if (options_.clock == RunClock::kReal) {
       arguments.insert(arguments.end(), {"--clock", "real"});
@@ -275,24 +276,21 @@ class Run {
 
   RunOutcome play_in_lockstep(PeerControl& peer, protocol::TurnLink& link) {
     LinkedPlant plant(link);
-    return with_lines(plant, [&](PlantEnd& whole) { return play_against(whole, peer); });
+    return with_lines(plant, EdgeTimes::kOfExchange,
+                      [&](PlantEnd& whole) { return play_against(whole, peer); });
   }
 
   // `play` with the plant, or with the plant and the real lines of the run.
   template <typename Play>
-  RunOutcome with_lines(PlantEnd& plant, Play play) {
-    if (options_.lines.controller.empty()) {
-      return play(plant);
-    }
-    const auto port =
-        protocol::open_lines(options_.lines.controller, protocol::LineSide::kController);
-    if (!port) {
+  RunOutcome with_lines(PlantEnd& plant, EdgeTimes times, Play play) {
+    const auto wired = WiredPlant::open(
+        plant, {options_.lines.controller, options_.encoder_lines.controller}, times);
+    if (!wired) {
       RunOutcome outcome;
-      outcome.reason = port.error().message;
+      outcome.reason = wired.error().message;
       return outcome;
     }
-    RealLinesAtController with_lines(plant, **port);
-    return play(with_lines);
+    return play((*wired)->whole());
   }
 
   // `log` may be null.
@@ -303,7 +301,7 @@ class Run {
     go_by_the_wall_clock(connection);
     timing_.emplace(folder_, fixture_.controller.configuration);
     RealtimePlantEnd timed(connection.link(), timing_->loop(), takes_edges(options_));
-    auto outcome = with_lines(timed, [&](PlantEnd& whole) {
+    auto outcome = with_lines(timed, EdgeTimes::kOfKernel, [&](PlantEnd& whole) {
       WitnessedPlant plant(whole, witness);
       return play_against(plant, peer);
     });

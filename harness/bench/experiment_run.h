@@ -23,7 +23,7 @@ enum class RunClock : std::uint8_t { kLockstep, kReal };
 // kSerialPty: a serial line of its own between two processes, over pseudo-terminals.
 enum class Carrier : std::uint8_t { kInProcess, kLocal, kWire, kSerialPty };
 
-// Real lines (line_address.h) of both sides; empty: lines are messages. Need two processes.
+// Real lines of both sides; empty: they are messages. Need two processes.
 struct LineEnds {
   std::string controller;
   std::string plant;
@@ -34,7 +34,8 @@ struct RunOptions {
   std::optional<std::uint64_t> seed;  // instead of the experiment's own
   Carrier carrier = Carrier::kInProcess;
   std::optional<protocol::CarrierEnds> wire;  // of Carrier::kWire
-  LineEnds lines;
+  LineEnds lines;                             // end-stops, kill switch, amplifiers: line_address.h
+  LineEnds encoder_lines;                     // encoder_address.h
   // An ELF image that runs on the virtual board instead of the experiment's controller; empty:
   // none.
   std::filesystem::path firmware;

@@ -11,13 +11,13 @@
 #include "harness/bench/in_process_plant.h"
 #include "harness/bench/linked_plant.h"
 #include "harness/bench/lockstep_bench.h"
-#include "harness/bench/real_lines.h"
 #include "harness/bench/unrecorded_plant.h"
+#include "harness/bench/wires.h"
 #include "harness/commands/carrier_option.h"
 #include "harness/commands/command.h"
 #include "harness/commands/linux_session.h"
+#include "harness/commands/serial_console.h"
 #include "harness/commands/stop_signal.h"
-#include "harness/commands/typist.h"
 #include "harness/fixtures/controller_fixture.h"
 #include "harness/fixtures/rig_fixture.h"
 #include "harness/judge/check.h"
@@ -28,7 +28,7 @@
 #include "harness/record/controller_recorder.h"
 #include "harness/record/plant_recorder.h"
 #include "protocol/carriers/connection.h"
-#include "protocol/carriers/line_address.h"
+#include "protocol/carriers/encoder_address.h"
 
 namespace towbench::harness {
 namespace {
@@ -37,6 +37,8 @@ struct Options {
   std::string controller;
   std::string carrier;
   std::string lines;
+  std::string encoder_lines;
+  std::string console;
   std::string rig;
   std::string devices;
   std::string out;
@@ -48,16 +50,15 @@ struct Options {
 
 class Session {
  public:
-  Session(LockstepBench& bench, ControllerRecorder* recorder, bool paced)
-      : bench_(bench), recorder_(recorder), paced_(paced) {}
+  Session(LockstepBench& bench, ControllerRecorder* recorder, SessionConsole& console, bool paced)
+      : bench_(bench), recorder_(recorder), console_(console), paced_(paced) {}
 
   int run() {
     if (const auto agreed = bench_.start(); !agreed) {
       return lost("the machine refused", agreed.error());
     }
     const auto start = std::chrono::steady_clock::now();
-    Typist typist;
-    while (!over(typist)) {
+    while (!over()) {
       if (const auto alive = bench_.advance(); !alive) {
         return lost("the machine is gone; drive removed", alive.error());
       }
@@ -71,13 +72,11 @@ class Session {
   }
 
  private:
-  bool over(Typist& typist) {
-    typist.feed(bench_.controller());
-    const auto text = bench_.serve();
-    std::fwrite(text.data(), 1, text.size(), stdout);
-    std::fflush(stdout);
+  bool over() {
+    console_.feed(bench_.controller());
+    console_.print(bench_.serve());
     return bench_.controller().quit_requested() || stop_requested() ||
-           (typist.ended() && bench_.controller().idle());
+           (console_.ended() && bench_.controller().idle());
   }
 
   int lost(const char* what, core::ErrorCode code) {
@@ -95,6 +94,7 @@ class Session {
 
   LockstepBench& bench_;
   ControllerRecorder* recorder_;
+  SessionConsole& console_;
   bool paced_;
 };
 
@@ -106,12 +106,27 @@ std::unique_ptr<protocol::Connection> connect_to(const std::string& address) {
   return std::move(*connection);
 }
 
-std::unique_ptr<protocol::LinePort> open_the_lines(const std::string& address) {
-  auto lines = protocol::open_lines(address, protocol::LineSide::kController);
-  if (!lines) {
-    throw std::runtime_error(lines.error().message);
+std::unique_ptr<WiredPlant> wired(PlantEnd& plant, const Options& options) {
+  auto whole =
+      WiredPlant::open(plant, {options.lines, options.encoder_lines},
+                       options.by_wall_clock() ? EdgeTimes::kOfKernel : EdgeTimes::kOfExchange);
+  if (!whole) {
+    throw std::runtime_error(whole.error().message);
   }
-  return std::move(*lines);
+  return std::move(*whole);
+}
+
+// Before the loop takes its rights: a thread of the console's must not have them.
+std::unique_ptr<SessionConsole> console_of(const Options& options) {
+  if (options.console.empty()) {
+    return std::make_unique<OwnTerminal>();
+  }
+  const auto address = carrier_address("--console", options.console);
+  if (address.scheme != protocol::Scheme::kSerial) {
+    throw FixtureError({"command line", 0, "--console"}, '"' + options.console + '"',
+                       "serial:DEVICE[@BAUD]");
+  }
+  return std::make_unique<SerialConsole>(address);
 }
 
 // The controller's loop by the wall clock, with its figures at the end.
@@ -158,6 +173,7 @@ int execute(const Options& options) {
   if (!options.devices.empty()) {
     return run_on_devices(options.devices, controller, options.out);
   }
+  const auto console = console_of(options);
   UnrecordedPlant unrecorded;
   std::unique_ptr<ControllerRecorder> recorder;
   std::unique_ptr<PlantRecorder> plant_recorder;
@@ -166,10 +182,10 @@ int execute(const Options& options) {
     recorder = std::make_unique<ControllerRecorder>(options.out);
   }
   std::unique_ptr<protocol::Connection> connection;
-  std::unique_ptr<protocol::LinePort> lines;
   std::unique_ptr<WallClock> wall_clock;
   std::unique_ptr<PlantEnd> linked;
   std::unique_ptr<PlantEnd> own;
+  std::unique_ptr<WiredPlant> whole;
   PlantEnd* plant = nullptr;
   if (!options.carrier.empty()) {
     connection = connect_to(options.carrier);
@@ -182,11 +198,8 @@ int execute(const Options& options) {
       linked = std::make_unique<LinkedPlant>(connection->link());
       plant = linked.get();
     }
-    if (!options.lines.empty()) {
-      lines = open_the_lines(options.lines);
-      own = std::make_unique<RealLinesAtController>(*plant, *lines);
-      plant = own.get();
-    }
+    whole = wired(*plant, options);
+    plant = &whole->whole();
   } else {
     const auto rig = load_rig(options.rig, sources);
     plant_recorder = options.out.empty() ? nullptr : std::make_unique<PlantRecorder>(options.out);
@@ -199,7 +212,7 @@ int execute(const Options& options) {
   // The rig's hash is not known to somebody who only has the controller: 0 accepts any.
   LockstepBench bench(controller.configuration, 0, *plant, recorder.get());
   const bool paced = !options.fast && wall_clock == nullptr;
-  const int code = Session(bench, recorder.get(), paced).run();
+  const int code = Session(bench, recorder.get(), *console, paced).run();
   if (wall_clock != nullptr) {
     wall_clock->tell();
   }
@@ -217,9 +230,16 @@ void add_control(CLI::App& app, int& exit_code) {
       std::string("where `towbench emulate` waits: ") + std::string(protocol::kAddressForms));
   auto* rig = verb->add_option("--rig", options->rig, "instead: a rig emulated in this process");
   connect->excludes(rig);
-  auto* lines =
-      verb->add_option("--lines", options->lines, "digital lines on a GPIO chip: CHIP[+FIRST]")
-          ->excludes(rig);
+  auto* lines = verb->add_option("--lines", options->lines,
+                                 "digital lines on a GPIO chip: CHIP[+FIRST][~MILLISECONDS]")
+                    ->excludes(rig);
+  auto* encoder_lines = verb->add_option("--encoder-lines", options->encoder_lines,
+                                         std::string("encoder channels on real lines: ") +
+                                             std::string(protocol::kEncoderLineForms))
+                            ->excludes(rig);
+  auto* console = verb->add_option("--console", options->console,
+                                   "the console on a serial line instead of this terminal: "
+                                   "serial:DEVICE[@BAUD]");
   auto* clock = verb->add_option("--clock", options->clock,
                                  "as the emulator's: lockstep, or real: by this host's clock, with "
                                  "real-time rights")
@@ -230,6 +250,7 @@ void add_control(CLI::App& app, int& exit_code) {
                                    "instead: a real machine on this board's devices: linux:FILE "
                                    "(docs/beaglebone.md)");
   devices->excludes(connect)->excludes(rig)->excludes(lines)->excludes(clock);
+  devices->excludes(encoder_lines)->excludes(console);
   verb->add_option("--out", options->out, "folder for log.csv and the other records");
   verb->add_flag("--fast", options->fast, "as fast as it goes, not at the wall clock's pace")
       ->excludes(devices)

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "harness/commands/command.h"
+#include "harness/commands/encoder_option.h"
 #include "harness/commands/exit_codes.h"
 #include "harness/commands/experiment_options.h"
 #include "harness/commands/fixture_paths.h"
@@ -75,6 +76,7 @@ void add_demo(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--carrier", options->carrier, kCarrierHelp);
   verb->add_option("--lines", options->lines, kLinesHelp);
+  verb->add_option("--encoder-lines", options->encoder_lines, kEncoderLinesHelp);
   verb->add_flag("--board", chosen->board,
                  "BBMC as a bare-metal image on the virtual AM335x instead of in this process");
   verb->add_flag("-q,--quiet", options->quiet, "print failures and the report's path only");

@@ -23,6 +23,7 @@
 #include "harness/record/message_record.h"
 #include "harness/record/plant_recorder.h"
 #include "protocol/carriers/connection.h"
+#include "protocol/carriers/encoder_address.h"
 #include "protocol/carriers/line_address.h"
 #include "protocol/carriers/local_socket.h"
 
@@ -34,6 +35,7 @@ struct Options {
   std::string rig;
   std::string carrier;
   std::string lines;
+  std::string encoder_lines;
   std::string out;
   std::optional<std::uint64_t> seed;
   int stream_descriptor = -1;
@@ -122,7 +124,7 @@ Caller wait_for_controller(const Options& options) {
 }
 
 core::Status serve_by_the_wall_clock(const Options& options, const Caller& caller,
-                                     emulator::PlantNode& plant, protocol::LinePort* lines,
+                                     emulator::PlantNode& plant, const PlantWires& wires,
                                      bool& heard_is_written) {
   std::optional<MessageRecord> heard;
   if (!options.out.empty()) {
@@ -132,7 +134,7 @@ core::Status serve_by_the_wall_clock(const Options& options, const Caller& calle
   EmulatorTiming timing(options.out);
   const auto ended =
       timing.serve(plant, caller.connection->link(), caller.hello,
-                   {.lines = lines,
+                   {.wires = wires,
                     .report_ns = report_period_ns(scheme_of(options), caller.hello.exchange_ns),
                     .witness = heard ? &heard->sink() : nullptr});
   if (heard) {
@@ -152,21 +154,20 @@ int execute(const Options& options) {
   }
   emulator::PlantObserver& observer =
       recorder ? static_cast<emulator::PlantObserver&>(*recorder) : unrecorded;
-  const auto lines = options.lines.empty()
-                         ? nullptr
-                         : opened(protocol::open_lines(options.lines, protocol::LineSide::kPlant));
+  const bool real = options.clock == "real";
+  const auto lines = opened(open_plant_wires({options.lines, options.encoder_lines},
+                                             real ? EdgeTimes::kOfKernel : EdgeTimes::kOfExchange));
   const auto caller = wait_for_controller(options);
   if (caller.connection == nullptr) {
     return kExitRuntime;
   }
-  const bool real = options.clock == "real";
   ThinnedTruth thinned(observer, caller.hello.exchange_ns);
   emulator::PlantNode plant(machine.rig, machine.seed, machine.events,
                             real ? static_cast<emulator::PlantObserver&>(thinned) : observer);
   bool heard_is_written = true;
   const auto ended =
-      real ? serve_by_the_wall_clock(options, caller, plant, lines.get(), heard_is_written)
-           : serve_plant(plant, caller.connection->link(), caller.hello, lines.get());
+      real ? serve_by_the_wall_clock(options, caller, plant, lines.wires(), heard_is_written)
+           : serve_plant(plant, caller.connection->link(), caller.hello, lines.wires());
   if (recorder) {
     recorder->flush();
   }
@@ -196,6 +197,9 @@ void add_emulate(CLI::App& app, int& exit_code) {
       std::string("where to wait for a controller: ") + std::string(protocol::kAddressForms));
   verb->add_option("--lines", options->lines,
                    std::string("digital lines on real ones: ") + std::string(protocol::kLineForms));
+  verb->add_option(
+      "--encoder-lines", options->encoder_lines,
+      std::string("encoder channels on real lines: ") + std::string(protocol::kEncoderLineForms));
   verb->add_option("--patience", options->patience_s, "seconds to wait for it; 0: for ever")
       ->check(CLI::NonNegativeNumber);
   verb->add_option("--clock", options->clock,

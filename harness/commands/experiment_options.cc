@@ -5,11 +5,13 @@
 #include <CLI/CLI.hpp>
 
 #include "harness/bench/firmware_run.h"
+#include "harness/commands/encoder_option.h"
 #include "harness/commands/progress_line.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_error.h"
 #include "harness/realtime/wall_clock_carrier.h"
 #include "harness/report/report.h"
+#include "protocol/carriers/line_address.h"
 
 namespace towbench::harness {
 
@@ -19,6 +21,7 @@ void add_experiment_options(CLI::App& verb, ExperimentOptions& options) {
   verb.add_option("--seed", options.seed, "instead of the experiment's own seed");
   verb.add_option("--carrier", options.carrier, kCarrierHelp);
   verb.add_option("--lines", options.lines, kLinesHelp);
+  verb.add_option("--encoder-lines", options.encoder_lines, kEncoderLinesHelp);
   verb.add_option("--controller", options.controller, kControllerHelp);
   verb.add_option("--console", options.console,
                   "pty: the firmware's UART as a terminal for you, instead of the script")
@@ -51,6 +54,10 @@ void choose_lines(const std::string& text, RunOptions& options) {
     throw FixtureError({"command line", 0, "--lines"}, '"' + text + '"', "CONTROLLER,PLANT");
   }
   options.lines = {text.substr(0, comma), text.substr(comma + 1)};
+  if (protocol::is_debounced(text) && options.clock != RunClock::kReal) {
+    throw FixtureError({"command line", 0, "--lines"}, '"' + text + "\" in lockstep",
+                       "a debounce, which lasts by the host's clock, with --clock real");
+  }
   if (options.carrier == Carrier::kInProcess) {
     options.carrier = Carrier::kLocal;
   }
@@ -62,6 +69,7 @@ void choose_controller(const std::string& text, RunOptions& options) {
   }
   constexpr std::string_view kScheme = "firmware:";
   const bool alone = options.carrier == Carrier::kInProcess && options.lines.controller.empty() &&
+                     options.encoder_lines.controller.empty() &&
                      options.clock == RunClock::kLockstep;
   if (!text.starts_with(kScheme) || text.size() == kScheme.size() || !alone) {
     throw FixtureError({"command line", 0, "--controller"}, '"' + text + '"',
@@ -96,7 +104,9 @@ RunResult run_with_options(const ExperimentFixture& fixture, const ExperimentOpt
   choose_clock(options.clock, run_options);
   check_load(fixture, run_options);
   choose_lines(options.lines, run_options);
+  choose_encoder_lines(options.encoder_lines, run_options);
   choose_controller(options.controller, run_options);
+  check_encoder_lines(fixture, run_options);
   if (!options.console.empty() && run_options.firmware.empty()) {
     throw FixtureError({"command line", 0, "--console"}, options.console,
                        "with --controller firmware:IMAGE.elf");

@@ -14,10 +14,11 @@ namespace towbench::harness {
 struct ExperimentOptions {
   std::string out = "runs";
   std::optional<std::uint64_t> seed;
-  std::string carrier;     // empty: in-process, or local for the real clock
-  std::string lines;       // "CONTROLLER,PLANT"; empty: lines are messages
-  std::string controller;  // "firmware:IMAGE.elf"; empty: the experiment's own
-  std::string console;     // "pty": of the firmware, for a person
+  std::string carrier;        // empty: in-process, or local for the real clock
+  std::string lines;          // "CONTROLLER,PLANT"; empty: lines are messages
+  std::string encoder_lines;  // the same of the encoders
+  std::string controller;     // "firmware:IMAGE.elf"; empty: the experiment's own
+  std::string console;        // "pty": of the firmware, for a person
   std::string clock = "lockstep";
   bool json = false;
   bool quiet = false;
@@ -33,8 +34,8 @@ void choose_clock(const std::string& clock, RunOptions& options);
 void choose_lines(const std::string& text, RunOptions& options);
 
 inline constexpr const char* kLinesHelp =
-    "digital lines on real ones, controller's and machine's end: CHIP[+FIRST],CHIP[+FIRST] or "
-    "CHIP[+FIRST],sim:CHIP[+FIRST]";
+    "digital lines on real ones, controller's and machine's end: "
+    "CHIP[+FIRST][~MILLISECONDS],[sim:]CHIP[+FIRST]";
 
 // "firmware:IMAGE.elf" (the virtual board). Throws FixtureError for another word, for a file that
 // is no such image, and beside another carrier, clock or lines.

@@ -1,9 +1,6 @@
 #include "harness/realtime/realtime_plant.h"
 
-#include <optional>
-
 #include "emulator/truth_row.h"
-#include "harness/bench/real_lines.h"
 #include "harness/realtime/report_thinner.h"
 #include "protocol/tee_sink.h"
 
@@ -29,27 +26,23 @@ struct Gate final : protocol::EachMessage<Gate> {
 class Path {
  public:
   Path(emulator::PlantNode& plant, protocol::TurnLink& link, const PlantSurroundings& around)
-      : witnessed_(around.witness != nullptr ? *around.witness : nobody_, plant) {
-    protocol::MessageSink* to_controller = &link.peer();
-    if (around.lines != nullptr) {
-      lines_.emplace(witnessed_, link.peer(), *around.lines);
-      to_controller = &lines_->to_controller();
-    }
-    plant.connect(thinner_.emplace(*to_controller, around.report_ns));
+      : witnessed_(around.witness != nullptr ? *around.witness : nobody_, plant),
+        wired_(plant, witnessed_, link.peer(), around.wires, EdgeTimes::kOfKernel),
+        thinner_(wired_.from_plant(), around.report_ns) {
+    plant.connect(thinner_);
   }
-  [[nodiscard]] protocol::MessageSink& to_plant() noexcept {
-    return lines_ ? lines_->from_controller() : witnessed_;
-  }
+  [[nodiscard]] protocol::MessageSink& to_plant() noexcept { return wired_.from_controller(); }
   [[nodiscard]] core::ErrorCode lost_line() const noexcept {
-    return lines_ && !lines_->status() ? lines_->status().error() : core::ErrorCode::kNone;
+    const auto status = wired_.status();
+    return status ? core::ErrorCode::kNone : status.error();
   }
 
  private:
   struct Nobody final : protocol::MessageSink {};
   Nobody nobody_;
   protocol::TeeSink witnessed_;
-  std::optional<RealLinesAtPlant> lines_;
-  std::optional<ReportThinner> thinner_;
+  WiredPath wired_;
+  ReportThinner thinner_;
 };
 
 }  // namespace

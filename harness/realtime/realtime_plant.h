@@ -10,8 +10,8 @@
 #include "core/result.h"
 #include "emulator/plant_node.h"
 #include "harness/bench/plant_end.h"
+#include "harness/bench/wires.h"
 #include "harness/realtime/tick_loop.h"
-#include "protocol/carriers/line_port.h"
 #include "protocol/carriers/turn_link.h"
 #include "protocol/each_message.h"
 
@@ -22,7 +22,7 @@ inline constexpr core::Nanoseconds kRealtimeSilence_ns = core::kNanosecondsPerSe
 
 // What stands around the plant; all outlives the service.
 struct PlantSurroundings {
-  protocol::LinePort* lines = nullptr;  // the machine's digital lines; null: they are messages
+  PlantWires wires;  // the machine's real lines
   // A whole number of ticks: how often the plant reports. Each tick is the least delay; a bus bears
   // one report an exchange.
   core::Nanoseconds report_ns = core::kPlantTick_ns;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace towbench::harness {
@@ -18,8 +19,14 @@ struct RealtimeRights {
   [[nodiscard]] std::string text() const;
 };
 
-// For the calling thread. Processors are counted from the last one that this process may use: 0 is
-// the last, 1 the one before, and so on round again. What is refused is told, not fatal.
+// Processors in the order in which loops take them from the end: those that the kernel keeps free
+// of everything else ("2-3,5" as in /sys/devices/system/cpu/isolated) come last, although no
+// process is allowed on them unless it asks.
+[[nodiscard]] std::vector<int> processors_for_loops(std::vector<int> allowed,
+                                                    std::string_view isolated);
+
+// For the calling thread. Processors are counted from the last one of these: 0 is the last, 1 the
+// one before, and so on round again. What is refused is told, not fatal.
 [[nodiscard]] RealtimeRights take_realtime_rights(int priority, unsigned processor_from_last);
 
 }  // namespace towbench::harness

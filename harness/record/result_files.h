@@ -17,7 +17,7 @@ namespace towbench::harness {
 struct RunIdentity {
   std::string carrier;             // "in-process", "local", or an address: "can:vcan0"
   std::string clock = "lockstep";  // or "real"
-  std::string fidelity = "edges";  // or "digest"
+  std::string fidelity = "edges";  // or "digest", "lines"
   std::uint64_t seed = 0;
   std::string started_utc;
   std::filesystem::path experiment_copy;  // relative to the folder

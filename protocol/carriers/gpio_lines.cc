@@ -99,8 +99,8 @@ class GpioLines::Chip {
     return static_cast<std::uint16_t>(lines);
   }
 
-  // Every event that waits: counted, newest time kept, levels followed.
-  core::Status take_events(std::uint16_t& raw, LineLevels& levels) noexcept {
+  // Every event that waits: counted, newest time kept.
+  core::Status take_events(LineDebouncer& debouncer, LineLevels& levels) noexcept {
     const timespec at_once{0, 0};
     gpiod_line_bulk ready;
     int waiting = ::gpiod_line_event_wait_bulk(&heard_, &at_once, &ready);
@@ -111,11 +111,9 @@ class GpioLines::Chip {
         if (::gpiod_line_event_read(line, &event) != 0) {
           return core::failure(core::ErrorCode::kTransportFailed);
         }
-        const unsigned mask = 1U << index_of(line);
-        raw = static_cast<std::uint16_t>(
-            event.event_type == GPIOD_LINE_EVENT_RISING_EDGE ? raw | mask : raw & ~mask);
         const core::Nanoseconds time_ns =
             event.ts.tv_sec * core::kNanosecondsPerSecond + event.ts.tv_nsec;
+        debouncer.edge(index_of(line), event.event_type == GPIOD_LINE_EVENT_RISING_EDGE, time_ns);
         levels.edge_ns = time_ns > levels.edge_ns ? time_ns : levels.edge_ns;
         ++levels.edges;
       }
@@ -157,8 +155,8 @@ class GpioLines::Chip {
   bool drives_ = false;
 };
 
-GpioLines::GpioLines(std::unique_ptr<Chip> chip, core::Nanoseconds debounce_ns) noexcept
-    : chip_(std::move(chip)), debounce_ns_(debounce_ns) {}
+GpioLines::GpioLines(std::unique_ptr<Chip> chip, LineDebouncer debouncer) noexcept
+    : chip_(std::move(chip)), debouncer_(debouncer) {}
 
 GpioLines::~GpioLines() = default;
 
@@ -178,20 +176,16 @@ CarrierResult<std::unique_ptr<GpioLines>> GpioLines::open(const GpioPlace& place
   if (!levels) {
     return refuse("its lines cannot be read");
   }
-  std::unique_ptr<GpioLines> lines(new GpioLines(std::move(chip), place.debounce_ns));
-  lines->raw_ = *levels;
-  lines->seen_.lines = *levels;
-  return lines;
+  return std::unique_ptr<GpioLines>(
+      new GpioLines(std::move(chip), LineDebouncer(*levels, place.debounce_ns)));
 }
 
 core::Result<LineLevels> GpioLines::read() noexcept {
   seen_.edges = 0;
-  if (const auto status = chip_->take_events(raw_, seen_); !status) {
+  if (const auto status = chip_->take_events(debouncer_, seen_); !status) {
     return core::failure(status.error());
   }
-  if (debounce_ns_ == 0 || monotonic_now() - seen_.edge_ns >= debounce_ns_) {
-    seen_.lines = raw_;
-  }
+  seen_.lines = debouncer_.settled(monotonic_now());
   return seen_;
 }
 

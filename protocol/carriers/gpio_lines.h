@@ -4,7 +4,7 @@
 // On one chip, from an offset on: seven lines from the machine in the order of InputLine, then two
 // to it in the order of OutputLine. The controller's side reads the seven and drives the two; the
 // plant's side the other way round. Edges are read from the kernel's event queue with its own time
-// stamps. A line that has changed counts as changed once it has kept its level for `debounce_ns`.
+// stamps. Each line counts as changed once it has kept its level for `debounce_ns`.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 #include <string>
 
 #include "protocol/carriers/carrier_error.h"
+#include "protocol/carriers/line_debouncer.h"
 #include "protocol/carriers/line_port.h"
 
 namespace towbench::protocol {
@@ -36,12 +37,11 @@ class GpioLines final : public LinePort {
 
  private:
   class Chip;
-  GpioLines(std::unique_ptr<Chip> chip, core::Nanoseconds debounce_ns) noexcept;
+  GpioLines(std::unique_ptr<Chip> chip, LineDebouncer debouncer) noexcept;
 
   std::unique_ptr<Chip> chip_;
-  core::Nanoseconds debounce_ns_;
-  LineLevels seen_;        // debounced
-  std::uint16_t raw_ = 0;  // as of the last event
+  LineDebouncer debouncer_;
+  LineLevels seen_;
 };
 
 }  // namespace towbench::protocol

@@ -1,6 +1,8 @@
 // Where the machine's lines are, as a user writes it:
-//   CHIP[+FIRST]        lines FIRST (0) to FIRST + 8 of a GPIO chip: gpiochip0, gpiochip1+16
-//   sim:CHIP[+FIRST]    the machine's side of a simulated chip (gpio-sim)
+//   CHIP[+FIRST][~MILLISECONDS]    lines FIRST (0) to FIRST + 8 of a GPIO chip: gpiochip0,
+//                                  gpiochip1+16, gpiochip0~5: debounced for 5 ms
+//   sim:CHIP[+FIRST]               the machine's side of a simulated chip (gpio-sim)
+// A debounce lasts by the host's clock: by the wall clock only.
 #pragma once
 
 #include <memory>
@@ -13,7 +15,12 @@
 
 namespace towbench::protocol {
 
-inline constexpr std::string_view kLineForms = "CHIP[+FIRST], or sim:CHIP[+FIRST] for the machine";
+inline constexpr std::string_view kLineForms =
+    "CHIP[+FIRST][~MILLISECONDS], or sim:CHIP[+FIRST] for the machine";
+
+[[nodiscard]] constexpr bool is_debounced(std::string_view address) noexcept {
+  return address.find('~') != std::string_view::npos;
+}
 
 // Opens one side's end. Refused with a sentence for the user.
 [[nodiscard]] CarrierResult<std::unique_ptr<LinePort>> open_lines(std::string_view address,

@@ -67,11 +67,11 @@ candump_is_played() {
   [[ $(wc -l </tmp/seen) == 100 ]]
 }
 
-# Nine lines that the kernel simulates.
+# Fifteen lines that the kernel simulates: nine digital ones, six of two encoders.
 make_simulated_chip() {
   local device=/sys/kernel/config/gpio-sim/bench
   mkdir -p "$device/bank0"
-  echo 9 >"$device/bank0/num_lines"
+  echo 15 >"$device/bank0/num_lines"
   echo 1 >"$device/live"
   chip=$(<"$device/bank0/chip_name")
 }
@@ -182,6 +182,51 @@ edges_over_can_fd() {
     grep -q ' vcan0 1A0##1' "$runs"/fd/*/candump.log
 }
 
+# Real lines: encoders, and all carriers of a bench at once.
+
+slow_experiment_with_encoders_on_lines() {
+  rm -rf "${runs:?}/slow" "$runs/slow-lines"
+  bench run wall-clock-window -q --no-report --out "$runs/slow" &&
+    bench run wall-clock-window -q --no-report --carrier can:vcan0 --lines "$chip,sim:$chip" \
+      --encoder-lines "$chip+9:index@200000,sim:$chip+9:index" --out "$runs/slow-lines" &&
+    same_verdicts "$runs/slow" "$runs/slow-lines" && grep -q '"fidelity": "lines"' "$runs"/slow-lines/*/result.json
+}
+
+# refused_as_too_fast OPTION...: exit code 2 and both rates.
+refused_as_too_fast() {
+  local code=0
+  bench run trapezoid-400 -q --no-report --carrier can:vcan0 --out "$runs/fast" "$@" >"$runs/refusal" 2>&1 || code=$?
+  cat "$runs/refusal"
+  [[ $code == 2 ]] && grep -q 'edges/s at its fastest.*the lines carry [0-9]* edges/s' "$runs/refusal"
+}
+
+fast_experiment_is_refused() {
+  refused_as_too_fast --encoder-lines "$chip+9@20000,sim:$chip+9" || return 1
+  refused_as_too_fast --encoder-lines "$chip+9,sim:$chip+9" --clock real || return 1
+  echo "@@ measured: $(sed -n 's/.*the lines carry \([0-9]* edges.s\).*/\1/p' "$runs/refusal") over gpio-sim" >/dev/console
+}
+
+# Duty over CAN, end-stops over GPIO, console over serial, each side a process that a person started.
+three_carriers_at_once() {
+  local ends code=0 plant
+  ends=$(mktemp -d)
+  socat "pty,rawer,link=$ends/board" "pty,rawer,link=$ends/desk" &
+  local line=$!
+  while [[ ! -e $ends/board || ! -e $ends/desk ]]; do kill -0 "$line" || return 1; done
+  bench emulate --rig fixtures/rigs/macs-nominal.toml --carrier can:vcan0 --lines "sim:$chip" --patience 120 &
+  plant=$!
+  python3 "$root/tests/carriers/operator.py" "$ends/desk" 'reset poscalib y 0.449092m' 'reset poscalib x 0.336819m' \
+    'run -trapez y --distance 0.02m --speed 0.05m/s' quit &
+  local operator=$!
+  bench control --controller fixtures/controllers/bbmc-tuned.toml --fast --carrier can:vcan0 --lines "$chip" \
+    --console "serial:$ends/board@115200" || code=1
+  wait "$operator" || code=1
+  wait "$plant" || code=1
+  kill "$line"
+  rm -rf "$ends"
+  return "$code"
+}
+
 on_host() {
   valid_windows=0
   wall_clock 'a local socket' 12
@@ -209,6 +254,11 @@ in_machine() {
     "$build/tests/bbmc/test_bbmc" --gtest_brief=1 '--gtest_filter=ChipLine*'
   make_simulated_chip
   demo_over vcan-and-gpio can:vcan0 "$chip,sim:$chip"
+  job 'encoder lines: order, times, a whole queue, a lost edge' \
+    "$build/tests/protocol/test_protocol" --gtest_brief=1 '--gtest_filter=GpioEdges*'
+  job 'a slow experiment with its encoders on lines: the same verdict' slow_experiment_with_encoders_on_lines
+  job 'a fast one is refused, by rating and as measured' fast_experiment_is_refused
+  job 'duty over CAN, end-stops over GPIO, console over serial' three_carriers_at_once
   job 'a bus that goes down in a run leaves both sides safe' bus_goes_down
   job 'a send queue that stays full in a run leaves both sides safe' send_queue_stays_full
   job "a node that babbles with the bench's identifiers leaves both sides safe" node_babbles

@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -12,41 +11,10 @@
 
 #include "protocol/carriers/line_address.h"
 #include "protocol/carriers/sim_lines.h"
+#include "tests/protocol/simulated_chip.h"
 
 namespace towbench::protocol {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr unsigned kLines = 12;
-
-// One simulated chip, made through the kernel's own file system of configurations.
-class SimulatedChip {
- public:
-  SimulatedChip() {
-    fs::create_directory(device_);
-    fs::create_directory(device_ / "bank0");
-    write("bank0/num_lines", std::to_string(kLines));
-    write("live", "1");
-    std::ifstream(device_ / "bank0/chip_name") >> name_;
-  }
-  SimulatedChip(const SimulatedChip&) = delete;
-  SimulatedChip& operator=(const SimulatedChip&) = delete;
-  ~SimulatedChip() {
-    write("live", "0");
-    fs::remove(device_ / "bank0");
-    fs::remove(device_);
-  }
-  [[nodiscard]] const std::string& name() const { return name_; }
-  static bool is_possible() { return fs::exists("/sys/kernel/config/gpio-sim"); }
-
- private:
-  void write(const char* file, const std::string& text) const {
-    std::ofstream(device_ / file) << text;
-  }
-  fs::path device_ = "/sys/kernel/config/gpio-sim/towbench-test";
-  std::string name_;
-};
 
 class GpioLinesTest : public testing::Test {
  protected:
@@ -56,7 +24,7 @@ class GpioLinesTest : public testing::Test {
       ASSERT_EQ(std::getenv("TOWBENCH_TEST_MACHINE"), nullptr) << "no gpio-sim";  // NOLINT
       GTEST_SKIP() << "this kernel has no gpio-sim";
     }
-    chip_ = std::make_unique<SimulatedChip>();
+    chip_ = std::make_unique<SimulatedChip>(12);
     ASSERT_FALSE(chip_->name().empty());
   }
   std::unique_ptr<GpioLines> opened(LineSide side = LineSide::kController,
@@ -80,11 +48,20 @@ TEST(GpioLinesOpening, NamesTheChipThatItCannotOpen) {
 }
 
 TEST(LineAddress, RefusesWhatIsNone) {
-  for (const std::string text : {"", "+3", "gpiochip0+", "gpiochip0+x", "sim:", "sim:gpiochip0"}) {
+  for (const std::string text :
+       {"", "+3", "gpiochip0+", "gpiochip0+x", "sim:", "sim:gpiochip0", "gpiochip0~",
+        "gpiochip0~5ms", "gpiochip0~1001", "gpiochip0~5+3", "~5"}) {
     const auto lines = open_lines(text, LineSide::kController);
     ASSERT_FALSE(lines.has_value()) << text;
     EXPECT_NE(lines.error().message.find(std::string(kLineForms)), std::string::npos);
   }
+}
+
+TEST_F(GpioLinesTest, TheAddressSaysWhereTheLinesAreAndHowLongTheyBounce) {
+  const auto controller = open_lines(chip_->name() + "+2~1000", LineSide::kController);
+  ASSERT_TRUE(controller.has_value()) << controller.error().message;
+  ASSERT_TRUE(machine()->write(1).has_value());  // and 0 again when it ends
+  EXPECT_EQ((*controller)->read()->lines, 0U) << "not for a second yet";
 }
 
 TEST_F(GpioLinesTest, SeesEveryLineOfTheMachineAsItsOwnBit) {

@@ -40,14 +40,41 @@ TEST(HostFindings, TellCanInterfacesByTypeAndState) {
   root.write("sys/class/net/vcan0/type", "280\n");
   root.write("sys/class/net/vcan0/operstate", "unknown\n");
   root.write("sys/class/net/vcan0/mtu", "72\n");
-  EXPECT_EQ(finding_on(root, "can").found, "up: vcan0 (FD); down: can0");
+  const auto virtual_only = finding_on(root, "can");
+  EXPECT_EQ(virtual_only.found,
+            "up: vcan0 (virtual, FD); down: can0: fit for two sides on this host, no wire");
+  EXPECT_EQ(virtual_only.fit, Fitness::kLimited);
+  root.write("sys/class/net/can0/operstate", "up\n");
+  EXPECT_EQ(finding_on(root, "can").fit, Fitness::kGood);
+}
+
+TEST(HostFindings, DoNotGiveAVirtualBusABitRateToMendIt) {
+  const TemporaryFixtures root;
+  root.write("sys/class/net/vcan0/type", "280\n");
+  root.write("sys/class/net/vcan0/operstate", "down\n");
+  EXPECT_EQ(finding_on(root, "can").mend, "ip link set vcan0 up");
+}
+
+TEST(HostFindings, TellSerialPortsWithHardwareBehindThem) {
+  const TemporaryFixtures root;
+  EXPECT_EQ(finding_on(root, "serial").fit, Fitness::kMissing);
+  root.write("dev/ttyS0", "");
+  root.write("sys/class/tty/ttyS0/type", "0\n");
+  root.write("dev/tty1", "");
+  EXPECT_EQ(finding_on(root, "serial").fit, Fitness::kMissing);
+  root.write("dev/ttyO2", "");
+  const auto found = finding_on(root, "serial");
+  EXPECT_EQ(found.fit, Fitness::kGood);
+  EXPECT_TRUE(found.found.starts_with("ttyO2: fit for")) << found.found;
 }
 
 TEST(HostFindings, TellGpioChipsAndIsolatedProcessors) {
   const TemporaryFixtures root;
   EXPECT_EQ(finding_on(root, "gpio").fit, Fitness::kMissing);
   root.write("dev/gpiochip0", "");
-  EXPECT_EQ(finding_on(root, "gpio").found, "gpiochip0");
+  const auto chip = finding_on(root, "gpio");
+  EXPECT_EQ(chip.fit, Fitness::kGood);
+  EXPECT_TRUE(chip.found.starts_with("gpiochip0: fit for --lines")) << chip.found;
 }
 
 TEST(LatenessFinding, NamesTheFastestRateThatTheHostIsFitFor) {

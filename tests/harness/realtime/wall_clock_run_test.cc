@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/bench/encoder_lines.h"
 #include "harness/bench/lockstep_bench.h"
 #include "harness/bench/real_lines.h"
 #include "harness/bench/script_loop.h"
@@ -21,6 +22,7 @@
 #include "protocol/carriers/lockstep_link.h"
 #include "tests/harness/end_to_end/run_support.h"
 #include "tests/harness/realtime/shared_time.h"
+#include "tests/protocol/edges_in_memory.h"
 
 namespace towbench::harness {
 namespace {
@@ -34,6 +36,7 @@ struct Wire {
   SharedQueue<std::byte> bytes_to_controller{time, Who::kController};
   SharedQueue<protocol::CanFrame> frames_to_plant{time, Who::kPlant};
   SharedQueue<protocol::CanFrame> frames_to_controller{time, Who::kController};
+  protocol::EdgesInMemory encoders{[this] { return time.now_ns(); }};
 };
 
 class End {
@@ -109,6 +112,7 @@ struct Carried {
   const char* name;
   Scheme scheme;
   bool real_lines;
+  bool encoder_lines = false;
 };
 
 class WallClockRunTest : public testing::TestWithParam<Carried> {
@@ -134,7 +138,8 @@ class WallClockRunTest : public testing::TestWithParam<Carried> {
     const auto loop = std::make_unique<TickLoop>(clock, TickPolicy{});
     const auto ended = serve_plant_in_real_time(
         plant, end.link(), *watch.hello, *loop,
-        {.lines = carried.real_lines ? &port : nullptr,
+        {.wires = {.lines = carried.real_lines ? &port : nullptr,
+                   .encoders = carried.encoder_lines ? &wire.encoders.driver() : nullptr},
          .report_ns = report_period_ns(carried.scheme, watch.hello->exchange_ns),
          .witness = &heard.sink()});
     heard.flush();
@@ -156,8 +161,13 @@ class WallClockRunTest : public testing::TestWithParam<Carried> {
       RealtimePlantEnd timed(end.link(), *loop, bears_every_tick(carried.scheme));
       LinesInMemory::Port port(lines, Who::kController);
       std::optional<RealLinesAtController> lined;
-      PlantEnd& whole =
+      PlantEnd& with_lines =
           carried.real_lines ? static_cast<PlantEnd&>(lined.emplace(timed, port)) : timed;
+      std::optional<EncoderLinesAtController> counted;
+      PlantEnd& whole = carried.encoder_lines
+                            ? static_cast<PlantEnd&>(counted.emplace(
+                                  with_lines, wire.encoders.reader(), EdgeTimes::kOfKernel))
+                            : with_lines;
       MessageRecord heard(folder() / kControllerInputsFile);
       WitnessedPlant plant(whole, heard.sink());
       ControllerRecorder recorder(folder());
@@ -224,12 +234,14 @@ std::string name_of_case(const testing::TestParamInfo<Carried>& each) {
 
 constexpr Carried kBus{"can", Scheme::kCan, false};
 constexpr Carried kBusAndLines{"can_and_lines", Scheme::kCan, true};
+constexpr Carried kBusAndAllLines{"can_and_all_lines", Scheme::kCan, true, true};
 
 INSTANTIATE_TEST_SUITE_P(Carriers, WallClockRunTest,
                          testing::Values(Carried{"local", Scheme::kLocal, false},
                                          Carried{"serial", Scheme::kSerial, false},
-                                         Carried{"local_and_lines", Scheme::kLocal, true}, kBus,
-                                         kBusAndLines),
+                                         Carried{"local_and_lines", Scheme::kLocal, true},
+                                         Carried{"local_and_encoders", Scheme::kLocal, false, true},
+                                         kBus, kBusAndLines, kBusAndAllLines),
                          name_of_case);
 INSTANTIATE_TEST_SUITE_P(Carriers, WallClockBusTest, testing::Values(kBus, kBusAndLines),
                          name_of_case);
