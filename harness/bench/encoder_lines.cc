@@ -1,6 +1,7 @@
 #include "harness/bench/encoder_lines.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 
 namespace towbench::harness {
@@ -11,6 +12,11 @@ using protocol::EncoderLine;
 namespace {
 
 constexpr std::array kLines{EncoderLine::kA, EncoderLine::kB, EncoderLine::kIndex};
+
+std::uint32_t as_period(core::Nanoseconds time_ns) noexcept {
+  return static_cast<std::uint32_t>(
+      std::min<core::Nanoseconds>(time_ns, std::numeric_limits<std::uint32_t>::max()));
+}
 
 bool level_of(EncoderLevels levels, EncoderLine line) noexcept {
   return ((static_cast<unsigned>(levels) >> static_cast<unsigned>(line)) & 1U) != 0;
@@ -135,15 +141,14 @@ void EncoderLinesAtController::report(core::Axis axis) noexcept {
   report.index_count = encoder.lines.index_count();
   report.index_pulses =
       static_cast<std::uint16_t>(encoder.lines.index_pulses() - encoder.reported_pulses);
-  if (times_ == EdgeTimes::kOfExchange) {
-    report.last_edge_ns = report.count_change != 0 ? until_ns_ : report.last_edge_ns;
-  } else if (encoder.edge_ns != 0) {
+  if (times_ == EdgeTimes::kOfKernel && encoder.edge_ns != 0) {
     report.last_edge_ns = std::clamp<core::Nanoseconds>(encoder.edge_ns - start_ns_, 1, until_ns_);
-    report.capture_period_ns = encoder.edge_before_ns == 0
-                                   ? 0
-                                   : static_cast<std::uint32_t>(std::min<core::Nanoseconds>(
-                                         encoder.edge_ns - encoder.edge_before_ns,
-                                         std::numeric_limits<std::uint32_t>::max()));
+    report.capture_period_ns =
+        encoder.edge_before_ns == 0 ? 0 : as_period(encoder.edge_ns - encoder.edge_before_ns);
+  } else if (times_ == EdgeTimes::kOfExchange && report.count_change != 0) {
+    const std::int64_t moved = std::abs(std::int64_t{report.count_change});
+    report.capture_period_ns = as_period((until_ns_ - report.last_edge_ns) / moved);
+    report.last_edge_ns = until_ns_;
   }
   encoder.reported_count = encoder.lines.count();
   encoder.reported_pulses = encoder.lines.index_pulses();

@@ -6,7 +6,8 @@
 // digest (EncoderReport) of a peripheral that stands on this side.
 //
 // In lockstep an edge's place in the order counts and its time does not: what moved is dated to the
-// exchange's end, and there is no capture period. The plant's own count crosses the carrier too; it
+// exchange's end, and the capture period is the mean since the exchange before in which something
+// moved. The plant's own count crosses the carrier too; it
 // tells how long to wait for edges that the kernel has not handed out yet, and a count that stays
 // different is a loss. The controller never sees it. By the wall clock only the lines tell: times
 // and capture period are the kernel's.

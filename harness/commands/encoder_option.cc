@@ -70,6 +70,12 @@ void check_encoder_lines(const ExperimentFixture& fixture, const RunOptions& opt
   }
   const auto controller = parsed(options.encoder_lines.controller);
   const auto plant = parsed(options.encoder_lines.plant);
+  for (const auto& axis : fixture.controller.configuration.axes) {
+    if (axis.exists && axis.plausibility.index_fitted && !plant.place.with_index) {
+      throw refusal("no index for a controller that expects one",
+                    ":index at both ends, or index_fitted = false in the controller's file");
+    }
+  }
   EdgeCapacity capacity{
       .edges_per_s = smaller_rating(controller.rated_edges_per_s, plant.rated_edges_per_s),
       .source = "as rated"};

@@ -201,8 +201,8 @@ refused_as_too_fast() {
 }
 
 fast_experiment_is_refused() {
-  refused_as_too_fast --encoder-lines "$chip+9@20000,sim:$chip+9" || return 1
-  refused_as_too_fast --encoder-lines "$chip+9,sim:$chip+9" --clock real || return 1
+  refused_as_too_fast --encoder-lines "$chip+9:index@20000,sim:$chip+9:index" || return 1
+  refused_as_too_fast --encoder-lines "$chip+9:index,sim:$chip+9:index" --clock real || return 1
   echo "@@ measured: $(sed -n 's/.*the lines carry \([0-9]* edges.s\).*/\1/p' "$runs/refusal") over gpio-sim" >/dev/console
 }
 

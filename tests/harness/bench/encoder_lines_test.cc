@@ -73,6 +73,9 @@ class EncoderLinesTest : public testing::Test {
  protected:
   RunOutcome run(const std::string& experiment, EdgesInMemory& lines) {
     fixture_ = Runs::shipped(experiment);
+    for (auto& axis : fixture_.controller.configuration.axes) {
+      axis.plausibility.index_fitted = lines.reader().has_index();
+    }
     PlantRecorder plant_recorder(folder());
     PlantBehindLines plant(fixture_, plant_recorder, {.encoders = &lines.driver()});
     plant.before_exchange = before_exchange_;

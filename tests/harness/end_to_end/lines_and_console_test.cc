@@ -37,7 +37,7 @@ Output towbench(const std::string& arguments) {
 
 TEST(EncoderLinesOption, AnExperimentThatIsTooFastIsRefusedWithBothRates) {
   const auto output =
-      towbench("run trapezoid-400 --encoder-lines gpiochip0+9@20000,sim:gpiochip0+9");
+      towbench("run trapezoid-400 --encoder-lines gpiochip0+9:index@20000,sim:gpiochip0+9:index");
   EXPECT_EQ(output.code, kExitBadInput);
   EXPECT_THAT(output.text, ContainsRegex("1[78][0-9]000 edges/s at its fastest .* the lines carry "
                                          "20000 edges/s .as rated."));
@@ -53,9 +53,16 @@ TEST(EncoderLinesOption, WhatIsNoPairOfPlacesIsRefused) {
   }
 }
 
+TEST(EncoderLinesOption, AControllerThatExpectsAnIndexIsNotRunWithoutOne) {
+  const auto output = towbench("run circle --encoder-lines gpiochip0+9,sim:gpiochip0+9");
+  EXPECT_EQ(output.code, kExitBadInput);
+  EXPECT_THAT(output.text, HasSubstr("no index for a controller that expects one"));
+}
+
 TEST(EncoderLinesOption, FaultsAreRefusedBecauseTheirTwinHasOtherBits) {
   const auto output = towbench(
-      "run wall-clock-window --encoder-lines gpiochip0+9,sim:gpiochip0+9 --fault \"encoder.y "
+      "run wall-clock-window --encoder-lines gpiochip0+9:index,sim:gpiochip0+9:index --fault "
+      "\"encoder.y "
       "frozen at=1s\"");
   EXPECT_EQ(output.code, kExitBadInput);
   EXPECT_THAT(output.text, HasSubstr("a run with its encoders on lines"));
