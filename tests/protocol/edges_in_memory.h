@@ -2,6 +2,8 @@
 // its oldest away when it is full, as the kernel's does.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <deque>
 #include <functional>
 #include <mutex>

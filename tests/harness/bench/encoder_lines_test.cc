@@ -1,6 +1,11 @@
 // Whole runs whose encoders are lines, both sides in this thread, without a kernel.
 #include "harness/bench/encoder_lines.h"
 
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <optional>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
