@@ -21,8 +21,11 @@ class SpscQueue {
   // Producer side. False when full: the item is refused, never overwritten.
   [[nodiscard]] bool push(const T& item) noexcept {
     const std::size_t tail = tail_.load(std::memory_order_relaxed);
-    if (tail - head_.load(std::memory_order_acquire) == Capacity) {
-      return false;
+    if (tail - head_seen_ == Capacity) {
+      head_seen_ = head_.load(std::memory_order_acquire);
+      if (tail - head_seen_ == Capacity) {
+        return false;
+      }
     }
     items_[tail & kMask] = item;
     tail_.store(tail + 1, std::memory_order_release);
@@ -32,8 +35,11 @@ class SpscQueue {
   // Consumer side. False when empty.
   [[nodiscard]] bool pop(T& item) noexcept {
     const std::size_t head = head_.load(std::memory_order_relaxed);
-    if (head == tail_.load(std::memory_order_acquire)) {
-      return false;
+    if (head == tail_seen_) {
+      tail_seen_ = tail_.load(std::memory_order_acquire);
+      if (head == tail_seen_) {
+        return false;
+      }
     }
     item = items_[head & kMask];
     head_.store(head + 1, std::memory_order_release);
@@ -49,10 +55,14 @@ class SpscQueue {
 
  private:
   static constexpr std::size_t kMask = Capacity - 1;
-  // Head and tail on cache lines of their own, or the two threads would fight over one.
+  // Each side's on cache lines of its own, or the two threads would fight over one. For the same
+  // reason each remembers how far it last saw the other and looks again only when that is used up:
+  // until then the other's line does not cross between processors.
   static constexpr std::size_t kCacheLine = 64;
-  alignas(kCacheLine) std::atomic<std::size_t> head_{0};
   alignas(kCacheLine) std::atomic<std::size_t> tail_{0};
+  std::size_t head_seen_ = 0;  // producer's
+  alignas(kCacheLine) std::atomic<std::size_t> head_{0};
+  std::size_t tail_seen_ = 0;  // consumer's
   alignas(kCacheLine) std::array<T, Capacity> items_{};
 };
 

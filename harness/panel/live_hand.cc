@@ -45,6 +45,7 @@ void LiveHand::give(Command command) {
   {
     const std::lock_guard lock(mutex_);
     commands_.push_back(std::move(command));
+    wanted_.store(true, std::memory_order_release);
   }
   changed_.notify_all();
 }
@@ -121,6 +122,9 @@ std::string LiveHand::take_trouble() {
 
 std::span<const HandAct> LiveHand::at(core::Nanoseconds now_ns, LockstepBench& bench) {
   now_ns_.store(now_ns, std::memory_order_relaxed);
+  if (!wanted_.load(std::memory_order_acquire) && !stop_.load(std::memory_order_relaxed)) {
+    return {};
+  }
   std::unique_lock lock(mutex_);
   while (true) {
     while (!commands_.empty()) {
@@ -140,16 +144,17 @@ std::span<const HandAct> LiveHand::at(core::Nanoseconds now_ns, LockstepBench& b
   }
   const auto fresh = std::span<const HandAct>(done_).subspan(told_);
   told_ = done_.size();
+  wanted_.store(pace_.paused || pace_.speed > 0, std::memory_order_relaxed);
   return fresh;
 }
 
 std::optional<LiveHand::HostClock::time_point> LiveHand::due(core::Nanoseconds now_ns) {
-  const auto host = HostClock::now();
-  if (pace_.paused && now_ns >= step_until_ns_) {
-    return host + std::chrono::seconds(1);
-  }
-  if (pace_.paused || pace_.speed <= 0) {
+  if (pace_.paused ? now_ns < step_until_ns_ : pace_.speed <= 0) {
     return std::nullopt;
+  }
+  const auto host = HostClock::now();
+  if (pace_.paused) {
+    return host + std::chrono::seconds(1);
   }
   // A host that fell behind is not made to hurry: the pace starts anew from here.
   constexpr auto kForgiven = std::chrono::milliseconds(100);

@@ -76,6 +76,9 @@ class LiveHand final : public RunHand {
   const bool holds_;
   const std::atomic<bool>& stop_;
   std::atomic<core::Nanoseconds> now_ns_{0};
+  // Something to carry out or a pace to keep; else the bench's thread takes no lock and reads no
+  // clock. Changed under the mutex.
+  std::atomic<bool> wanted_{true};
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
