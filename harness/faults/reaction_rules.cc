@@ -249,9 +249,16 @@ MaybeCheck operator_is_told(const CaseEvidence& evidence) {
   // A reset that works says so, and has nothing to name any more.
   constexpr Nanoseconds kTyping_ns = 20 * core::kNanosecondsPerMillisecond;
   const auto until_ns = run.next_reset_ns(fault->time_ns) - kTyping_ns;
+  // A motion that ends well in the very tick before the fault is latched says so after it.
+  const bool ended_well =
+      std::any_of(run.controller_events.begin(), run.controller_events.end(), [&](const auto& e) {
+        return e.kind == bbmc::SystemEvent::Kind::kMotionEnded && e.time_ns == fault->time_ns &&
+               e.code == core::ErrorCode::kNone;
+      });
   std::string after;
   for (const auto& part : run.printed) {
-    if (part.time_ns >= fault->time_ns && part.time_ns < until_ns) {
+    const bool since = ended_well ? part.time_ns > fault->time_ns : part.time_ns >= fault->time_ns;
+    if (since && part.time_ns < until_ns) {
       after += part.text;
     }
   }
