@@ -42,21 +42,25 @@ core::ErrorCode AxisControl::judge_encoder() noexcept {
   return plausibility_.update(observer_.change(), scope);
 }
 
-bool AxisControl::breaks_limits() const noexcept {
+double AxisControl::speed_limit_here_m_per_s(double speed_m_per_s) const noexcept {
+  return calibrated_ ? speed_limits_.calibrated_m_per_s(position_m(), speed_m_per_s > 0 ? 1 : -1)
+                     : speed_limits_.uncalibrated_m_per_s();
+}
+
+bool AxisControl::breaks_limits() noexcept {
   const double speed_m_per_s = observer_.speed_count_per_s() * m_per_count_;
-  const double magnitude = std::fabs(speed_m_per_s);
-  if (stands_still()) {
-    return false;
+  const bool too_fast =
+      !stands_still() && std::fabs(speed_m_per_s) >
+                             safety_.speed_margin_ratio * speed_limit_here_m_per_s(speed_m_per_s);
+  const bool twice = too_fast && was_too_fast_;
+  was_too_fast_ = too_fast;
+  if (stands_still() || !calibrated_) {
+    return twice;
   }
-  if (!calibrated_) {
-    return magnitude > safety_.speed_margin_ratio * speed_limits_.uncalibrated_m_per_s();
-  }
-  const int direction = speed_m_per_s > 0 ? 1 : -1;
   const double here_m = position_m();
-  const bool beyond =
-      direction > 0 ? here_m > speed_limits_.guard_max_m() : here_m < speed_limits_.guard_min_m();
-  return beyond || magnitude > safety_.speed_margin_ratio *
-                                   speed_limits_.calibrated_m_per_s(here_m, direction);
+  const bool beyond = speed_m_per_s > 0 ? here_m > speed_limits_.guard_max_m()
+                                        : here_m < speed_limits_.guard_min_m();
+  return beyond || twice;
 }
 
 bool AxisControl::amplifier_failed(core::Nanoseconds now_ns, bool ready) const noexcept {
@@ -64,12 +68,15 @@ bool AxisControl::amplifier_failed(core::Nanoseconds now_ns, bool ready) const n
          now_ns - enabled_ns_ > core::nanoseconds(safety_.amplifier_ready_timeout_s);
 }
 
+BrakeInput AxisControl::brake_input(core::Nanoseconds now_ns) const noexcept {
+  return {.now_ns = now_ns,
+          .speed_count_per_s = observer_.speed_count_per_s(),
+          .age_ns = now_ns - observer_.reading().time_ns,
+          .momentum_count_per_s = reckoning_.momentum_count_per_s()};
+}
+
 BrakeState AxisControl::serve_brake(core::Nanoseconds now_ns) noexcept {
-  const BrakeState state =
-      brake_.update({.now_ns = now_ns,
-                     .speed_count_per_s = observer_.speed_count_per_s(),
-                     .age_ns = now_ns - observer_.reading().time_ns,
-                     .momentum_count_per_s = reckoning_.momentum_count_per_s()});
+  const BrakeState state = brake_.update(brake_input(now_ns));
   set_ticks(brake_.torque_Nm() * ticks_per_Nm_);
   return state;
 }
@@ -118,7 +125,14 @@ void AxisControl::begin(AxisMode mode, core::Nanoseconds now_ns) noexcept {
 
 void AxisControl::begin_braking(core::Nanoseconds now_ns) noexcept {
   mode_ = AxisMode::kBraking;
-  brake_.begin(now_ns, observer_.speed_count_per_s(), safety_.coasting_stop);
+  brake_.begin(brake_input(now_ns), safety_.coasting_stop);
+}
+
+void AxisControl::end_is_ahead(End end) noexcept {
+  const auto& ends = settings_.ends;
+  const std::int64_t room_count = end == End::kMin ? ends.hall_min_count - ends.hard_min_count
+                                                   : ends.hard_max_count - ends.hall_max_count;
+  brake_.end_is_ahead(end == End::kMin ? -1.0 : 1.0, static_cast<double>(room_count));
 }
 
 bool AxisControl::encoder_keeps_up() const noexcept {

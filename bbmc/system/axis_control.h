@@ -36,8 +36,10 @@ class AxisControl {
   }
   // Whether the encoder can be believed.
   TOWBENCH_REALTIME [[nodiscard]] core::ErrorCode judge_encoder() noexcept;
-  // Whether the axis moves where or as fast as it must not, by count and speed alone.
-  TOWBENCH_REALTIME [[nodiscard]] bool breaks_limits() const noexcept;
+  // Whether the axis moves where or as fast as it must not, by count and speed alone. Asked once an
+  // exchange: too fast is what is too fast twice, because a lying encoder's last two edges may make
+  // a speed of anything.
+  TOWBENCH_REALTIME [[nodiscard]] bool breaks_limits() noexcept;
   TOWBENCH_REALTIME [[nodiscard]] bool amplifier_failed(core::Nanoseconds now_ns,
                                                         bool ready) const noexcept;
   // Whether the encoder tells at least a quarter of the speed that the axis must have.
@@ -59,6 +61,8 @@ class AxisControl {
   // Of the motion that begins (control_law.h).
   void allow_moving_reference(bool allowed) noexcept { law_.allow_moving(allowed); }
   void begin_braking(core::Nanoseconds now_ns) noexcept;
+  // Of an axis that brakes: an end-stop has spoken, then or since.
+  void end_is_ahead(End end) noexcept;
   // Without the encoder. False when the speed is not known well enough, or braking is switched off:
   // nothing has changed then. What an encoder has said of late counts where only the link or the
   // clock is in doubt.
@@ -119,6 +123,8 @@ class AxisControl {
 
  private:
   void set_ticks(double ticks) noexcept;
+  [[nodiscard]] double speed_limit_here_m_per_s(double speed_m_per_s) const noexcept;
+  [[nodiscard]] BrakeInput brake_input(core::Nanoseconds now_ns) const noexcept;
 
   AxisConfiguration settings_;
   SafetyConfiguration safety_;
@@ -144,6 +150,7 @@ class AxisControl {
   std::int32_t ticks_ = 0;
   bool enabled_ = false;
   bool calibrated_ = false;
+  bool was_too_fast_ = false;
 };
 
 }  // namespace towbench::bbmc

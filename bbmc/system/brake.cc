@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "bbmc/system/stopping_distance.h"
 
@@ -11,6 +12,18 @@ namespace {
 // The chain can throw the light motor faster than the carriage ever was, but not twice as fast.
 constexpr double kRunawayRatio = 2.0;
 constexpr double kRunawaySlack_count_per_s = 40'000;
+// Half a swing of the motor on the chain, of the slower axis.
+constexpr core::Nanoseconds kThrown_ns = 60 * core::kNanosecondsPerMillisecond;
+// Of the way that is left, what the carriage may run on. Of the way that it has come, what its
+// reckoning may be short by: the speed was the mean of a swing that had just begun.
+constexpr double kRunOnRatio = 0.9;
+constexpr double kShortRatio = 0.15;
+constexpr double kGoesOn_m_per_s = 0.02;
+// While the mean that the momentum is taken from has but a part of the swing that braking begins
+// with, the momentum is what it was, less what the brake has taken.
+constexpr core::Nanoseconds kFirstSwing_ns = 120 * core::kNanosecondsPerMillisecond;
+// The light motor, before the chain is tight.
+constexpr double kPressedBack_m_per_s = 0.4;
 // A brake that works has halved the speed in three times the time that a rigid axis takes to stand,
 // and a swing of the chain.
 constexpr core::Nanoseconds kSlowingTimes = 3;
@@ -48,6 +61,8 @@ Brake::Brake(const AxisConfiguration& axis) noexcept
       standstill_count_per_s_(axis.braking.standstill_m_per_s * axis.counts_per_m()),
       free_chain_Hz_(axis.braking.held_motor_chain_Hz *
                      std::sqrt(axis.braking.inertia_kg_m2 / axis.braking.rotor_inertia_kg_m2)),
+      pressed_back_count_per_s_(kPressedBack_m_per_s * axis.counts_per_m()),
+      goes_on_count_per_s_(kGoesOn_m_per_s * axis.counts_per_m()),
       top_speed_count_per_s_(axis.speed_limit_m_per_s * axis.counts_per_m()) {}
 
 core::Nanoseconds Brake::rigid_stop_ns(double speed_count_per_s) const noexcept {
@@ -55,11 +70,15 @@ core::Nanoseconds Brake::rigid_stop_ns(double speed_count_per_s) const noexcept 
                            limit_Nm_);
 }
 
-void Brake::begin(core::Nanoseconds now_ns, double speed_count_per_s, bool coasting) noexcept {
+void Brake::begin(const BrakeInput& input, bool coasting) noexcept {
+  const core::Nanoseconds now_ns = input.now_ns;
   begun_ns_ = now_ns;
   moved_ns_ = now_ns;
-  start_speed_count_per_s_ = std::fabs(speed_count_per_s);
-  must_have_slowed_ns_ = now_ns + kSlowingTimes * rigid_stop_ns(speed_count_per_s) + kSwing_ns;
+  // A motor that swings may just turn round.
+  start_speed_count_per_s_ =
+      std::max(std::fabs(input.speed_count_per_s), std::fabs(input.momentum_count_per_s));
+  must_have_slowed_ns_ =
+      now_ns + kSlowingTimes * rigid_stop_ns(start_speed_count_per_s_) + kSwing_ns;
   updated_ns_ = now_ns;
   push_until_ns_ = now_ns;
   torque_Nm_ = 0;
@@ -68,11 +87,14 @@ void Brake::begin(core::Nanoseconds now_ns, double speed_count_per_s, bool coast
   blind_ = false;
   late_ = false;
   after_gap_ = false;
+  end_direction_ = 0;
+  presses_ = false;
+  gives_way_ = false;
 }
 
 void Brake::begin_blind(core::Nanoseconds now_ns, double speed_count_per_s,
                         bool may_explain) noexcept {
-  begin(now_ns, speed_count_per_s, false);
+  begin({.now_ns = now_ns, .speed_count_per_s = speed_count_per_s}, false);
   const double stands_s = core::seconds(rigid_stop_ns(speed_count_per_s));
   blind_until_ns_ =
       now_ns + core::nanoseconds(std::min(kBlindRatio * stands_s, settings_.timeout_s));
@@ -148,6 +170,9 @@ double Brake::damped_gain_Nm_s_per_rad() const noexcept {
 }
 
 double Brake::wanted_torque_Nm(const BrakeInput& input) const noexcept {
+  if (presses_) {
+    return -end_direction_ * limit_Nm_;
+  }
   if (input.now_ns < push_until_ns_) {
     return push_direction_ * limit_Nm_;
   }
@@ -156,6 +181,61 @@ double Brake::wanted_torque_Nm(const BrakeInput& input) const noexcept {
     gain_Nm_s_per_rad = std::min(gain_Nm_s_per_rad, damped_gain_Nm_s_per_rad());
   }
   return -gain_Nm_s_per_rad * input.speed_count_per_s * rad_per_count_;
+}
+
+void Brake::end_is_ahead(double direction, double room_count) noexcept {
+  if (end_direction_ == 0) {
+    end_direction_ = direction;
+    end_room_count_ = room_count;
+    end_run_count_ = 0;
+    stretch_count_ = 0;
+    end_since_ns_ = -1;
+  }
+}
+
+void Brake::watch_end(const BrakeInput& input, core::Nanoseconds since_ns) noexcept {
+  if (end_direction_ == 0 || late_) {
+    presses_ = false;
+    return;
+  }
+  if (end_since_ns_ < 0) {
+    end_since_ns_ = input.now_ns;
+    axis_count_per_s_ = input.momentum_count_per_s;
+  } else {
+    axis_count_per_s_ +=
+        torque_Nm_ / (settings_.inertia_kg_m2 * rad_per_count_) * core::seconds(since_ns);
+  }
+  const bool swings_yet = input.now_ns - end_since_ns_ < kFirstSwing_ns;
+  const double axis_count_per_s = swings_yet ? axis_count_per_s_ : input.momentum_count_per_s;
+  const double rotor_share = settings_.rotor_inertia_kg_m2 / settings_.inertia_kg_m2;
+  const double onwards_count_per_s = end_direction_ *
+                                     (axis_count_per_s - rotor_share * input.speed_count_per_s) /
+                                     (1.0 - rotor_share);
+  end_run_count_ += onwards_count_per_s * core::seconds(since_ns);
+  stretch_count_ +=
+      (onwards_count_per_s - end_direction_ * input.speed_count_per_s) * core::seconds(since_ns);
+  const double swing_count =
+      onwards_count_per_s / (2.0 * std::numbers::pi * settings_.held_motor_chain_Hz);
+  const double runs_on_count =
+      std::sqrt(swing_count * swing_count + stretch_count_ * stretch_count_) - stretch_count_;
+  presses_ = onwards_count_per_s > goes_on_count_per_s_ &&
+             runs_on_count >
+                 kRunOnRatio * (end_room_count_ - end_run_count_) - kShortRatio * end_run_count_;
+}
+
+bool Brake::runs_away(core::Nanoseconds now_ns, double speed_count_per_s) noexcept {
+  const double speed = std::fabs(speed_count_per_s);
+  const bool pressed_back = end_direction_ * speed_count_per_s < 0;
+  const double limit =
+      std::max(kRunawayRatio * start_speed_count_per_s_ + kRunawaySlack_count_per_s,
+               pressed_back ? pressed_back_count_per_s_ : 0.0);
+  if (!gives_way_ && speed > limit) {
+    gives_way_ = true;
+    thrown_ns_ = now_ns;
+  } else if (gives_way_ && speed <= start_speed_count_per_s_) {
+    gives_way_ = false;
+  }
+  return gives_way_ && now_ns - thrown_ns_ >= kThrown_ns;
 }
 
 BrakeState Brake::judge(const BrakeInput& input) noexcept {
@@ -169,22 +249,23 @@ BrakeState Brake::judge(const BrakeInput& input) noexcept {
   if (input.now_ns - begun_ns_ >= core::nanoseconds(settings_.timeout_s)) {
     return BrakeState::kTimedOut;
   }
-  const bool runs_away =
-      speed > kRunawayRatio * start_speed_count_per_s_ + kRunawaySlack_count_per_s;
+  const bool ran_away = runs_away(input.now_ns, input.speed_count_per_s);
   const bool has_not_slowed =
       !coasting_ && input.now_ns > must_have_slowed_ns_ &&
       speed > kSlowedRatio * start_speed_count_per_s_ + kSlowedSlack_count_per_s;
-  return runs_away || has_not_slowed ? BrakeState::kRanAway : BrakeState::kBraking;
+  return ran_away || has_not_slowed ? BrakeState::kRanAway : BrakeState::kBraking;
 }
 
 BrakeState Brake::update(const BrakeInput& input) noexcept {
   if (blind_) {
     return update_blind(input);
   }
+  const core::Nanoseconds since_ns = input.now_ns - updated_ns_;
   begin_again_after_gap(input);
   heed_age(input);
+  watch_end(input, since_ns);
   const BrakeState state = judge(input);
-  torque_Nm_ = state != BrakeState::kBraking || coasting_
+  torque_Nm_ = state != BrakeState::kBraking || coasting_ || gives_way_
                    ? 0.0
                    : std::clamp(wanted_torque_Nm(input), -limit_Nm_, limit_Nm_);
   return state;

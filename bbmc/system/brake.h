@@ -9,7 +9,9 @@
 //
 // An encoder that lies, or an amplifier that inverts or does not follow, makes this law push: when
 // the speed grows well beyond what it was, or has not fallen long after it should have, the drive
-// is given up.
+// is given up. But a chain that skips throws the light motor as fast: so at first the drive is only
+// taken away. A motor that was thrown is slow again within half a swing on the chain, and the brake
+// goes on; one that was pushed is not.
 //
 // A speed that comes late (a slow link, a clock that leapt ahead) turns that law into an
 // oscillator: the light motor answers within 2 ms. Then the brake first takes the axis's momentum
@@ -21,6 +23,20 @@
 // The first factor is a third of what makes J_rotor omega' = -K omega(t - d) swing for ever (pi/2),
 // the second ends it where a quarter of the chain's own swing has passed, beyond which the law
 // would drive the swing.
+//
+// With an end ahead the carriage counts, not the motor. One that swings on its chain, since a tooth
+// was skipped or a host slept, may run on while the motor stands already:
+//
+//   omega_l = (J omega - J_rotor omega_m) / J_l      omega of the whole axis, omega_m of the motor
+//
+// Against a motor that stands it runs on until the chain, stretched by s already, has taken its
+// speed:
+//
+//   sqrt((omega_l / w_h)^2 + s^2) - s
+//
+// Where that is about the way left from the end-stop to the hard end, reckoned from the end-stop's
+// word on, the brake presses: full reverse, whatever the motor does. Elsewhere the law takes the
+// swing out more gently.
 //
 // After a gap (a host that slept) the last torque has gone on, whatever it was: the speed found
 // then says nothing against the brake, and its momentum is taken out first, too.
@@ -53,7 +69,9 @@ class Brake {
   explicit Brake(const AxisConfiguration& axis) noexcept;
 
   // `coasting`: no torque, only the wait for standstill (for comparison, see SafetyConfiguration).
-  void begin(core::Nanoseconds now_ns, double speed_count_per_s, bool coasting) noexcept;
+  void begin(const BrakeInput& input, bool coasting) noexcept;
+  // An end-stop says so: `direction` +1 towards max, and how far the hard end is from it.
+  void end_is_ahead(double direction, double room_count) noexcept;
 
   // From a speed that is known now and will not be measured any more; `may_explain`: whether the
   // encoder has that last say.
@@ -73,6 +91,8 @@ class Brake {
   [[nodiscard]] BrakeState judge(const BrakeInput& input) noexcept;
   void begin_again_after_gap(const BrakeInput& input) noexcept;
   void push(const BrakeInput& input) noexcept;
+  [[nodiscard]] bool runs_away(core::Nanoseconds now_ns, double speed_count_per_s) noexcept;
+  void watch_end(const BrakeInput& input, core::Nanoseconds since_ns) noexcept;
   void heed_age(const BrakeInput& input) noexcept;
   [[nodiscard]] double damped_gain_Nm_s_per_rad() const noexcept;
   [[nodiscard]] double wanted_torque_Nm(const BrakeInput& input) const noexcept;
@@ -95,7 +115,16 @@ class Brake {
   core::Nanoseconds push_from_ns_ = 0;
   core::Nanoseconds push_until_ns_ = 0;
   double push_direction_ = 0;
+  double end_direction_ = 0;   // 0 = no end ahead
+  double end_room_count_ = 0;  // from the end-stop to the hard end
+  double end_run_count_ = 0;   // of the carriage, since the end-stop spoke
+  double stretch_count_ = 0;   // of the chain, what the carriage ran further than the motor since
+  core::Nanoseconds end_since_ns_ = -1;
+  double axis_count_per_s_ = 0;  // of the whole, since then
+  core::Nanoseconds thrown_ns_ = 0;
   double free_chain_Hz_;
+  double pressed_back_count_per_s_;
+  double goes_on_count_per_s_;
   double top_speed_count_per_s_;
   double torque_Nm_ = 0;
   bool coasting_ = false;
@@ -104,6 +133,8 @@ class Brake {
   bool after_gap_ = false;
   bool swapped_ = false;
   bool may_explain_ = false;
+  bool presses_ = false;
+  bool gives_way_ = false;
 };
 
 }  // namespace towbench::bbmc

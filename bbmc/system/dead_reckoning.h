@@ -73,6 +73,7 @@ class DeadReckoning {
   static constexpr std::size_t kSteps = 14;        // the oldest is 104 to 112 ms old
   static constexpr std::size_t kTrustedSteps = 8;  // before the newest: 64 to 72 ms old
   static constexpr double kGap_s = 0.02;
+  static constexpr double kSwingsBack = 0.2;  // of the mean; less is an axis that has stopped
 
   struct Entry {
     core::Nanoseconds time_ns = 0;
@@ -81,13 +82,18 @@ class DeadReckoning {
   };
 
   // Nobody has looked for a while: what was before says nothing. The first speed after it is the
-  // mean of all that time, the next is true.
+  // mean of all that time, the next is the motor's now. The axis as a whole may still be as fast as
+  // the mean where the motor just swings back.
   void forget_after_gap(double elapsed_s, double speed_count_per_s,
                         core::Nanoseconds now_ns) noexcept {
     if (elapsed_s > kGap_s) {
       forgets_ = true;
+      mean_of_gap_count_per_s_ = speed_count_per_s;
     } else if (forgets_ && elapsed_s > 0) {
-      history_.fill({now_ns, speed_count_per_s, impulse_Nm_s_});
+      const double share = speed_count_per_s / mean_of_gap_count_per_s_;  // not finite: no mean
+      const bool swings_back = share > kSwingsBack && share < 1;
+      history_.fill(
+          {now_ns, swings_back ? mean_of_gap_count_per_s_ : speed_count_per_s, impulse_Nm_s_});
       forgets_ = false;
     }
   }
@@ -103,6 +109,7 @@ class DeadReckoning {
   std::size_t newest_ = 0;
   double impulse_Nm_s_ = 0;
   bool forgets_ = false;
+  double mean_of_gap_count_per_s_ = 0;
   double count_per_s_per_Nm_s_;
   double least_count_per_s_;
   double most_count_per_s_;

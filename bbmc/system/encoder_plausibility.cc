@@ -11,9 +11,15 @@ using core::ErrorCode;
 // Below 1.25 x break-away no verdict is formed, at 1.5 x it takes less than 50 ms (controller.md
 // 5).
 constexpr double kPushThreshold = 1.25;
-// Of the observed swing that its model may be wrong by, and how long a swing is remembered.
-constexpr double kSwingShare = 0.25;
-constexpr double kSwingFades_s = 0.3;
+// Of the chain's observed pull that its model may be wrong by.
+constexpr double kPullShare = 0.25;
+// What stops a motor dead may be half as strong again as thought; the last count may have come at
+// the end of the exchange before last, whose rate was a mean; so many exchanges without an edge are
+// no turning point.
+constexpr double kDeadStopMargin = 1.5;
+constexpr double kDeadStopExchanges = 1.5;
+constexpr std::uint32_t kStillExchanges = 3;
+constexpr double kPullFades = 0.8;  // an exchange
 // A rigid axis has moved so far, and a live encoder shows a tenth of it at the very least; a frozen
 // or half-dead one dithers by a count or two.
 constexpr double kStuckTravel_counts = 40;
@@ -30,6 +36,7 @@ EncoderPlausibility::EncoderPlausibility(const AxisConfiguration& axis) noexcept
       breakaway_Nm_(axis.plausibility.worst_breakaway_Nm +
                     axis.plausibility.external_load_N * axis.m_per_rad()),
       inertia_kg_m2_(axis.braking.inertia_kg_m2),
+      rotor_inertia_kg_m2_(axis.braking.rotor_inertia_kg_m2),
       rad_per_count_(axis.rad_per_count()),
       max_acceleration_count_per_s2_(kTorqueMargin * axis.drive.torque_limit_Nm() /
                                      axis.braking.rotor_inertia_kg_m2 / axis.rad_per_count()),
@@ -65,23 +72,32 @@ ErrorCode EncoderPlausibility::judge_push(const EncoderChange& change) noexcept 
   // The swing may explain a drive, never stand in for one: a carriage that sticks swings on in the
   // observer only.
   const double direction = change.torque_Nm > 0 ? 1.0 : -1.0;
-  const double magnitude =
-      std::min(direction * change.torque_Nm, direction * (change.torque_Nm - chain_torque_Nm_));
-  const double still_Nm = breakaway_Nm_ + kSwingShare * swing_Nm_;
-  if (magnitude <= kPushThreshold * still_Nm) {
-    push_.direction = 0;
-    return ErrorCode::kNone;
-  }
+  const double pull_Nm = std::max(0.0, direction * chain_torque_Nm_);
+  const double magnitude = direction * change.torque_Nm - pull_Nm;
+  const double still_Nm = breakaway_Nm_ + kPullShare * pull_Nm;
+  const bool verdict = magnitude > kPushThreshold * still_Nm;
   if (push_.direction != direction) {
-    begin_push(change, direction);
+    push_.direction = 0;
+    if (verdict) {
+      begin_push(change, direction);
+    }
     return ErrorCode::kNone;
   }
+  // What it has gained it keeps while the drive is between break-away and the threshold.
   const double gained = (magnitude - still_Nm) / inertia_kg_m2_ * change.elapsed_s;
   push_.model_travel_rad += (push_.model_speed_rad_per_s + 0.5 * gained) * change.elapsed_s;
   push_.model_speed_rad_per_s += gained;
+  if (push_.model_speed_rad_per_s <= 0) {
+    push_.direction = 0;
+    return ErrorCode::kNone;
+  }
   push_.lowest_count = std::min(push_.lowest_count, change.raw_count);
   push_.highest_count = std::max(push_.highest_count, change.raw_count);
+  return verdict ? judge_motion_of_push(change, direction) : ErrorCode::kNone;
+}
 
+ErrorCode EncoderPlausibility::judge_motion_of_push(const EncoderChange& change,
+                                                    double direction) noexcept {
   const double along = direction * static_cast<double>(change.raw_count - push_.start_count);
   const double sped_up =
       direction * (change.speed_count_per_s - push_.start_speed_count_per_s) * rad_per_count_;
@@ -104,11 +120,41 @@ ErrorCode EncoderPlausibility::judge_push(const EncoderChange& change) noexcept 
     if (push_.highest_count - push_.lowest_count <= kStuckExcursion_counts) {
       return ErrorCode::kFaultEncoderFrozen;
     }
+    if (along > static_cast<double>(kStuckExcursion_counts)) {
+      begin_push(change, direction);  // it obeys; what comes is judged anew
+      return ErrorCode::kNone;
+    }
     push_.window_start_travel_rad = push_.model_travel_rad;
     push_.lowest_count = change.raw_count;
     push_.highest_count = change.raw_count;
   }
   return ErrorCode::kNone;
+}
+
+// Keeps what stops_dead() compares a standstill with.
+void EncoderPlausibility::watch_for_motion(const EncoderChange& change) noexcept {
+  const bool still = change.counts == 0 && change.edges == 0;
+  if (!still) {
+    still_exchanges_ = 0;
+    rate_before_count_per_s_ = rate_count_per_s_;
+    rate_count_per_s_ = static_cast<double>(change.counts) / change.elapsed_s;
+  }
+  const double onwards = rate_before_count_per_s_ > 0 ? 1.0 : -1.0;
+  const double slows_Nm = std::max(0.0, -onwards * (change.torque_Nm - chain_torque_Nm_)) +
+                          kPullShare * std::fabs(chain_torque_Nm_);
+  slowing_Nm_ = std::max(slows_Nm, kPullFades * slowing_Nm_);
+  still_exchanges_ += still ? 1 : 0;
+}
+
+bool EncoderPlausibility::stops_dead(const EncoderChange& change) const noexcept {
+  if (still_exchanges_ != kStillExchanges || change.elapsed_s != last_elapsed_s_) {
+    return false;
+  }
+  const double time_s = kDeadStopExchanges * change.elapsed_s;
+  const double lost_rad_per_s =
+      (std::fabs(rate_before_count_per_s_) - kRateSlack_counts / time_s) * rad_per_count_;
+  const double torque_Nm = kDeadStopMargin * (slowing_Nm_ + breakaway_Nm_);
+  return lost_rad_per_s > torque_Nm / rotor_inertia_kg_m2_ * time_s;
 }
 
 void EncoderPlausibility::count_events(const EncoderChange& change) noexcept {
@@ -133,6 +179,9 @@ ErrorCode EncoderPlausibility::judge(const EncoderChange& change, Scope scope,
   if (const ErrorCode found = judge_kinematics(change); found != ErrorCode::kNone) {
     return found;
   }
+  if (stops_dead(change)) {
+    return ErrorCode::kFaultEncoderFrozen;
+  }
   if (scope == Scope::kEverything) {
     if (const ErrorCode found = judge_push(change); found != ErrorCode::kNone) {
       return found;
@@ -153,8 +202,7 @@ ErrorCode EncoderPlausibility::update(const EncoderChange& change, Scope scope) 
   }
   count_events(change);
   chain_torque_Nm_ = chain_.update(change.raw_count, change.counts, change.elapsed_s);
-  swing_Nm_ = std::max(std::fabs(chain_torque_Nm_),
-                       swing_Nm_ * (1.0 - std::min(1.0, change.elapsed_s / kSwingFades_s)));
+  watch_for_motion(change);
   const bool index_good =
       index_.update(change.raw_count, change.counts, change.index_pulses, change.index_raw_count);
   if (scope != Scope::kEverything) {

@@ -4,6 +4,8 @@
 //   kinematic   the count cannot change its rate faster than the drive can accelerate the rotor
 //               alone (times kTorqueMargin, for the chain pulls too): frozen, dead channel, jump or
 //               inversion at speed
+//   dead stop   from a rate to no count at all within an exchange and a half, which would take more
+//               than drive, chain and friction together: frozen on the way to standstill
 //   stuck       drive above worst-case break-away, motion that the rigid model must make is absent:
 //               frozen encoder or dead channel from rest
 //   reversed    the same drive, and the axis speeds up against it
@@ -14,7 +16,7 @@
 // "Break-away" is worst_breakaway_Nm plus what external_load_N asks at the motor, so that a load
 // that is allowed to be held is no fault. What the carriage swinging on its chain asks of the motor
 // (chain_observer.h) is taken off the drive first: a motor that holds against it does not push. A
-// quarter of the swing is allowed for, because its frequency is known roughly at best.
+// quarter of the pull is allowed for, because the chain is known roughly at best.
 #pragma once
 
 #include <cstdint>
@@ -84,18 +86,28 @@ class EncoderPlausibility {
                                       bool index_good) noexcept;
   [[nodiscard]] core::ErrorCode judge_kinematics(const EncoderChange& change) const noexcept;
   [[nodiscard]] core::ErrorCode judge_push(const EncoderChange& change) noexcept;
+  [[nodiscard]] core::ErrorCode judge_motion_of_push(const EncoderChange& change,
+                                                     double direction) noexcept;
+  [[nodiscard]] bool stops_dead(const EncoderChange& change) const noexcept;
+  void watch_for_motion(const EncoderChange& change) noexcept;
   void begin_push(const EncoderChange& change, double direction) noexcept;
   void count_events(const EncoderChange& change) noexcept;
 
   PlausibilityConfiguration settings_;
   double breakaway_Nm_;
   double inertia_kg_m2_;
+  double rotor_inertia_kg_m2_;
   double rad_per_count_;
   double max_acceleration_count_per_s2_;
   Push push_;
   ChainObserver chain_;
   double chain_torque_Nm_ = 0;
-  double swing_Nm_ = 0;  // largest of late, fading
+  // Of the last exchanges with motion: rates of the last and the one before, and what slowed the
+  // motor down at most, then or since, friction apart.
+  double rate_count_per_s_ = 0;
+  double rate_before_count_per_s_ = 0;
+  double slowing_Nm_ = 0;
+  std::uint32_t still_exchanges_ = 0;
   IndexWatch index_;
   Bucket illegal_;
   Bucket noise_;

@@ -177,6 +177,11 @@ void MotionControl::brake_all(ErrorCode code, Axis which) noexcept {
       set_mode_event(each);
     }
   }
+  for (End end : {End::kMin, End::kMax}) {
+    if (code == end_stop_fault(end)) {
+      axes_[which].end_is_ahead(end);
+    }
+  }
 }
 
 void MotionControl::cut_one(ErrorCode code, Axis which) noexcept {

@@ -96,7 +96,7 @@ Stop stop(core::Axis axis, double speed_m_per_s, int delay_ms, int told_ms) {
       continue;
     }
     if (ms == 200) {
-      brake.begin(now_ns, speed_count_per_s, false);
+      brake.begin({.now_ns = now_ns, .speed_count_per_s = speed_count_per_s}, false);
       begun_rad = bodies.carriage_rad();
     }
     (void)brake.update({.now_ns = now_ns,
@@ -164,7 +164,7 @@ TEST(BrakeAfterAGap, FindsNoRunawayAndTakesTheMomentumOut) {
   const bbmc::AxisConfiguration settings = bbmc::Configuration().axes[core::Axis::kY];
   bbmc::Brake brake(settings);
   constexpr double kSpeed_count_per_s = 90'000;
-  brake.begin(0, 100'000, false);
+  brake.begin({.speed_count_per_s = 100'000}, false);
   (void)brake.update({.now_ns = kNanosecondsPerMillisecond, .speed_count_per_s = 100'000});
   // As fast as this after 0.45 s would be a drive that pushes, had anybody looked meanwhile.
   EXPECT_EQ(brake.update({.now_ns = 450 * kNanosecondsPerMillisecond,
