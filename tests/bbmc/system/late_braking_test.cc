@@ -1,9 +1,9 @@
 // A brake whose speed comes late, or that nobody has served for a while, neither swings nor gives
-// up. Judged on two bodies on a spring, integrated here: the motor answers at once, the carriage
-// follows over the chain.
+// up. Judged on two bodies on a spring (two_bodies.h).
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -13,61 +13,13 @@
 #include "bbmc/system/encoder_plausibility.h"
 #include "bbmc/system/stopping_distance.h"
 #include "core/axis.h"
+#include "tests/bbmc/system/two_bodies.h"
 
 namespace towbench::tests {
 namespace {
 
 using bbmc::BrakeState;
 using core::kNanosecondsPerMillisecond;
-
-constexpr double kDampingRatio = 0.02;  // of the chain; less than the nominal rig assumes
-constexpr double kPi = 3.14159265358979323846;
-
-// At the motor. Dry friction is half of what the controller expects at worst, most of it at the
-// carriage.
-class TwoBodies {
- public:
-  TwoBodies(const bbmc::AxisConfiguration& axis, double speed_m_per_s)
-      : rotor_kg_m2_(axis.braking.rotor_inertia_kg_m2),
-        carriage_kg_m2_(axis.braking.inertia_kg_m2 - rotor_kg_m2_),
-        friction_Nm_(0.5 * axis.plausibility.worst_breakaway_Nm),
-        rotor_rad_per_s_(speed_m_per_s / axis.m_per_rad()),
-        carriage_rad_per_s_(rotor_rad_per_s_) {
-    const double held_rad_per_s = 2 * kPi * axis.braking.held_motor_chain_Hz;
-    stiffness_Nm_per_rad_ = carriage_kg_m2_ * held_rad_per_s * held_rad_per_s;
-    damping_Nm_s_per_rad_ = 2 * kDampingRatio * carriage_kg_m2_ * held_rad_per_s;
-  }
-
-  // One millisecond, semi-implicit Euler in steps of 10 us.
-  void advance(double torque_Nm) {
-    constexpr double kStep_s = 1e-5;
-    for (int i = 0; i < 100; ++i) {
-      const double chain_Nm = stiffness_Nm_per_rad_ * (carriage_rad_ - rotor_rad_) +
-                              damping_Nm_s_per_rad_ * (carriage_rad_per_s_ - rotor_rad_per_s_);
-      const double rotor_friction_Nm = 0.3 * friction_Nm_ * std::tanh(rotor_rad_per_s_ / 5);
-      const double carriage_friction_Nm = 0.7 * friction_Nm_ * std::tanh(carriage_rad_per_s_ / 5);
-      rotor_rad_per_s_ += kStep_s * (torque_Nm + chain_Nm - rotor_friction_Nm) / rotor_kg_m2_;
-      carriage_rad_per_s_ -= kStep_s * (chain_Nm + carriage_friction_Nm) / carriage_kg_m2_;
-      rotor_rad_ += kStep_s * rotor_rad_per_s_;
-      carriage_rad_ += kStep_s * carriage_rad_per_s_;
-    }
-  }
-
-  [[nodiscard]] double rotor_rad_per_s() const { return rotor_rad_per_s_; }
-  [[nodiscard]] double carriage_rad() const { return carriage_rad_; }
-  [[nodiscard]] double friction_Nm() const { return friction_Nm_; }
-
- private:
-  double rotor_kg_m2_;
-  double carriage_kg_m2_;
-  double friction_Nm_;
-  double stiffness_Nm_per_rad_ = 0;
-  double damping_Nm_s_per_rad_ = 0;
-  double rotor_rad_ = 0;
-  double rotor_rad_per_s_;
-  double carriage_rad_ = 0;
-  double carriage_rad_per_s_;
-};
 
 struct Stop {
   double furthest_m = 0;       // of the carriage, from where the brake begins
@@ -143,7 +95,7 @@ TEST(Momentum, IsTheSpeedOfTheAxisAndNotOfTheSwingingMotor) {
   const bbmc::AxisConfiguration settings = bbmc::Configuration().axes[core::Axis::kY];
   bbmc::DeadReckoning reckoning(settings);
   for (int ms = 1; ms <= 200; ++ms) {
-    const double swing = 50'000.0 * std::sin(2 * kPi * ms / 36.0);
+    const double swing = 50'000.0 * std::sin(2 * std::numbers::pi * ms / 36.0);
     reckoning.update(ms * kNanosecondsPerMillisecond, 100'000.0 + swing, 0.0, 1e-3);
   }
   EXPECT_NEAR(reckoning.momentum_count_per_s(), 100'000.0, 10'000.0);
@@ -176,6 +128,26 @@ TEST(BrakeAfterAGap, FindsNoRunawayAndTakesTheMomentumOut) {
                           .momentum_count_per_s = kSpeed_count_per_s}),
             BrakeState::kBraking);
   EXPECT_EQ(brake.torque_Nm(), -bbmc::braking_torque_Nm(settings));
+}
+
+TEST(MomentumAfterAGap, IsTheMeanOfItWhereTheMotorJustSwingsBack) {
+  const bbmc::AxisConfiguration settings = bbmc::Configuration().axes[core::Axis::kY];
+  const auto momentum = [&](double mean_count_per_s, double then_count_per_s) {
+    bbmc::DeadReckoning reckoning(settings);
+    core::Nanoseconds now_ns = 0;
+    const auto see = [&](double elapsed_s, double speed_count_per_s) {
+      now_ns += core::nanoseconds(elapsed_s);
+      reckoning.update(now_ns, speed_count_per_s, 0.0, elapsed_s);
+    };
+    see(1e-3, 20'000);
+    see(0.2, mean_count_per_s);
+    see(1e-3, then_count_per_s);
+    return reckoning.momentum_count_per_s();
+  };
+  EXPECT_NEAR(momentum(24'000, 7'000), 24'000, 1);
+  EXPECT_NEAR(momentum(24'000, 60'000), 60'000, 1);  // it was driven on meanwhile
+  EXPECT_EQ(momentum(24'000, 0), 0);                 // it stands
+  EXPECT_NEAR(momentum(24'000, -30'000), -30'000, 1);
 }
 
 TEST(EncoderAfterAGap, MayHaveTurnedRoundWithoutNoiseOrJump) {
