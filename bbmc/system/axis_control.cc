@@ -72,6 +72,7 @@ BrakeInput AxisControl::brake_input(core::Nanoseconds now_ns) const noexcept {
   return {.now_ns = now_ns,
           .speed_count_per_s = observer_.speed_count_per_s(),
           .age_ns = now_ns - observer_.reading().time_ns,
+          .since_ns = core::nanoseconds(observer_.change().elapsed_s),
           .momentum_count_per_s = reckoning_.momentum_count_per_s()};
 }
 

@@ -14,9 +14,7 @@ constexpr double kRunawayRatio = 2.0;
 constexpr double kRunawaySlack_count_per_s = 40'000;
 // Half a swing of the motor on the chain, of the slower axis.
 constexpr core::Nanoseconds kThrown_ns = 60 * core::kNanosecondsPerMillisecond;
-// Of the way that is left, what the carriage may run on. Of the way that it has come, what its
-// reckoning may be short by: the speed was the mean of a swing that had just begun.
-constexpr double kRunOnRatio = 0.9;
+// Of the way that the carriage has come, what its reckoning may be short by.
 constexpr double kShortRatio = 0.15;
 constexpr double kGoesOn_m_per_s = 0.02;
 // While the mean that the momentum is taken from has but a part of the swing that braking begins
@@ -52,6 +50,13 @@ constexpr double kBlindSwappedRatio = 0.25;
 constexpr double kBlindBackwardsRatio = 0.1;
 constexpr double kBlindRunawayRatio = 1.25;
 
+double full_stretch_rad(const AxisConfiguration& axis) noexcept {
+  const auto& braking = axis.braking;
+  const double held_rad_per_s = 2.0 * std::numbers::pi * braking.held_motor_chain_Hz;
+  return braking_torque_Nm(axis) /
+         ((braking.inertia_kg_m2 - braking.rotor_inertia_kg_m2) * held_rad_per_s * held_rad_per_s);
+}
+
 }  // namespace
 
 Brake::Brake(const AxisConfiguration& axis) noexcept
@@ -63,6 +68,7 @@ Brake::Brake(const AxisConfiguration& axis) noexcept
                      std::sqrt(axis.braking.inertia_kg_m2 / axis.braking.rotor_inertia_kg_m2)),
       pressed_back_count_per_s_(kPressedBack_m_per_s * axis.counts_per_m()),
       goes_on_count_per_s_(kGoesOn_m_per_s * axis.counts_per_m()),
+      full_stretch_count_(full_stretch_rad(axis) / axis.rad_per_count()),
       top_speed_count_per_s_(axis.speed_limit_m_per_s * axis.counts_per_m()) {}
 
 core::Nanoseconds Brake::rigid_stop_ns(double speed_count_per_s) const noexcept {
@@ -86,7 +92,8 @@ void Brake::begin(const BrakeInput& input, bool coasting) noexcept {
   coasting_ = coasting;
   blind_ = false;
   late_ = false;
-  after_gap_ = false;
+  after_gap_ = input.since_ns > kGap_ns;
+  push_from_ns_ = now_ns + kSpeedSettles_ns;
   end_direction_ = 0;
   presses_ = false;
   gives_way_ = false;
@@ -184,7 +191,7 @@ double Brake::wanted_torque_Nm(const BrakeInput& input) const noexcept {
 }
 
 void Brake::end_is_ahead(double direction, double room_count) noexcept {
-  if (end_direction_ == 0) {
+  if (end_direction_ == 0 && room_count > full_stretch_count_) {
     end_direction_ = direction;
     end_room_count_ = room_count;
     end_run_count_ = 0;
@@ -201,6 +208,8 @@ void Brake::watch_end(const BrakeInput& input, core::Nanoseconds since_ns) noexc
   if (end_since_ns_ < 0) {
     end_since_ns_ = input.now_ns;
     axis_count_per_s_ = input.momentum_count_per_s;
+  } else if (since_ns > kGap_ns) {
+    end_since_ns_ -= kFirstSwing_ns;  // who knows what went on, or whether the clock leapt
   } else {
     axis_count_per_s_ +=
         torque_Nm_ / (settings_.inertia_kg_m2 * rad_per_count_) * core::seconds(since_ns);
@@ -219,8 +228,7 @@ void Brake::watch_end(const BrakeInput& input, core::Nanoseconds since_ns) noexc
   const double runs_on_count =
       std::sqrt(swing_count * swing_count + stretch_count_ * stretch_count_) - stretch_count_;
   presses_ = onwards_count_per_s > goes_on_count_per_s_ &&
-             runs_on_count >
-                 kRunOnRatio * (end_room_count_ - end_run_count_) - kShortRatio * end_run_count_;
+             runs_on_count > end_room_count_ - (1.0 + kShortRatio) * end_run_count_;
 }
 
 bool Brake::runs_away(core::Nanoseconds now_ns, double speed_count_per_s) noexcept {

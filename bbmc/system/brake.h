@@ -36,7 +36,8 @@
 //
 // Where that is about the way left from the end-stop to the hard end, reckoned from the end-stop's
 // word on, the brake presses: full reverse, whatever the motor does. Elsewhere the law takes the
-// swing out more gently.
+// swing out more gently. And so it does where the whole way from the end-stop is shorter than what
+// the motor must turn back until the chain pulls with that torque.
 //
 // After a gap (a host that slept) the last torque has gone on, whatever it was: the speed found
 // then says nothing against the brake, and its momentum is taken out first, too.
@@ -56,8 +57,9 @@ namespace towbench::bbmc {
 
 struct BrakeInput {
   core::Nanoseconds now_ns = 0;
-  double speed_count_per_s = 0;  // as the encoder tells it
-  core::Nanoseconds age_ns = 0;  // of that
+  double speed_count_per_s = 0;    // as the encoder tells it
+  core::Nanoseconds age_ns = 0;    // of that
+  core::Nanoseconds since_ns = 0;  // over which it is a mean, if that is long
   // Of the whole axis, without the motor's swing on the chain (dead_reckoning.h).
   double momentum_count_per_s = 0;
 };
@@ -125,6 +127,7 @@ class Brake {
   double free_chain_Hz_;
   double pressed_back_count_per_s_;
   double goes_on_count_per_s_;
+  double full_stretch_count_;  // of the chain, at the brake's torque
   double top_speed_count_per_s_;
   double torque_Nm_ = 0;
   bool coasting_ = false;

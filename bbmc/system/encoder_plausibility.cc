@@ -11,8 +11,13 @@ using core::ErrorCode;
 // Below 1.25 x break-away no verdict is formed, at 1.5 x it takes less than 50 ms (controller.md
 // 5).
 constexpr double kPushThreshold = 1.25;
-// Of the chain's observed pull that its model may be wrong by.
-constexpr double kPullShare = 0.25;
+// A motor that is held by a swing which the observer has wrong, because a load was dropped, is not
+// told from a dead encoder below this.
+constexpr double kHeldThreshold = 1.5;
+constexpr double kHeldChange = 2.5;  // twice what friction can hold, and what the swing is wrong by
+// Of the observed swing that its model may be wrong by, and how long a swing is remembered.
+constexpr double kSwingShare = 0.25;
+constexpr double kSwingFades_s = 0.3;
 // What stops a motor dead may be half as strong again as thought; the last count may have come at
 // the end of the exchange before last, whose rate was a mean; so many exchanges without an edge are
 // no turning point.
@@ -72,32 +77,23 @@ ErrorCode EncoderPlausibility::judge_push(const EncoderChange& change) noexcept 
   // The swing may explain a drive, never stand in for one: a carriage that sticks swings on in the
   // observer only.
   const double direction = change.torque_Nm > 0 ? 1.0 : -1.0;
-  const double pull_Nm = std::max(0.0, direction * chain_torque_Nm_);
-  const double magnitude = direction * change.torque_Nm - pull_Nm;
-  const double still_Nm = breakaway_Nm_ + kPullShare * pull_Nm;
-  const bool verdict = magnitude > kPushThreshold * still_Nm;
-  if (push_.direction != direction) {
+  const double magnitude =
+      std::min(direction * change.torque_Nm, direction * (change.torque_Nm - chain_torque_Nm_));
+  const double still_Nm = breakaway_Nm_ + kSwingShare * swing_Nm_;
+  if (magnitude <= kPushThreshold * still_Nm) {
     push_.direction = 0;
-    if (verdict) {
-      begin_push(change, direction);
-    }
     return ErrorCode::kNone;
   }
-  // What it has gained it keeps while the drive is between break-away and the threshold.
+  if (push_.direction != direction) {
+    begin_push(change, direction);
+    return ErrorCode::kNone;
+  }
   const double gained = (magnitude - still_Nm) / inertia_kg_m2_ * change.elapsed_s;
   push_.model_travel_rad += (push_.model_speed_rad_per_s + 0.5 * gained) * change.elapsed_s;
   push_.model_speed_rad_per_s += gained;
-  if (push_.model_speed_rad_per_s <= 0) {
-    push_.direction = 0;
-    return ErrorCode::kNone;
-  }
   push_.lowest_count = std::min(push_.lowest_count, change.raw_count);
   push_.highest_count = std::max(push_.highest_count, change.raw_count);
-  return verdict ? judge_motion_of_push(change, direction) : ErrorCode::kNone;
-}
 
-ErrorCode EncoderPlausibility::judge_motion_of_push(const EncoderChange& change,
-                                                    double direction) noexcept {
   const double along = direction * static_cast<double>(change.raw_count - push_.start_count);
   const double sped_up =
       direction * (change.speed_count_per_s - push_.start_speed_count_per_s) * rad_per_count_;
@@ -120,10 +116,6 @@ ErrorCode EncoderPlausibility::judge_motion_of_push(const EncoderChange& change,
     if (push_.highest_count - push_.lowest_count <= kStuckExcursion_counts) {
       return ErrorCode::kFaultEncoderFrozen;
     }
-    if (along > static_cast<double>(kStuckExcursion_counts)) {
-      begin_push(change, direction);  // it obeys; what comes is judged anew
-      return ErrorCode::kNone;
-    }
     push_.window_start_travel_rad = push_.model_travel_rad;
     push_.lowest_count = change.raw_count;
     push_.highest_count = change.raw_count;
@@ -134,16 +126,34 @@ ErrorCode EncoderPlausibility::judge_motion_of_push(const EncoderChange& change,
 // Keeps what stops_dead() compares a standstill with.
 void EncoderPlausibility::watch_for_motion(const EncoderChange& change) noexcept {
   const bool still = change.counts == 0 && change.edges == 0;
+  const double net_Nm = change.torque_Nm - chain_torque_Nm_;
   if (!still) {
     still_exchanges_ = 0;
+    held_ = {.lowest_Nm = net_Nm, .highest_Nm = net_Nm};
     rate_before_count_per_s_ = rate_count_per_s_;
     rate_count_per_s_ = static_cast<double>(change.counts) / change.elapsed_s;
   }
   const double onwards = rate_before_count_per_s_ > 0 ? 1.0 : -1.0;
-  const double slows_Nm = std::max(0.0, -onwards * (change.torque_Nm - chain_torque_Nm_)) +
-                          kPullShare * std::fabs(chain_torque_Nm_);
+  const double slows_Nm =
+      std::max(0.0, -onwards * net_Nm) + kSwingShare * std::fabs(chain_torque_Nm_);
   slowing_Nm_ = std::max(slows_Nm, kPullFades * slowing_Nm_);
   still_exchanges_ += still ? 1 : 0;
+  held_.lowest_Nm = std::min(held_.lowest_Nm, net_Nm);
+  held_.highest_Nm = std::max(held_.highest_Nm, net_Nm);
+  const double moves_Nm = std::fabs(change.torque_Nm) - breakaway_Nm_;
+  if (moves_Nm <= (kHeldThreshold - 1.0) * breakaway_Nm_) {
+    held_.model_speed_rad_per_s = held_.model_travel_rad = 0;
+    return;
+  }
+  held_.model_speed_rad_per_s += moves_Nm / inertia_kg_m2_ * change.elapsed_s;
+  held_.model_travel_rad += held_.model_speed_rad_per_s * change.elapsed_s;
+}
+
+// Not a single edge, whichever of the two is true: a carriage that swings on would have pulled the
+// motor along, and one that sticks leaves the drive to move both.
+bool EncoderPlausibility::is_held_by_nothing() const noexcept {
+  return held_.highest_Nm - held_.lowest_Nm > kHeldChange * breakaway_Nm_ &&
+         held_.model_travel_rad >= kStuckTravel_counts * rad_per_count_;
 }
 
 bool EncoderPlausibility::stops_dead(const EncoderChange& change) const noexcept {
@@ -186,6 +196,9 @@ ErrorCode EncoderPlausibility::judge(const EncoderChange& change, Scope scope,
     if (const ErrorCode found = judge_push(change); found != ErrorCode::kNone) {
       return found;
     }
+    if (is_held_by_nothing()) {
+      return ErrorCode::kFaultEncoderFrozen;
+    }
   }
   if (illegal_.sum() > settings_.illegal_transitions_max) {
     return ErrorCode::kFaultEncoderIllegalTransitions;
@@ -202,6 +215,8 @@ ErrorCode EncoderPlausibility::update(const EncoderChange& change, Scope scope) 
   }
   count_events(change);
   chain_torque_Nm_ = chain_.update(change.raw_count, change.counts, change.elapsed_s);
+  swing_Nm_ = std::max(std::fabs(chain_torque_Nm_),
+                       swing_Nm_ * (1.0 - std::min(1.0, change.elapsed_s / kSwingFades_s)));
   watch_for_motion(change);
   const bool index_good =
       index_.update(change.raw_count, change.counts, change.index_pulses, change.index_raw_count);

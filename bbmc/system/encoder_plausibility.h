@@ -6,6 +6,8 @@
 //               inversion at speed
 //   dead stop   from a rate to no count at all within an exchange and a half, which would take more
 //               than drive, chain and friction together: frozen on the way to standstill
+//   held        no edge at all, though the swing that would explain it has changed by more than
+//               friction can hold, and without the swing the drive would have moved the axis
 //   stuck       drive above worst-case break-away, motion that the rigid model must make is absent:
 //               frozen encoder or dead channel from rest
 //   reversed    the same drive, and the axis speeds up against it
@@ -16,7 +18,7 @@
 // "Break-away" is worst_breakaway_Nm plus what external_load_N asks at the motor, so that a load
 // that is allowed to be held is no fault. What the carriage swinging on its chain asks of the motor
 // (chain_observer.h) is taken off the drive first: a motor that holds against it does not push. A
-// quarter of the pull is allowed for, because the chain is known roughly at best.
+// quarter of the swing is allowed for, because the chain is known roughly at best.
 #pragma once
 
 #include <cstdint>
@@ -75,6 +77,14 @@ class EncoderPlausibility {
     std::int64_t lowest_count = 0;
     std::int64_t highest_count = 0;
   };
+  // Of a motor without an edge, since the last one: the torque left when the observed swing is
+  // taken off the drive, and the motion that the drive alone must have made.
+  struct Held {
+    double lowest_Nm = 0;
+    double highest_Nm = 0;
+    double model_speed_rad_per_s = 0;
+    double model_travel_rad = 0;
+  };
   // Events in the current and in the last 10 ms.
   struct Bucket {
     std::int64_t current = 0;
@@ -86,9 +96,8 @@ class EncoderPlausibility {
                                       bool index_good) noexcept;
   [[nodiscard]] core::ErrorCode judge_kinematics(const EncoderChange& change) const noexcept;
   [[nodiscard]] core::ErrorCode judge_push(const EncoderChange& change) noexcept;
-  [[nodiscard]] core::ErrorCode judge_motion_of_push(const EncoderChange& change,
-                                                     double direction) noexcept;
   [[nodiscard]] bool stops_dead(const EncoderChange& change) const noexcept;
+  [[nodiscard]] bool is_held_by_nothing() const noexcept;
   void watch_for_motion(const EncoderChange& change) noexcept;
   void begin_push(const EncoderChange& change, double direction) noexcept;
   void count_events(const EncoderChange& change) noexcept;
@@ -102,12 +111,14 @@ class EncoderPlausibility {
   Push push_;
   ChainObserver chain_;
   double chain_torque_Nm_ = 0;
+  double swing_Nm_ = 0;  // largest of late, fading
   // Of the last exchanges with motion: rates of the last and the one before, and what slowed the
   // motor down at most, then or since, friction apart.
   double rate_count_per_s_ = 0;
   double rate_before_count_per_s_ = 0;
   double slowing_Nm_ = 0;
   std::uint32_t still_exchanges_ = 0;
+  Held held_;
   IndexWatch index_;
   Bucket illegal_;
   Bucket noise_;

@@ -77,18 +77,27 @@ TEST(StopsDead, AMotorThatFullReverseStopsDoesNot) {
   }
 }
 
-// A drive that goes up and down about what moves the axis surely: missing motion adds up.
-TEST(Stuck, ADriveThatDipsBelowTheThresholdForAMomentDoesNotBeginAnew) {
+// It froze while the carriage ran on: the observer swings, which would explain a drive that holds
+// the motor. For as long as a quarter of a swing, not for longer.
+TEST(HeldByNothing, ASwingThatHasTurnedRoundExplainsNoStandstill) {
   const auto settings = y_axis();
   Encoder encoder(settings);
-  ASSERT_EQ(encoder.moves(0, 0), ErrorCode::kNone);
-  const double breakaway_Nm = settings.plausibility.worst_breakaway_Nm;
+  std::int64_t rate = 0;
+  for (; rate < 60; ++rate) {
+    ASSERT_EQ(encoder.moves(rate, 20e-3), ErrorCode::kNone) << rate;
+  }
+  for (int i = 0; i < 300; ++i) {
+    ASSERT_EQ(encoder.moves(rate, 2e-3), ErrorCode::kNone) << i;
+  }
+  for (; rate > 3; --rate) {  // a = 1.6 m/s2
+    ASSERT_EQ(encoder.moves(rate, -20e-3), ErrorCode::kNone) << rate;
+  }
   int found_ms = 0;
-  for (int ms = 1; ms < 200 && found_ms == 0; ++ms) {
-    const double torque_Nm = (ms / 10 % 2 == 0 ? 1.6 : 1.2) * breakaway_Nm;
+  for (int ms = 1; ms < 300 && found_ms == 0; ++ms) {
+    const double torque_Nm = -1.8 * settings.plausibility.worst_breakaway_Nm;
     found_ms = encoder.moves(0, torque_Nm) == ErrorCode::kFaultEncoderFrozen ? ms : 0;
   }
-  EXPECT_GT(found_ms, 20);
+  EXPECT_GT(found_ms, 10);
   EXPECT_LT(found_ms, 100);
 }
 

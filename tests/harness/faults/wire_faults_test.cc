@@ -200,7 +200,6 @@ TEST(WhatACarrierCannotHave, IsRefusedInALine) {
 
 // ---- without a fault ----
 
-// A classic bus carries the digest and gives bits of its own.
 TEST(SoundWires, OfEdgesGiveTheSameBits) {
   const auto& socket = sound_run_over(WireName::kSocket);
   for (const auto wire : {WireName::kLine, WireName::kFdBus}) {
@@ -209,7 +208,6 @@ TEST(SoundWires, OfEdgesGiveTheSameBits) {
     EXPECT_EQ(run.log.size(), socket.log.size());
     EXPECT_GT(run.truth.back().axes[Axis::kY].edges_total, 10'000);
   }
-  EXPECT_GE(first_difference_ns(sound_run_over(WireName::kBus), socket), 0);
 }
 
 // ---- a greeting that is refused ----

@@ -39,7 +39,7 @@ std::filesystem::path short_settings() {
                                std::filesystem::copy_options::overwrite_existing);
   }
   std::ofstream(folder / "EXP-OL-1.toml")
-      << "schema = 1\n[settings]\nrepeats = 24\nbins = 2\nincrement_pct = 0.1\n";
+      << "schema = 1\n[settings]\nrepeats = 60\nbins = 5\n";
   return folder;
 }
 
