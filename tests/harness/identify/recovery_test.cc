@@ -38,8 +38,7 @@ std::filesystem::path short_settings() {
     std::filesystem::copy_file(file.path(), folder / file.path().filename(),
                                std::filesystem::copy_options::overwrite_existing);
   }
-  std::ofstream(folder / "EXP-OL-1.toml")
-      << "schema = 1\n[settings]\nrepeats = 60\nbins = 5\n";
+  std::ofstream(folder / "EXP-OL-1.toml") << "schema = 1\n[settings]\nrepeats = 60\nbins = 5\n";
   return folder;
 }
 
