@@ -52,7 +52,9 @@ mutant(no_plausibility system/encoder_plausibility.cc
 mutant(no_kinematic_check system/encoder_plausibility.cc
   "  const double expected = last_rate" "  if (true) { return ErrorCode::kNone; }\n  const double expected = last_rate")
 mutant(no_stuck_check system/encoder_plausibility.cc
-  "  if (push_.direction != direction) {" "  if (true) {")
+  "  if (push_.direction != direction) {" "  if (true) {"
+  "if (is_held_by_nothing()) {" "if (false) {"
+  "if (stops_dead(change)) {" "if (false) {")
 mutant(no_index_check system/encoder_plausibility.cc
   "settings_.index_fitted && !index_good ?" "settings_.index_fitted && !index_good && false ?")
 mutant(no_illegal_transition_check system/encoder_plausibility.cc
