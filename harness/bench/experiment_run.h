@@ -6,8 +6,6 @@
 #include <optional>
 #include <string>
 
-#include <nlohmann/json.hpp>
-
 #include "harness/bench/hand.h"
 #include "harness/bench/script_loop.h"
 #include "harness/experiment/experiment_fixture.h"

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <toml++/toml.h>
 
 #include "harness/commands/command.h"
 #include "harness/commands/fixture_paths.h"
