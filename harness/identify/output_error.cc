@@ -5,9 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include <ceres/ceres.h>
-
 #include "harness/identify/long_run_covariance.h"
+#include "harness/identify/secant_cost.h"
 
 namespace towbench::harness::identify {
 namespace {
@@ -137,74 +136,30 @@ constexpr double step_of(int i) {
   return i == kShare || i == kPlace ? 1e-3 : (i == kDelay ? 1e-2 : 2e-4);
 }
 
-// Residuals with their derivatives by one-sided differences of the simulation.
-class Cost final : public ceres::CostFunction {
- public:
-  explicit Cost(const Problem& problem) : problem_(problem) {
-    set_num_residuals(problem.data_residuals() + Problem::kPriors);
-    mutable_parameter_block_sizes()->push_back(problem.parameters());
-  }
-
-  bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override {
-    if (!problem_.residuals(parameters[0], residuals)) {
-      return false;
-    }
-    if (jacobians == nullptr || jacobians[0] == nullptr) {
-      return true;
-    }
-    const int n = problem_.parameters();
-    const int m = num_residuals();
-    std::vector<double> p(parameters[0], parameters[0] + n);
-    std::vector<double> moved(static_cast<std::size_t>(m));
-    for (int i = 0; i < n; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      const double before = p[at];
-      p[at] += step_of(i);
-      if (!problem_.residuals(p.data(), moved.data())) {
-        return false;
-      }
-      for (int k = 0; k < m; ++k) {
-        jacobians[0][k * n + i] = (moved[static_cast<std::size_t>(k)] - residuals[k]) / step_of(i);
-      }
-      p[at] = before;
-    }
-    return true;
-  }
-
- private:
-  const Problem& problem_;
-};
-
-bool minimise(const Problem& problem, Eigen::VectorXd& p, double tolerance, std::string& message) {
-  ceres::Problem solver_problem;
-  solver_problem.AddResidualBlock(new Cost(problem), nullptr, p.data());
-  const auto bound = [&](int i, double low, double high) {
-    solver_problem.SetParameterLowerBound(p.data(), i, low);
-    solver_problem.SetParameterUpperBound(p.data(), i, high);
-  };
+SecantCost cost_of(const Problem& problem) {
+  std::vector<double> steps;
   for (int i = 0; i < problem.parameters(); ++i) {
+    steps.push_back(step_of(i));
+  }
+  return {[&problem](const double* p, double* out) { return problem.residuals(p, out); },
+          problem.data_residuals() + Problem::kPriors, std::move(steps)};
+}
+
+Bounds bounds_around(const Eigen::VectorXd& p) {
+  Bounds bounds{.low = p, .high = p};
+  const auto bound = [&](int i, double low, double high) {
+    bounds.low[i] = low;
+    bounds.high[i] = high;
+  };
+  for (int i = 0; i < p.size(); ++i) {
     const double room = i == kViscous || i == kDamping || i == kExcess ? 3.0 : 1.6;
     bound(i, p[i] - room, p[i] + room);
   }
   bound(kShare, 0.02, 0.98);
   bound(kDelay, 0.0, 9.9);
   bound(kPlace, 0.0, 0.7);
-  ceres::Solver::Options options;
-  options.max_num_iterations = 60;
-  options.function_tolerance = tolerance;
-  options.parameter_tolerance = 1e-8;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &solver_problem, &summary);
-  message = summary.BriefReport();
-  return summary.IsSolutionUsable();
+  return bounds;
 }
-
-}  // namespace
-
-namespace {
 
 TwoMassFit fit_from(const TwoMassStart& start, const Recording& data, core::Axis axis) {
   TwoMassFit fit;
@@ -212,7 +167,12 @@ TwoMassFit fit_from(const TwoMassStart& start, const Recording& data, core::Axis
   const Problem coarse(start, data, axis, 0.03);
   const Problem fine(start, data, axis, 0.12);
   Eigen::VectorXd p = coarse.first();
-  fit.converged = minimise(coarse, p, 1e-3, fit.message) && minimise(fine, p, 1e-7, fit.message);
+  auto first = cost_of(coarse);
+  auto cost = cost_of(fine);
+  fit.converged = minimise(first, {.bounds = bounds_around(p), .tolerance = 1e-3, .most_rounds = 1},
+                           p, fit.message);
+  fit.converged = fit.converged &&
+                  minimise(cost, {.bounds = bounds_around(p), .tolerance = 1e-7}, p, fit.message);
   fit.axis = fine.axis_of(p.data());
   fit.path = fine.path_of(p.data());
   if (auto counts = fine.simulate(p.data())) {
@@ -220,16 +180,11 @@ TwoMassFit fit_from(const TwoMassStart& start, const Recording& data, core::Axis
   }
   const int n = fine.parameters();
   const int m = fine.data_residuals();
-  const Cost cost(fine);
-  Eigen::VectorXd residual(cost.num_residuals());
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian(
-      cost.num_residuals(), n);
-  const double* parameters = p.data();
-  double* rows = jacobian.data();
-  if (!cost.Evaluate(&parameters, residual.data(), &rows)) {
-    fit.converged = false;
+  if (!fit.converged) {
     return fit;
   }
+  const auto& residual = cost.residual();
+  const auto& jacobian = cost.jacobian();
   const Eigen::MatrixXd priors = jacobian.bottomRows(Problem::kPriors);
   const Eigen::MatrixXd covariance =
       sandwich(jacobian.topRows(m), residual.head(m), priors.transpose() * priors, fine.lags());
