@@ -56,8 +56,9 @@ double rms(const Eigen::VectorXd& x) {
 std::array<OlsCriterion, 6> criteria_of(const Recording& data, core::Axis axis,
                                         const OlsInput& input, const Signals& s,
                                         const Eigen::MatrixXd& regressors) {
-  const Eigen::MatrixXd scaled =
-      regressors * regressors.colwise().norm().cwiseInverse().asDiagonal();
+  // Evaluated: as an expression every norm is taken anew for every element.
+  const Eigen::VectorXd shares = regressors.colwise().norm().cwiseInverse();
+  const Eigen::MatrixXd scaled = regressors * shares.asDiagonal();
   const Eigen::VectorXd values = scaled.jacobiSvd().singularValues();
   const double condition = values[0] / values[values.size() - 1];
   const auto n = s.moving.size();
