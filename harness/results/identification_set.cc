@@ -116,8 +116,9 @@ std::vector<SetRun> run_set(const IdentificationSet& set) {
   std::vector<std::pair<std::uint64_t, std::uint64_t>> wanted;
   std::size_t there = 0;
   const auto all = static_cast<std::size_t>(set.machines * set.seeds);
-  for (std::uint64_t machine = 0; machine < set.machines; ++machine) {
-    for (std::uint64_t seed = 1; seed <= set.seeds; ++seed) {
+  // Seed after seed of all machines: a set that is stopped is a smaller one of all of them.
+  for (std::uint64_t seed = 1; seed <= set.seeds; ++seed) {
+    for (std::uint64_t machine = 0; machine < set.machines; ++machine) {
       if (read_run(set, machine, seed).done) {
         ++there;
       } else {
