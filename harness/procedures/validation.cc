@@ -15,6 +15,7 @@
 #include "harness/fixtures/rig_fixture.h"
 #include "harness/identify/two_mass_twin.h"
 #include "harness/procedures/believed_model.h"
+#include "harness/procedures/duty_apart.h"
 #include "harness/procedures/identified_plant.h"
 #include "harness/procedures/procedures.h"
 #include "harness/procedures/settings.h"
@@ -49,28 +50,6 @@ struct Left {
 
 // More than that of the duty's RMS is no model of the machine.
 constexpr double kMostUnexplained = 0.05;
-
-// RMS of what two logs of one motion differ by in duty, means over 20 ms: rounding is no model.
-// With an empty other one: of the duty itself.
-double duty_apart_pct(const identify::Recording& one, const identify::Recording& other,
-                      core::Axis which) {
-  constexpr double kMean_s = 0.02;
-  const auto span = static_cast<std::size_t>(std::lround(kMean_s / one.period_s));
-  const bool alone = other.rows() == 0;
-  const auto rows = alone ? one.rows() : std::min(one.rows(), other.rows());
-  double square = 0;
-  std::size_t spans = 0;
-  for (std::size_t k = 0; k + span <= rows; k += span) {
-    double mean = 0;
-    for (std::size_t i = k; i < k + span; ++i) {
-      const double less = alone ? 0.0 : other.axes[which].duty_pct[i];
-      mean += (one.axes[which].duty_pct[i] - less) / static_cast<double>(span);
-    }
-    square += mean * mean;
-    ++spans;
-  }
-  return std::sqrt(square / static_cast<double>(std::max<std::size_t>(spans, 1)));
-}
 
 Left left_by(const emulator::AxisParameters& axis, const identify::DrivePath& path,
              const identify::Recording& data, core::Axis which, double span_s) {
@@ -150,7 +129,7 @@ class Validation final : public Procedure {
       const double by_belief = duty_apart_pct(data, old, context.axis);
       counts_square += left.rms_counts * left.rms_counts;
       belief_square += by_belief * by_belief;
-      duty_square += std::pow(duty_apart_pct(data, {}, context.axis), 2);
+      duty_square += std::pow(duty_rms_pct(data, context.axis), 2);
       model_square += by_model * by_model;
       table.rows.push_back({sinus ? "sinusoid" : "trapezoids",
                             fmt::format("{:.1f} ({:.0f})", left.rms_counts, left.peak_counts),
