@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "bbmc/system/stopping_distance.h"
 
@@ -14,12 +13,6 @@ constexpr double kRunawayRatio = 2.0;
 constexpr double kRunawaySlack_count_per_s = 40'000;
 // Half a swing of the motor on the chain, of the slower axis.
 constexpr core::Nanoseconds kThrown_ns = 60 * core::kNanosecondsPerMillisecond;
-// Of the way that the carriage has come, what its reckoning may be short by.
-constexpr double kShortRatio = 0.15;
-constexpr double kGoesOn_m_per_s = 0.02;
-// While the mean that the momentum is taken from has but a part of the swing that braking begins
-// with, the momentum is what it was, less what the brake has taken.
-constexpr core::Nanoseconds kFirstSwing_ns = 120 * core::kNanosecondsPerMillisecond;
 // The light motor, before the chain is tight.
 constexpr double kPressedBack_m_per_s = 0.4;
 // A brake that works has halved the speed in three times the time that a rigid axis takes to stand,
@@ -50,13 +43,6 @@ constexpr double kBlindSwappedRatio = 0.25;
 constexpr double kBlindBackwardsRatio = 0.1;
 constexpr double kBlindRunawayRatio = 1.25;
 
-double full_stretch_rad(const AxisConfiguration& axis) noexcept {
-  const auto& braking = axis.braking;
-  const double held_rad_per_s = 2.0 * std::numbers::pi * braking.held_motor_chain_Hz;
-  return braking_torque_Nm(axis) /
-         ((braking.inertia_kg_m2 - braking.rotor_inertia_kg_m2) * held_rad_per_s * held_rad_per_s);
-}
-
 }  // namespace
 
 Brake::Brake(const AxisConfiguration& axis) noexcept
@@ -64,11 +50,10 @@ Brake::Brake(const AxisConfiguration& axis) noexcept
       limit_Nm_(braking_torque_Nm(axis)),
       rad_per_count_(axis.rad_per_count()),
       standstill_count_per_s_(axis.braking.standstill_m_per_s * axis.counts_per_m()),
+      end_(axis),
       free_chain_Hz_(axis.braking.held_motor_chain_Hz *
                      std::sqrt(axis.braking.inertia_kg_m2 / axis.braking.rotor_inertia_kg_m2)),
       pressed_back_count_per_s_(kPressedBack_m_per_s * axis.counts_per_m()),
-      goes_on_count_per_s_(kGoesOn_m_per_s * axis.counts_per_m()),
-      full_stretch_count_(full_stretch_rad(axis) / axis.rad_per_count()),
       top_speed_count_per_s_(axis.speed_limit_m_per_s * axis.counts_per_m()) {}
 
 core::Nanoseconds Brake::rigid_stop_ns(double speed_count_per_s) const noexcept {
@@ -94,8 +79,8 @@ void Brake::begin(const BrakeInput& input, bool coasting) noexcept {
   late_ = false;
   after_gap_ = input.since_ns > kGap_ns;
   push_from_ns_ = now_ns + kSpeedSettles_ns;
-  end_direction_ = 0;
-  presses_ = false;
+  end_.reset();
+  asks_ = EndAsks::kNothing;
   gives_way_ = false;
 }
 
@@ -177,11 +162,15 @@ double Brake::damped_gain_Nm_s_per_rad() const noexcept {
 }
 
 double Brake::wanted_torque_Nm(const BrakeInput& input) const noexcept {
-  if (presses_) {
-    return -end_direction_ * limit_Nm_;
+  if (asks_ == EndAsks::kPress) {
+    return -end_.direction() * limit_Nm_;
   }
   if (input.now_ns < push_until_ns_) {
     return push_direction_ * limit_Nm_;
+  }
+  if (asks_ == EndAsks::kTurnBack) {
+    return -settings_.speed_gain_Nm_s_per_rad * rad_per_count_ *
+           (input.speed_count_per_s - end_.turning_count_per_s());
   }
   double gain_Nm_s_per_rad = settings_.speed_gain_Nm_s_per_rad;
   if (late_) {
@@ -190,50 +179,9 @@ double Brake::wanted_torque_Nm(const BrakeInput& input) const noexcept {
   return -gain_Nm_s_per_rad * input.speed_count_per_s * rad_per_count_;
 }
 
-void Brake::end_is_ahead(double direction, double room_count) noexcept {
-  if (end_direction_ == 0 && room_count > full_stretch_count_) {
-    end_direction_ = direction;
-    end_room_count_ = room_count;
-    end_run_count_ = 0;
-    stretch_count_ = 0;
-    end_since_ns_ = -1;
-  }
-}
-
-void Brake::watch_end(const BrakeInput& input, core::Nanoseconds since_ns) noexcept {
-  if (end_direction_ == 0 || late_) {
-    presses_ = false;
-    return;
-  }
-  if (end_since_ns_ < 0) {
-    end_since_ns_ = input.now_ns;
-    axis_count_per_s_ = input.momentum_count_per_s;
-  } else if (since_ns > kGap_ns) {
-    end_since_ns_ -= kFirstSwing_ns;  // who knows what went on, or whether the clock leapt
-  } else {
-    axis_count_per_s_ +=
-        torque_Nm_ / (settings_.inertia_kg_m2 * rad_per_count_) * core::seconds(since_ns);
-  }
-  const bool swings_yet = input.now_ns - end_since_ns_ < kFirstSwing_ns;
-  const double axis_count_per_s = swings_yet ? axis_count_per_s_ : input.momentum_count_per_s;
-  const double rotor_share = settings_.rotor_inertia_kg_m2 / settings_.inertia_kg_m2;
-  const double onwards_count_per_s = end_direction_ *
-                                     (axis_count_per_s - rotor_share * input.speed_count_per_s) /
-                                     (1.0 - rotor_share);
-  end_run_count_ += onwards_count_per_s * core::seconds(since_ns);
-  stretch_count_ +=
-      (onwards_count_per_s - end_direction_ * input.speed_count_per_s) * core::seconds(since_ns);
-  const double swing_count =
-      onwards_count_per_s / (2.0 * std::numbers::pi * settings_.held_motor_chain_Hz);
-  const double runs_on_count =
-      std::sqrt(swing_count * swing_count + stretch_count_ * stretch_count_) - stretch_count_;
-  presses_ = onwards_count_per_s > goes_on_count_per_s_ &&
-             runs_on_count > end_room_count_ - (1.0 + kShortRatio) * end_run_count_;
-}
-
 bool Brake::runs_away(core::Nanoseconds now_ns, double speed_count_per_s) noexcept {
   const double speed = std::fabs(speed_count_per_s);
-  const bool pressed_back = end_direction_ * speed_count_per_s < 0;
+  const bool pressed_back = end_.may_press() && end_.direction() * speed_count_per_s < 0;
   const double limit =
       std::max(kRunawayRatio * start_speed_count_per_s_ + kRunawaySlack_count_per_s,
                pressed_back ? pressed_back_count_per_s_ : 0.0);
@@ -271,7 +219,7 @@ BrakeState Brake::update(const BrakeInput& input) noexcept {
   const core::Nanoseconds since_ns = input.now_ns - updated_ns_;
   begin_again_after_gap(input);
   heed_age(input);
-  watch_end(input, since_ns);
+  asks_ = late_ ? EndAsks::kNothing : end_.update(input, torque_Nm_, since_ns, since_ns > kGap_ns);
   const BrakeState state = judge(input);
   torque_Nm_ = state != BrakeState::kBraking || coasting_ || gives_way_
                    ? 0.0

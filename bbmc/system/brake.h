@@ -24,20 +24,8 @@
 // the second ends it where a quarter of the chain's own swing has passed, beyond which the law
 // would drive the swing.
 //
-// With an end ahead the carriage counts, not the motor. One that swings on its chain, since a tooth
-// was skipped or a host slept, may run on while the motor stands already:
-//
-//   omega_l = (J omega - J_rotor omega_m) / J_l      omega of the whole axis, omega_m of the motor
-//
-// Against a motor that stands it runs on until the chain, stretched by s already, has taken its
-// speed:
-//
-//   sqrt((omega_l / w_h)^2 + s^2) - s
-//
-// Where that is about the way left from the end-stop to the hard end, reckoned from the end-stop's
-// word on, the brake presses: full reverse, whatever the motor does. Elsewhere the law takes the
-// swing out more gently. And so it does where the whole way from the end-stop is shorter than what
-// the motor must turn back until the chain pulls with that torque.
+// With an end ahead the carriage counts, not the motor: end_ahead.h says when to press, full
+// reverse whatever the motor does, and when to turn back a little, tau = -K_b (omega - omega_back).
 //
 // After a gap (a host that slept) the last torque has gone on, whatever it was: the speed found
 // then says nothing against the brake, and its momentum is taken out first, too.
@@ -50,19 +38,12 @@
 #pragma once
 
 #include "bbmc/system/axis_configuration.h"
+#include "bbmc/system/brake_input.h"
+#include "bbmc/system/end_ahead.h"
 #include "core/realtime.h"
 #include "core/time.h"
 
 namespace towbench::bbmc {
-
-struct BrakeInput {
-  core::Nanoseconds now_ns = 0;
-  double speed_count_per_s = 0;    // as the encoder tells it
-  core::Nanoseconds age_ns = 0;    // of that
-  core::Nanoseconds since_ns = 0;  // over which it is a mean, if that is long
-  // Of the whole axis, without the motor's swing on the chain (dead_reckoning.h).
-  double momentum_count_per_s = 0;
-};
 
 enum class BrakeState : std::uint8_t { kBraking, kStandstill, kTimedOut, kRanAway };
 
@@ -73,7 +54,9 @@ class Brake {
   // `coasting`: no torque, only the wait for standstill (for comparison, see SafetyConfiguration).
   void begin(const BrakeInput& input, bool coasting) noexcept;
   // An end-stop says so: `direction` +1 towards max, and how far the hard end is from it.
-  void end_is_ahead(double direction, double room_count) noexcept;
+  void end_is_ahead(double direction, double room_count) noexcept {
+    end_.tell(direction, room_count);
+  }
 
   // From a speed that is known now and will not be measured any more; `may_explain`: whether the
   // encoder has that last say.
@@ -94,7 +77,6 @@ class Brake {
   void begin_again_after_gap(const BrakeInput& input) noexcept;
   void push(const BrakeInput& input) noexcept;
   [[nodiscard]] bool runs_away(core::Nanoseconds now_ns, double speed_count_per_s) noexcept;
-  void watch_end(const BrakeInput& input, core::Nanoseconds since_ns) noexcept;
   void heed_age(const BrakeInput& input) noexcept;
   [[nodiscard]] double damped_gain_Nm_s_per_rad() const noexcept;
   [[nodiscard]] double wanted_torque_Nm(const BrakeInput& input) const noexcept;
@@ -104,6 +86,8 @@ class Brake {
   double limit_Nm_;
   double rad_per_count_;
   double standstill_count_per_s_;
+  EndAhead end_;
+  EndAsks asks_ = EndAsks::kNothing;
   core::Nanoseconds begun_ns_ = 0;
   core::Nanoseconds moved_ns_ = 0;  // last time above standstill
   double start_speed_count_per_s_ = 0;
@@ -117,17 +101,9 @@ class Brake {
   core::Nanoseconds push_from_ns_ = 0;
   core::Nanoseconds push_until_ns_ = 0;
   double push_direction_ = 0;
-  double end_direction_ = 0;   // 0 = no end ahead
-  double end_room_count_ = 0;  // from the end-stop to the hard end
-  double end_run_count_ = 0;   // of the carriage, since the end-stop spoke
-  double stretch_count_ = 0;   // of the chain, what the carriage ran further than the motor since
-  core::Nanoseconds end_since_ns_ = -1;
-  double axis_count_per_s_ = 0;  // of the whole, since then
   core::Nanoseconds thrown_ns_ = 0;
   double free_chain_Hz_;
   double pressed_back_count_per_s_;
-  double goes_on_count_per_s_;
-  double full_stretch_count_;  // of the chain, at the brake's torque
   double top_speed_count_per_s_;
   double torque_Nm_ = 0;
   bool coasting_ = false;
@@ -136,7 +112,6 @@ class Brake {
   bool after_gap_ = false;
   bool swapped_ = false;
   bool may_explain_ = false;
-  bool presses_ = false;
   bool gives_way_ = false;
 };
 
