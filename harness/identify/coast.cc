@@ -1,6 +1,7 @@
 #include "harness/identify/coast.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -59,9 +60,25 @@ double speed_over(const Recording& data, core::Axis axis, std::size_t from, std:
          (data.time_s[to] - data.time_s[from]);
 }
 
+// The row after the last in which the motor is faster; the span's first when it is in none.
+std::size_t slow_enough(const Recording& data, core::Axis axis, const CoastSpan& span,
+                        double fastest_m_per_s) {
+  constexpr double kFew_s = 0.003;  // a tenth of the quickest swing
+  const auto few =
+      std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kFew_s / data.period_s)));
+  std::size_t from = span.from;
+  for (std::size_t k = span.from; k + few < span.to; ++k) {
+    if (std::fabs(speed_over(data, axis, k, k + few)) > fastest_m_per_s) {
+      from = k + few;
+    }
+  }
+  return from;
+}
+
 }  // namespace
 
-std::vector<CoastSpan> find_coasts(const Recording& data, core::Axis axis, double lowest_share) {
+std::vector<CoastSpan> find_coasts(const Recording& data, core::Axis axis,
+                                   const CoastLimits& limits) {
   constexpr double kSpan_s = 0.02;
   constexpr double kShortest_s = 0.05;
   const auto span = static_cast<std::size_t>(std::lround(kSpan_s / data.period_s));
@@ -74,12 +91,13 @@ std::vector<CoastSpan> find_coasts(const Recording& data, core::Axis axis, doubl
     const double first = std::fabs(speed_over(data, axis, k, k + span));
     std::size_t end = k;
     while (end + span < data.rows() && duty[end] == 0 && duty[end + span] == 0 &&
-           std::fabs(speed_over(data, axis, end, end + span)) > lowest_share * first) {
+           std::fabs(speed_over(data, axis, end, end + span)) > limits.lowest_share * first) {
       ++end;
     }
-    if (static_cast<double>(end - k) * data.period_s >= kShortest_s) {
-      // The current needs a row to be gone.
-      found.push_back({k + 2, end});
+    // The current needs a row to be gone.
+    const auto from = slow_enough(data, axis, {k + 2, end}, limits.fastest_m_per_s);
+    if (static_cast<double>(end) - static_cast<double>(from) >= kShortest_s / data.period_s) {
+      found.push_back({from, end});
     }
   }
   return found;

@@ -7,6 +7,7 @@
 // J/B, w and s are common to all coasts of a set, the rest is each one's own (variable projection).
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "harness/identify/recording.h"
@@ -18,10 +19,17 @@ struct CoastSpan {
   std::size_t to = 0;  // one past
 };
 
-// After each stretch of duty: from its end until the speed has fallen to `lowest_share` of what it
-// was. Spans below 50 ms are left out.
+struct CoastLimits {
+  double lowest_share = 0.2;
+  // A motor whose back EMF is beyond the amplifier's voltage is braked through its winding,
+  // whatever the set-point: that is no coast.
+  double fastest_m_per_s = std::numeric_limits<double>::infinity();
+};
+
+// After each stretch of duty: from where the motor, swing and all, stays below the fastest until
+// its speed has fallen to `lowest_share` of what it was. Spans below 50 ms are left out.
 [[nodiscard]] std::vector<CoastSpan> find_coasts(const Recording& data, core::Axis axis,
-                                                 double lowest_share = 0.2);
+                                                 const CoastLimits& limits = {});
 
 struct CoastFit {
   double time_constant_s = 0;

@@ -73,7 +73,8 @@ class TimeConstant final : public Procedure {
       if (!data.trouble.empty()) {
         return ProcedureOutcome::failed(data.trouble);
       }
-      const auto spans = identify::find_coasts(data, context.axis);
+      const auto spans =
+          identify::find_coasts(data, context.axis, {.fastest_m_per_s = fastest_coast(context)});
       const auto fit = identify::fit_coasts(data, context.axis, spans,
                                             axis.inertia_kg_m2 / axis.viscous_friction_Nm_s_per_rad,
                                             axis.chain.resonance_Hz);
@@ -95,6 +96,14 @@ class TimeConstant final : public Procedure {
   }
 
  private:
+  // Nine tenths of the speed whose back EMF the amplifier can just stand against.
+  static double fastest_coast(const ProcedureContext& context) {
+    constexpr double kRoom = 0.9;
+    const auto& plate = context.machine.nameplate(context.axis);
+    return kRoom * plate.output_limit_V / believed_axis(context).torque_constant_Nm_per_A *
+           plate.metres_per_rad();
+  }
+
   static identify::Recording play(const ProcedureContext& context, const Settings& settings,
                                   double push_s, double start_m, int number) {
     Conversation talk{.name = fmt::format("EXP-P-2-{}-{}", core::name_of(context.axis), number)};

@@ -53,6 +53,35 @@ TEST(Coast, TimeConstantOfACoastThatSwings) {
   }
 }
 
+// The first fifth of a second of what looks like a coast is braked.
+TEST(Coast, BeginsWhereTheMotorIsSlowEnough) {
+  constexpr std::size_t kPush = 200;
+  constexpr std::size_t kBraked = 200;
+  constexpr double kCountsLost = 1e6;  // per s^2, while it is braked
+  auto data = coast(1.55, 9.7, 150);
+  auto& count = data.axes[core::Axis::kY].count;
+  for (std::size_t k = kPush; k < data.rows(); ++k) {
+    // As much further as it was faster before.
+    const double t = static_cast<double>(k - kPush) * data.period_s;
+    const double left_s = std::max(0.0, static_cast<double>(kBraked) * data.period_s - t);
+    count[k] += static_cast<std::int64_t>(0.5 * kCountsLost * (0.04 - left_s * left_s));
+  }
+  const auto speed = [&](std::size_t k) {
+    return static_cast<double>(count[k + 3] - count[k]) / 3e-3 * 2e-6;
+  };
+  const auto all = find_coasts(data, core::Axis::kY);
+  const auto slow = find_coasts(data, core::Axis::kY, {.fastest_m_per_s = speed(kPush + kBraked)});
+  ASSERT_EQ(all.size(), 1U);
+  ASSERT_EQ(slow.size(), 1U);
+  EXPECT_GE(slow[0].from, kPush + kBraked);
+  EXPECT_LT(slow[0].from, kPush + kBraked + 150);  // the swing's next peak at the latest
+  const auto error = [&](const std::vector<CoastSpan>& spans) {
+    return std::fabs(fit_coasts(data, core::Axis::kY, spans, 1.2, 9.0).time_constant_s / 1.55 - 1);
+  };
+  EXPECT_LT(error(slow), 0.02);
+  EXPECT_GT(error(all), 0.1);
+}
+
 TEST(Coast, WithoutASpanThereIsNoTimeConstant) {
   Recording data = coast(1.5, 9, 0);
   data.axes[core::Axis::kY].duty_pct.assign(data.rows(), 30.0);
