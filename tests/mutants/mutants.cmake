@@ -55,12 +55,20 @@ mutant(no_stuck_check system/encoder_plausibility.cc
   "  if (push_.direction != direction) {" "  if (true) {"
   "if (is_held_by_nothing()) {" "if (false) {"
   "if (stops_dead(change)) {" "if (false) {")
+mutant(no_held_check system/encoder_plausibility.cc
+  "if (is_held_by_nothing()) {" "if (false) {")
 mutant(no_index_check system/encoder_plausibility.cc
   "settings_.index_fitted && !index_good ?" "settings_.index_fitted && !index_good && false ?")
 mutant(no_illegal_transition_check system/encoder_plausibility.cc
   "if (illegal_.sum() >" "if (false && illegal_.sum() >")
 mutant(amplifier_ready_ignored system/axis_control.cc
   "return safety_.amplifier_ready_fitted &&" "return false && safety_.amplifier_ready_fitted &&")
+
+# ---- a hard end ahead
+mutant(no_pressing_at_the_end system/end_ahead.cc
+  "return goes_on && runs_on > left_count ?" "return false && goes_on && runs_on > left_count ?")
+mutant(no_turning_back system/end_ahead.cc
+  "turns_back_ = goes_on &&" "turns_back_ = false && goes_on &&")
 
 # ---- link and host
 mutant(lost_message_ignored host/controller_node.cc
