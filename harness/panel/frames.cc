@@ -14,13 +14,21 @@ namespace {
 
 using nlohmann::json;
 
-struct SeenRow {
-  LiveRow live;
-  core::PerAxis<double> position_m;
-  LiveEstimators::Speeds speeds;
-};
+// Digits enough for a tenth of a count over the whole tank, and a third of the bytes.
+void add(std::string& text, double value) {
+  text += std::isfinite(value) ? fmt::format(",{:.8g}", value) : ",null";
+}
+void add(std::string& text, float value) {
+  text += std::isfinite(value) ? fmt::format(",{:.5g}", value) : ",null";
+}
 
-double worst_error_m(const SeenRow& row) {
+std::string begin_row(const std::string& text, core::Nanoseconds time_ns) {
+  return fmt::format("{}[{:.6f}", text.empty() ? "" : ",", core::seconds(time_ns));
+}
+
+}  // namespace
+
+double FrameMaker::worst_error_m(const SeenRow& row) {
   double worst = 0;
   for (const auto axis : core::kAxes) {
     worst = std::max(worst, std::fabs(row.live.reference_m[axis] - row.position_m[axis]));
@@ -28,18 +36,17 @@ double worst_error_m(const SeenRow& row) {
   return worst;
 }
 
-double worst_error_m(const LiveTruth& row) {
+double FrameMaker::worst_error_m(const LiveTruth& row) {
   return std::fabs(static_cast<double>(row.chain_force_N[core::Axis::kY]));
 }
 
-// Of each bucket the row with the largest figure and the last one, in order of time.
 template <typename Row>
-std::vector<Row> thinned(const std::vector<Row>& rows, std::size_t most) {
-  if (rows.size() <= most) {
+std::vector<Row> FrameMaker::thinned(const std::vector<Row>& rows) {
+  if (rows.size() <= kMostRows) {
     return rows;
   }
   std::vector<Row> kept;
-  const std::size_t buckets = most / 2;
+  const std::size_t buckets = kMostRows / 2;
   for (std::size_t i = 0; i < buckets; ++i) {
     const std::size_t from = i * rows.size() / buckets;
     const std::size_t to = (i + 1) * rows.size() / buckets;
@@ -54,20 +61,6 @@ std::vector<Row> thinned(const std::vector<Row>& rows, std::size_t most) {
   }
   return kept;
 }
-
-// Digits enough for a tenth of a count over the whole tank, and a third of the bytes.
-void add(std::string& text, double value) {
-  text += std::isfinite(value) ? fmt::format(",{:.8g}", value) : ",null";
-}
-void add(std::string& text, float value) {
-  text += std::isfinite(value) ? fmt::format(",{:.5g}", value) : ",null";
-}
-
-std::string begin_row(const std::string& text, core::Nanoseconds time_ns) {
-  return fmt::format("{}[{:.6f}", text.empty() ? "" : ",", core::seconds(time_ns));
-}
-
-}  // namespace
 
 // The first frame of a run; its fixture is there, its folder may not be yet.
 void FrameMaker::begin(std::uint64_t number) {
@@ -85,7 +78,7 @@ void FrameMaker::begin(std::uint64_t number) {
 // [t, then for y and x: reference, position, reference velocity, velocity, duty, mode, and velocity
 // by frequency, by period and by the hybrid; then fault, and the force sensor's y and x]
 std::string FrameMaker::rows_text() {
-  std::vector<SeenRow> rows;
+  seen_.clear();
   for (SeenRow seen; session_.tap().next(seen.live);) {
     if (estimators_) {
       seen.speeds = estimators_->update(seen.live);
@@ -94,10 +87,10 @@ std::string FrameMaker::rows_text() {
       seen.position_m[axis] =
           (static_cast<double>(seen.live.count[axis]) + 0.5) * m_per_count_[axis];
     }
-    rows.push_back(seen);
+    seen_.push_back(seen);
   }
   std::string text;
-  for (const auto& [live, position_m, speeds] : thinned(rows, kMostRows)) {
+  for (const auto& [live, position_m, speeds] : thinned(seen_)) {
     text += begin_row(text, live.time_ns);
     for (const auto axis : core::kAxes) {
       add(text, live.reference_m[axis]);
@@ -119,21 +112,24 @@ std::string FrameMaker::rows_text() {
   return text;
 }
 
-std::vector<LiveTruth> FrameMaker::new_truths() {
+void FrameMaker::take_truths() {
+  truths_.clear();
   if (session_.state().clock == RunClock::kReal) {
-    return tail_ ? tail_->rows() : std::vector<LiveTruth>{};
+    if (tail_) {
+      truths_ = tail_->rows();
+    }
+    return;
   }
-  std::vector<LiveTruth> rows;
   for (LiveTruth row; session_.tap().next(row);) {
-    rows.push_back(row);
+    truths_.push_back(row);
   }
-  return rows;
 }
 
 // [t, then for y and x: carriage, carriage speed, current, chain force; then input lines]
 std::string FrameMaker::truths_text() {
+  take_truths();
   std::string text;
-  for (const auto& row : thinned(new_truths(), kMostRows)) {
+  for (const auto& row : thinned(truths_)) {
     text += begin_row(text, row.time_ns);
     for (const auto axis : core::kAxes) {
       add(text, row.carriage_m[axis]);

@@ -28,10 +28,22 @@ class FrameMaker {
   [[nodiscard]] std::string greeting();
 
  private:
+  struct SeenRow {
+    LiveRow live;
+    core::PerAxis<double> position_m;
+    LiveEstimators::Speeds speeds;
+  };
+
+  [[nodiscard]] static double worst_error_m(const SeenRow& row);
+  [[nodiscard]] static double worst_error_m(const LiveTruth& row);
+  // Of each bucket the row with the largest figure and the last one, in order of time.
+  template <typename Row>
+  [[nodiscard]] static std::vector<Row> thinned(const std::vector<Row>& rows);
+
   [[nodiscard]] std::string state_text();
   [[nodiscard]] std::string rows_text();
   [[nodiscard]] std::string truths_text();
-  [[nodiscard]] std::vector<LiveTruth> new_truths();
+  void take_truths();
   void begin(std::uint64_t number);
 
   Session& session_;
@@ -40,6 +52,10 @@ class FrameMaker {
   core::PerAxis<double> m_per_count_;
   std::optional<TruthTail> tail_;  // of a plant in another process, once its folder is there
   std::string last_state_;
+  // At full speed thousands a frame. Kept from frame to frame: memory that came and went would
+  // interrupt the bench's processor each time to forget where it was.
+  std::vector<SeenRow> seen_;
+  std::vector<LiveTruth> truths_;
 };
 
 // Experiments with their console lines, fault kinds with their parameters, BBMC's commands with

@@ -295,6 +295,7 @@ table_on_host() {
 table_in_machine() {
   make_simulated_chip
   table_row 'CAN (vcan)' can:vcan0 can:vcan0 20 100
+  table_row 'CAN FD (vcan)' can:vcan0@fd can:vcan0@fd 20 100
   table_row 'CAN and GPIO lines (vcan, gpio-sim)' can:vcan0 can:vcan0 20 100 "$chip,sim:$chip"
 }
 

@@ -182,7 +182,7 @@ stage_carrier_table() {
   echo '| carrier | encoder data | trapezoid-400 | on the wire, to plant + to controller | worst case, digest at 1 kHz | turn: bare, ours, ratio | tracking error, peak | rms, steady |'
   echo '| --- | --- | --- | ---: | ---: | ---: | ---: | ---: |'
   sed -n 's/^@@ row //p' "$log"
-  [[ $(grep -c '^@@ row' "$log") == 5 ]] || { tail -n 20 "$log"; failed=$((failed + 1)); return 1; }
+  [[ $(grep -c '^@@ row' "$log") == 6 ]] || { tail -n 20 "$log"; failed=$((failed + 1)); return 1; }
   passed=$((passed + 1))
 }
 
