@@ -1,22 +1,17 @@
 #include "harness/bench/experiment_run.h"
 
-#include <array>
-#include <cerrno>
-#include <csignal>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <vector>
 
-#include <poll.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <nlohmann/json.hpp>
 
 #include "harness/bench/board_run.h"
 #include "harness/bench/carrier_name.h"
 #include "harness/bench/driven_run.h"
 #include "harness/bench/emulator_process.h"
 #include "harness/bench/in_process_plant.h"
+#include "harness/bench/killed_host.h"
 #include "harness/bench/late_link.h"
 #include "harness/bench/linked_plant.h"
 #include "harness/bench/lockstep_bench.h"
@@ -172,30 +167,8 @@ class Run {
     return outcome;
   }
 
-  // The controller's side as a process of its own, which the fault ends. The run is over when
-  // nobody holds the pipe any more: neither that process nor the plant that it has started.
   RunOutcome run_to_be_killed() {
-    std::array<int, 2> alive{};
-    if (pipe(alive.data()) != 0) {
-      throw std::system_error(errno, std::generic_category(), "pipe");
-    }
-    const pid_t host = fork();
-    if (host < 0) {
-      throw std::system_error(errno, std::generic_category(), "fork");
-    }
-    if (host == 0) {
-      close(alive[0]);
-      (void)run_with_child();
-      _exit(0);
-    }
-    close(alive[1]);
-    int status = 0;
-    waitpid(host, &status, 0);
-    constexpr int kPlantNotices_ms = 5000;
-    pollfd ended{alive[0], POLLIN, 0};
-    (void)poll(&ended, 1, kPlantNotices_ms);
-    close(alive[0]);
-    host_was_killed_ = WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
+    host_was_killed_ = run_until_killed([this] { (void)run_with_child(); });
     RunOutcome outcome;
     outcome.complete = true;
     outcome.reason = host_was_killed_ ? "the controller's process was killed" : "";
