@@ -1,7 +1,8 @@
 // The interrupt controller against the manual (SPRUH73 chapter 6).
+#include "board/aintc.h"
+
 #include <gtest/gtest.h>
 
-#include "board/aintc.h"
 #include "board/dmtimer.h"
 
 namespace towbench::board {

@@ -1,9 +1,9 @@
 // Clocks against the manual (SPRUH73 chapter 8).
+#include "board/clock_control.h"
+
 #include <map>
 
 #include <gtest/gtest.h>
-
-#include "board/clock_control.h"
 
 namespace towbench::board {
 namespace {

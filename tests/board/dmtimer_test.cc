@@ -1,7 +1,7 @@
 // The timer against the manual (SPRUH73 chapter 20).
-#include <gtest/gtest.h>
-
 #include "board/dmtimer.h"
+
+#include <gtest/gtest.h>
 
 namespace towbench::board {
 namespace {

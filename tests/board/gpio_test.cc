@@ -1,9 +1,9 @@
 // GPIO against the manual (SPRUH73 chapter 25).
+#include "board/gpio.h"
+
 #include <map>
 
 #include <gtest/gtest.h>
-
-#include "board/gpio.h"
 
 namespace towbench::board {
 namespace {

@@ -1,7 +1,7 @@
 // The UART against the manual (SPRUH73 chapter 19).
-#include <gtest/gtest.h>
-
 #include "board/uart.h"
+
+#include <gtest/gtest.h>
 
 namespace towbench::board {
 namespace {
