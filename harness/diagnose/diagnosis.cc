@@ -36,15 +36,6 @@ bool not_held_out(Index row, Index rows) {
   return !held_out(row, rows);
 }
 
-void take_off_known_terms(std::vector<Run>& runs, const Baseline& baseline,
-                          const Conditioning& conditioning) {
-  for (Run& run : runs) {
-    if (!baseline.model.elastic()) {
-      run.known_N = known_force_N(baseline.model, make_signals(run, conditioning, baseline));
-    }
-  }
-}
-
 struct Split {
   Dataset fit;      // causes are looked for and fitted here,
   Dataset heldout;  // and scored here: the second half of another run, or parts of the only one
@@ -178,11 +169,11 @@ Diagnosis diagnose(const Request& request) {
   d.selection = select_causes(data.fit, data.same_session ? nullptr : &abroad, d.context,
                               request.seed, request.progress);
   refit_and_score(d.selection, data.fit, heldout, d.context, request.seed);
-  const Eigen::VectorXd supplied =
-      heldout.residual({{}, Eigen::VectorXd(stated_baseline(request.model).at)});
-  const Eigen::VectorXd extended =
-      heldout.residual({d.selection.terms(), d.selection.after.coefficients});
-  d.gain_over_supplied = heldout.gain(supplied, extended, request.seed);
+  const FittedModel supplied{{}, Eigen::VectorXd(stated_baseline(request.model).at)};
+  const FittedModel extended{d.selection.terms(), d.selection.after.coefficients};
+  d.gain_over_supplied =
+      heldout.gain(heldout.residual(supplied), heldout.residual(extended), request.seed);
+  d.confirmed = confirm(heldout, d.context, supplied, extended, request.seed);
   d.parameters = judge_parameters(request.model, d.selection.after, d.selection.terms());
   d.unexplained = find_unexplained(data.fit, d.selection.after);
   d.not_testable = find_not_testable(d.selection);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/diagnose/confirm.h"
 #include "harness/diagnose/finding.h"
 #include "harness/diagnose/lack_of_fit.h"
 #include "harness/diagnose/next_experiment.h"
@@ -35,6 +36,7 @@ struct Diagnosis {
   std::vector<std::optional<NextExperiment>> separating;  // one a cause, where it has rivals
   // Of refit and causes together over the model as it was supplied, on held-out data.
   Gain gain_over_supplied;
+  Confirmation confirmed;                  // the same, simulated
   std::optional<double> lap_to_lap_rms_N;  // of repeats of the reference: a floor without a model
   double heldout_force_rms_N = 0;
   bool heldout_same_session = false;

@@ -34,7 +34,7 @@ Json separating(const std::optional<NextExperiment>& experiment) {
   if (!experiment) {
     return nullptr;
   }
-  return {{"motion", experiment->motion},
+  return {{"motion", experiment->motion.words()},
           {"separates_from", experiment->rival},
           {"separation_N", experiment->separation_N},
           {"separation_in_this_data_N", experiment->in_this_data_N}};
@@ -111,6 +111,24 @@ Json heldout(const Diagnosis& d) {
           {"same_session", d.heldout_same_session}};
 }
 
+Json improvement(const Improvement& i, double scale, const char* unit) {
+  if (i.before_rms <= 0) {
+    return nullptr;
+  }
+  return {{fmt::format("supplied_rms_{}", unit), scale * i.before_rms},
+          {fmt::format("extended_rms_{}", unit), scale * i.after_rms},
+          {"gain_pct", interval(i.gain, 100, "ci95")}};
+}
+
+Json confirmed(const Confirmation& c) {
+  return {{"window_s", kWindow_s},
+          {"windows", c.windows},
+          {"position_error", improvement(c.position_m, 1e3, "mm")},
+          {"closed_loop_force_error", improvement(c.force_N, 1, "N")},
+          {"closed_loop_law",
+           c.law == ControlLaw::Kind::kFitted ? "fitted from the log" : "tracking law"}};
+}
+
 }  // namespace
 
 std::string diagnosis_json(const Diagnosis& d) {
@@ -147,6 +165,7 @@ std::string diagnosis_json(const Diagnosis& d) {
                                {"gain_heldout_pct", interval(entry.gain, 100, "ci99")}});
   }
   out["heldout"] = heldout(d);
+  out["confirmed"] = confirmed(d.confirmed);
   out["noise_floor"] = {
       {"twin_rms_N", d.selection.after.twin_rms_N},
       {"lap_to_lap_rms_N", d.lap_to_lap_rms_N ? Json(*d.lap_to_lap_rms_N) : Json(nullptr)}};

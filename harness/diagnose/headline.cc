@@ -65,10 +65,18 @@ std::string how_sure(const Diagnosis& d) {
       std::max(worst, 1e-300), d.selection.tried);
 }
 
+std::string simulated(const Confirmation& c) {
+  return c.position_m.before_rms <= 0
+             ? std::string{}
+             : fmt::format(
+                   "; simulated for {:g} s, the carriage ends {:.3g} instead of {:.3g} mm off",
+                   kWindow_s, 1e3 * c.position_m.after_rms, 1e3 * c.position_m.before_rms);
+}
+
 std::string next_step(const Diagnosis& d) {
   for (std::size_t i = 0; i < d.separating.size(); ++i) {
     if (d.separating[i]) {
-      return fmt::format("run {}: it tells {} from {}", d.separating[i]->motion,
+      return fmt::format("run {}: it tells {} from {}", d.separating[i]->motion.words(),
                          d.selection.causes[i].term.effect->name, d.separating[i]->rival);
     }
   }
@@ -103,9 +111,9 @@ std::string headline(const Diagnosis& d) {
   out += fmt::format("How sure:      {}.\n", how_sure(d));
   out += fmt::format(
       "What it gains: {:.1f} % of the held-out force error, {:.3g} to {:.3g} N rms "
-      "(95 %: {:.1f} to {:.1f} %).\n",
+      "(95 %: {:.1f} to {:.1f} %){}.\n",
       100 * gain.ci95.value, gain.before_rms_N, gain.after_rms_N, 100 * gain.ci95.low,
-      100 * gain.ci95.high);
+      100 * gain.ci95.high, simulated(d.confirmed));
   out += d.unexplained
              ? fmt::format("Left over:     {:.3g} N rms along {}, which no effect explains.\n",
                            d.unexplained->rms_N, d.unexplained->coordinate)

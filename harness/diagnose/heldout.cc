@@ -59,6 +59,13 @@ VectorXd HeldOut::recalibrated(const MatrixXd& x, const VectorXd& y, const Fitte
   return coefficients;
 }
 
+VectorXd HeldOut::coefficients_in(std::size_t i, const FittedModel& model) const {
+  const auto& member = data_.members[i];
+  const MatrixXd x = member.conditioner.columns(raw_columns(member.signals, context_, model.terms));
+  const VectorXd y = member.conditioner.column(member.signals.input_N);
+  return recalibrated(x, y, model, scored_[i].calibrated);
+}
+
 VectorXd HeldOut::residual(const FittedModel& model) const {
   VectorXd out(scored_starts_.back());
   for (std::size_t i = 0; i < data_.members.size(); ++i) {

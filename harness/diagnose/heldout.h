@@ -34,6 +34,16 @@ class HeldOut {
  public:
   HeldOut(const Dataset& data, const Context& context, const ScoredPart& part);
 
+  // Of one run's rows: re-calibrated on the first, scored `count` of them.
+  struct Rows {
+    Eigen::Index calibrated = 0;
+    Eigen::Index from = 0;
+    Eigen::Index count = 0;
+  };
+  [[nodiscard]] const Dataset& data() const noexcept { return data_; }
+  [[nodiscard]] const Rows& scored(std::size_t member) const { return scored_[member]; }
+  // The model's coefficients for one run: what a session shifts taken from its calibrated part.
+  [[nodiscard]] Eigen::VectorXd coefficients_in(std::size_t member, const FittedModel& model) const;
   // Residual of a model on the scored rows.
   [[nodiscard]] Eigen::VectorXd residual(const FittedModel& model) const;
   [[nodiscard]] Gain gain(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
@@ -49,11 +59,6 @@ class HeldOut {
 
   const Dataset& data_;
   const Context& context_;
-  struct Rows {
-    Eigen::Index calibrated = 0;
-    Eigen::Index from = 0;
-    Eigen::Index count = 0;
-  };
   std::vector<Rows> scored_;                 // one a run
   std::vector<Eigen::Index> scored_starts_;  // where each run's begin, and the total at the end
 };

@@ -45,4 +45,13 @@ Eigen::VectorXd known_force_N(const NominalModel& model, const Signals& s) {
   return any ? force : Eigen::VectorXd{};
 }
 
+void take_off_known_terms(std::vector<Run>& runs, const Baseline& baseline,
+                          const Conditioning& conditioning) {
+  for (Run& run : runs) {
+    if (!baseline.model.elastic()) {
+      run.known_N = known_force_N(baseline.model, make_signals(run, conditioning, baseline));
+    }
+  }
+}
+
 }  // namespace towbench::harness::diagnose

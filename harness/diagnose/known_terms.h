@@ -16,6 +16,10 @@ namespace towbench::harness::diagnose {
 // (elastic_axis.h).
 [[nodiscard]] Eigen::VectorXd known_force_N(const NominalModel& model, const Signals& signals);
 
+// The same, noted in each run, to be taken off its input.
+void take_off_known_terms(std::vector<Run>& runs, const Baseline& baseline,
+                          const Conditioning& conditioning);
+
 // Of break-away's excess over Coulomb friction, what is left at a speed.
 [[nodiscard]] double stribeck_share(const NominalModel& model, double speed_m_per_s);
 // Piecewise linear, constant beyond the ends. `at` ascends and is not empty.

@@ -9,11 +9,12 @@
 #include <string>
 
 #include "harness/diagnose/selection.h"
+#include "harness/diagnose/trial_motion.h"
 
 namespace towbench::harness::diagnose {
 
 struct NextExperiment {
-  std::string motion;         // of the menu, in words with numbers
+  TrialMotion motion;         // of the menu
   std::string rival;          // from which it separates
   double separation_N = 0;    // rms left of the cause
   double in_this_data_N = 0;  // the same in the data at hand

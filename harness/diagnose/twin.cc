@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "core/random.h"
-#include "harness/diagnose/two_bodies.h"
+#include "harness/diagnose/axis_body.h"
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -23,50 +22,6 @@ double quantised(double x, double step, double phase) {
 double rounded(double x, double step) {
   return step > 0 ? std::round(x / step) * step : x;
 }
-
-struct RigidBody {
-  double position_m;
-  double speed_m_per_s;
-
-  void step(const Theta& theta, double force_N, double h_s) {
-    const double mass = std::max(theta[kMass], 1e-9);
-    const double drive = force_N - theta[kBias];
-    // Viscous friction implicitly: stable for any B h / M.
-    const double free =
-        (speed_m_per_s + h_s * drive / mass) / (1 + h_s * std::max(0.0, theta[kViscous]) / mass);
-    const double loss = h_s * std::max(0.0, theta[kCoulomb]) / mass;
-    const double next = std::copysign(std::max(std::abs(free) - loss, 0.0), free);
-    position_m += 0.5 * h_s * (speed_m_per_s + next);
-    speed_m_per_s = next;
-  }
-};
-
-// The axis of the model, seen at the motor.
-class Body {
- public:
-  Body(const Baseline& baseline, const Theta& theta, const Motion& start)
-      : theta_(theta), motor_(start), load_(start) {
-    if (baseline.model.elastic()) {
-      bodies_.emplace(baseline.model, theta);
-    }
-  }
-  void step(double force_N, double h_s) {
-    if (bodies_) {
-      bodies_->step(motor_, load_, force_N, h_s);
-      return;
-    }
-    RigidBody rigid{motor_.position_m, motor_.speed_m_per_s};
-    rigid.step(theta_, force_N, h_s);
-    motor_ = {rigid.position_m, rigid.speed_m_per_s};
-  }
-  [[nodiscard]] const Motion& motor() const noexcept { return motor_; }
-
- private:
-  const Theta& theta_;
-  Motion motor_;
-  Motion load_;
-  std::optional<TwoBodies> bodies_;
-};
 
 class Simulation {
  public:
@@ -91,7 +46,8 @@ class Simulation {
 
   Run through(const ControlLaw& law) {
     Run twin = log_;
-    Body body(baseline_, theta_, {signals_.position_m[0], signals_.speed_m_per_s[0]});
+    const Motion start{signals_.position_m[0], signals_.speed_m_per_s[0]};
+    AxisBody body(baseline_, theta_, start, start);
     LawState state;
     const auto steps = std::max(1, static_cast<int>(std::ceil(log_.period_s / kLongestStep_s)));
     const double h = log_.period_s / steps;

@@ -4,9 +4,7 @@
 // noise fed back by the controller) it does to the twin too, so it drops out of
 //   r_c = (Y - X theta) - (Y_twin - X_twin theta).
 //
-// Dry friction acts as a clamp on the step's speed, so the twin truly sticks:
-// An elastic axis is two bodies (two_bodies.h). Of a rigid one:
-//   v* = v + h (F - B v - b) / M,  v' = sgn(v*) max(|v*| - h C / M, 0).
+// Its body, one or two, is axis_body.h's; it truly sticks.
 #pragma once
 
 #include <Eigen/Core>

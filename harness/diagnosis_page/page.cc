@@ -89,6 +89,27 @@ std::string parameters(const Diagnosis& d) {
   return table({"parameter", "stated", "fitted (95 %)", "unit, load side", "", "or else"}, rows);
 }
 
+std::string confirmed(const diagnose::Confirmation& c) {
+  std::vector<Row> rows;
+  const auto add = [&](const std::string& what, const diagnose::Improvement& i, double scale,
+                       const char* unit) {
+    if (i.before_rms > 0) {
+      rows.push_back({what, fmt::format("{:.3g} {}", scale * i.before_rms, unit),
+                      fmt::format("{:.3g} {}", scale * i.after_rms, unit),
+                      fmt::format("{:.1f} % [{:.1f}, {:.1f}]", 100 * i.gain.value, 100 * i.gain.low,
+                                  100 * i.gain.high)});
+    }
+  };
+  add(fmt::format("place after {:g} s under the measured input, {} windows", diagnose::kWindow_s,
+                  c.windows),
+      c.position_m, 1e3, "mm");
+  add("force that the controller commands in closed loop", c.force_N, 1, "N");
+  return rows.empty() ? "<p>No held-out stretch was long enough.</p>\n"
+                      : table({"error on held-out data, rms", "model as supplied", "as extended",
+                               "gain (95 %)"},
+                              rows);
+}
+
 std::string not_testable(const Diagnosis& d) {
   std::vector<Row> rows;
   for (const auto& entry : d.not_testable) {
@@ -108,6 +129,7 @@ std::string page(const std::string& title, const Diagnosis& d) {
   if (!diagnose::is_fatal(d.findings)) {
     out += heading(2, "Causes") + causes(d);
     out += heading(2, "Parameters") + parameters(d);
+    out += heading(2, "Confirmed by simulation") + confirmed(d.confirmed);
     out += heading(2, "Pictures");
     for (const auto& figure : pictures(d)) {
       out +=
