@@ -10,13 +10,12 @@ namespace {
 // A step that changed the residuals by less than this share of themselves teaches nothing: what J
 // missed is then the simulation's own grain.
 constexpr double kGrain = 0.01;
-// J is differenced anew once it misses more than this share of a change.
-constexpr double kMostMissed = 0.5;
 
 }  // namespace
 
-SecantCost::SecantCost(Residuals residuals, int count, std::vector<double> steps)
-    : residuals_(std::move(residuals)), steps_(std::move(steps)) {
+SecantCost::SecantCost(Residuals residuals, int count, std::vector<double> steps,
+                       double most_missed)
+    : residuals_(std::move(residuals)), steps_(std::move(steps)), most_missed_(most_missed) {
   set_num_residuals(count);
   mutable_parameter_block_sizes()->push_back(static_cast<int>(steps_.size()));
 }
@@ -32,7 +31,7 @@ bool SecantCost::Evaluate(double const* const* parameters, double* residuals,
   if (jacobians == nullptr || jacobians[0] == nullptr) {
     return true;
   }
-  if (!(known_ && bring_along(point)) && !difference(point)) {
+  if (!(known_ && most_missed_ > 0 && bring_along(point)) && !difference(point)) {
     return false;
   }
   Eigen::Map<Jacobian>(jacobians[0], num_residuals(), n) = jacobian_;
@@ -59,7 +58,7 @@ bool SecantCost::bring_along(const Eigen::VectorXd& point) const {
   const Eigen::VectorXd blame = jacobian_.colwise().squaredNorm().transpose().cwiseProduct(step);
   const double whole = step.dot(blame);
   const bool tells = change.norm() > kGrain * residual_.norm() && whole > 0;
-  if (tells && missed.norm() > kMostMissed * change.norm()) {
+  if (tells && missed.norm() > most_missed_ * change.norm()) {
     return false;
   }
   if (tells) {

@@ -37,8 +37,9 @@ class SecantCost final : public ceres::CostFunction {
   // Writes the residuals at `parameters`; false where there are none.
   using Residuals = std::function<bool(const double* parameters, double* residuals)>;
 
-  // `steps`: by how much each parameter is moved for its difference.
-  SecantCost(Residuals residuals, int count, std::vector<double> steps);
+  // `steps`: by how much each parameter is moved for its difference. `most_missed`: the share of a
+  // change of the residuals that J may miss and still be brought along; 0: differences always.
+  SecantCost(Residuals residuals, int count, std::vector<double> steps, double most_missed = 0.5);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
@@ -56,6 +57,7 @@ class SecantCost final : public ceres::CostFunction {
 
   Residuals residuals_;
   std::vector<double> steps_;
+  double most_missed_;
   // The last point asked about: Ceres tries a step and then asks for the Jacobian there.
   mutable Eigen::VectorXd tried_;
   mutable Eigen::VectorXd tried_residual_;
