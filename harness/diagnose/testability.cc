@@ -10,7 +10,6 @@ namespace towbench::harness::diagnose {
 namespace {
 
 constexpr double kMatters = 0.05;
-constexpr double kDetection = 5;  // standard errors: alpha 1e-3 over some hundred groups
 
 const Candidate* tried(const Selection& s, const Effect& effect) {
   for (const Candidate& c : s.last_round) {

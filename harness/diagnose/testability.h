@@ -8,6 +8,9 @@
 
 namespace towbench::harness::diagnose {
 
+// Standard errors of an effect's size at which it is seen: alpha 1e-3 over some hundred groups.
+inline constexpr double kDetection = 5;
+
 struct NotTestable {
   std::string effect;
   std::string why;

@@ -1,7 +1,12 @@
 // Hides every effect under many seeds and prints what the diagnosis calls it.
 //
 //   diagnose_campaign [SEEDS [STRENGTH [EFFECT...]]]        in a rigid axis, by another generator
+//   diagnose_campaign pairs [SEEDS [STRENGTH]]              two of different families; one a seed
 //   diagnose_campaign bench [SEEDS [STRENGTH [EFFECT...]]]  in the emulator, under BBMC
+//
+// STRENGTH is a share of full strength (full_strength.h); on the bench, of the sizes in
+// bench_case.cc.
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <string>
@@ -9,108 +14,164 @@
 
 #include <fmt/format.h>
 
+#include "core/random.h"
 #include "tests/harness/diagnose/bench_case.h"
+#include "tests/harness/diagnose/full_strength.h"
 #include "tests/harness/diagnose/hidden_case.h"
 
 namespace {
 
-using towbench::tests::HiddenAxis;
+using namespace towbench::tests;
+using towbench::harness::diagnose::Diagnosis;
 
-const std::vector<std::string> kAll{"",
-                                    "coulomb_asymmetry",
-                                    "viscous_asymmetry",
-                                    "stribeck",
-                                    "low_speed_rolloff",
-                                    "stiction",
-                                    "presliding",
-                                    "quadratic_drag",
-                                    "cubic_viscous",
-                                    "added_mass",
-                                    "backlash",
-                                    "chain_elasticity",
-                                    "transport_delay",
-                                    "current_loop_lag",
-                                    "amplifier_gain",
-                                    "amplifier_deadband",
-                                    "command_saturation",
-                                    "voltage_saturation",
-                                    "load_dependent_friction",
-                                    "position_force",
-                                    "cable_spring",
-                                    "position_friction",
-                                    "position_viscous",
-                                    "torque_ripple",
-                                    "sprocket_eccentricity",
-                                    "chain_polygon",
-                                    "thermal_drift",
-                                    "constant_bias",
-                                    "encoder_eccentricity",
-                                    "encoder_count_loss",
-                                    "periodic_force",
-                                    "outside"};
+const std::vector<std::vector<std::string>> kFamilies{
+    {"coulomb_asymmetry", "viscous_asymmetry", "quadratic_drag", "cubic_viscous",
+     "load_dependent_friction"},
+    {"stribeck", "low_speed_rolloff", "stiction", "presliding"},
+    {"added_mass", "backlash", "chain_elasticity"},
+    {"transport_delay", "current_loop_lag", "amplifier_gain", "amplifier_deadband",
+     "command_saturation", "voltage_saturation", "constant_bias"},
+    {"position_force", "cable_spring", "position_friction", "position_viscous"},
+    {"torque_ripple", "sprocket_eccentricity", "chain_polygon", "encoder_eccentricity",
+     "periodic_force"},
+    {"thermal_drift", "encoder_count_loss"}};
+
+std::vector<std::string> all_effects() {
+  std::vector<std::string> all{""};
+  for (const auto& family : kFamilies) {
+    all.insert(all.end(), family.begin(), family.end());
+  }
+  all.emplace_back("outside");
+  return all;
+}
 
 bool holds(const std::vector<std::string>& names, const std::string& name) {
-  for (const auto& other : names) {
-    if (other == name) return true;
-  }
-  return false;
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string all = names.front();
+  for (std::size_t i = 1; i < names.size(); ++i) all += "~" + names[i];
+  return all;
 }
 
 struct Tally {
+  int runs = 0;
   int hit = 0;
   int unexplained = 0;
   int extra = 0;
   std::map<std::string, int> names;
-};
 
-Tally run(const std::string& effect, double strength, int seeds, bool on_bench) {
-  Tally tally;
-  for (int seed = 1; seed <= seeds; ++seed) {
-    const auto drawn = static_cast<std::uint64_t>(seed);
-    HiddenAxis axis;
-    axis.effect = effect;
-    axis.strength = strength;
-    const auto d = on_bench ? towbench::tests::diagnose_bench({effect, strength, drawn})
-                            : towbench::tests::diagnose_hidden(axis, drawn);
+  void add(const Diagnosis& d, const std::string& effect) {
     bool found = false;
     bool wrong = false;
-    for (const auto& names : towbench::tests::named(d)) {
-      (holds(names, effect) ? found : wrong) = true;
-      std::string all = names.front();
-      for (std::size_t i = 1; i < names.size(); ++i) all += "~" + names[i];
-      ++tally.names[all];
+    for (const auto& one : named(d)) {
+      (holds(one, effect) ? found : wrong) = true;
+      ++names[joined(one)];
     }
-    tally.hit += (effect.empty() || effect == "outside" ? !wrong : found && !wrong) ? 1 : 0;
-    tally.extra += wrong ? 1 : 0;
-    tally.unexplained += d.unexplained ? 1 : 0;
+    const bool nothing_to_name = effect.empty() || effect == "outside";
+    ++runs;
+    hit += !wrong && (found || nothing_to_name) ? 1 : 0;
+    extra += wrong ? 1 : 0;
+    unexplained += d.unexplained ? 1 : 0;
   }
-  return tally;
+  void print(const std::string& effect) const {
+    std::string list;
+    for (const auto& [name, count] : names) list += fmt::format("{} x{}; ", name, count);
+    fmt::print("| {} | {}/{} | {} | {} | {} |\n", effect.empty() ? "nothing" : effect, hit, runs,
+               extra, unexplained, list);
+    std::fflush(stdout);
+  }
+};
+
+Diagnosis hidden(const std::string& effect, double strength, std::uint64_t seed, bool on_bench) {
+  if (on_bench) {
+    return diagnose_bench({effect, strength, seed});
+  }
+  HiddenAxis axis;
+  axis.effect = effect;
+  return diagnose_hidden(at_strength(axis, strength, seed), seed);
+}
+
+void singles(const std::vector<std::string>& effects, int seeds, double strength, bool on_bench) {
+  fmt::print(
+      "| hidden | right and alone | other names | unexplained | named |\n|---|---|---|---|---|\n");
+  int hits = 0;
+  int runs = 0;
+  for (const auto& effect : effects) {
+    Tally tally;
+    for (int seed = 1; seed <= seeds; ++seed) {
+      tally.add(hidden(effect, strength, static_cast<std::uint64_t>(seed), on_bench), effect);
+    }
+    tally.print(effect);
+    const bool counts = !effect.empty() && effect != "outside";
+    hits += counts ? tally.hit : 0;
+    runs += counts ? tally.runs : 0;
+  }
+  fmt::print("\nright and alone: {} of {}\n", hits, runs);
+}
+
+std::string drawn_from(const std::vector<std::string>& family, towbench::core::Random& random) {
+  return family[static_cast<std::size_t>(random.uniform() * static_cast<double>(family.size()))];
+}
+
+void pairs(int seeds, double strength) {
+  int both = 0;
+  int alone = 0;
+  fmt::print("| hidden | both named | nothing else | named |\n|---|---|---|---|\n");
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const auto drawn = static_cast<std::uint64_t>(seed);
+    towbench::core::Random random(drawn);
+    const auto count = static_cast<double>(kFamilies.size());
+    const auto first = static_cast<std::size_t>(random.uniform() * count);
+    const auto step = 1 + static_cast<std::size_t>(random.uniform() * (count - 1));
+    HiddenAxis axis;
+    axis.effect = drawn_from(kFamilies[first], random);
+    axis.second_effect = drawn_from(kFamilies[(first + step) % kFamilies.size()], random);
+    const auto all = named(diagnose_hidden(at_strength(axis, strength, drawn), drawn));
+    bool one = false;
+    bool other = false;
+    bool wrong = false;
+    std::string list;
+    for (const auto& names : all) {
+      const bool is_one = holds(names, axis.effect);
+      const bool is_other = holds(names, axis.second_effect);
+      one = one || is_one;
+      other = other || is_other;
+      wrong = wrong || !(is_one || is_other);
+      list += joined(names) + "; ";
+    }
+    both += one && other ? 1 : 0;
+    alone += one && other && !wrong ? 1 : 0;
+    fmt::print("| {} + {} | {} | {} | {} |\n", axis.effect, axis.second_effect,
+               one && other ? "yes" : "no", wrong ? "no" : "yes", list);
+    std::fflush(stdout);
+  }
+  fmt::print("\nboth named: {} of {}; and nothing else: {}\n", both, seeds, alone);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool on_bench = argc > 1 && std::string_view(argv[1]) == "bench";
-  if (on_bench) {
+  const std::string kind = argc > 1 ? argv[1] : "";
+  if (kind == "bench" || kind == "pairs") {
     --argc;
     ++argv;
   }
   const int seeds = argc > 1 ? std::atoi(argv[1]) : 3;
   const double strength = argc > 2 ? std::atof(argv[2]) : 1.0;
+  if (kind == "pairs") {
+    pairs(seeds, strength);
+    return 0;
+  }
   std::vector<std::string> effects(argv + std::min(argc, 3), argv + argc);
   if (effects.empty()) {
-    effects = on_bench ? towbench::tests::bench_effects() : kAll;
-    if (on_bench) effects.insert(effects.begin(), std::string());
+    effects = kind == "bench" ? bench_effects() : all_effects();
+    if (kind == "bench") effects.insert(effects.begin(), std::string());
   }
-  fmt::print(
-      "| hidden | right and alone | other names | unexplained | named |\n|---|---|---|---|---|\n");
-  for (const auto& effect : effects) {
-    const Tally t = run(effect == "nothing" ? "" : effect, strength, seeds, on_bench);
-    std::string names;
-    for (const auto& [name, count] : t.names) names += fmt::format("{} x{}; ", name, count);
-    fmt::print("| {} | {}/{} | {} | {} | {} |\n", effect.empty() ? "nothing" : effect, t.hit, seeds,
-               t.extra, t.unexplained, names);
-    std::fflush(stdout);
+  for (auto& effect : effects) {
+    if (effect == "nothing") effect.clear();
   }
+  singles(effects, seeds, strength, kind == "bench");
   return 0;
 }

@@ -49,17 +49,31 @@ class Body {
   Body(const HiddenAxis& axis, double start_m, std::uint64_t seed)
       : axis_(axis),
         random_(seed ^ 0x5eedU),
-        first_(axis.effect, axis.strength, random_),
-        second_(axis.second_effect, axis.strength, random_) {
+        first_(axis.effect, axis.size, random_),
+        second_(axis.second_effect, axis.second_size, random_) {
     s_.x_m = start_m;
     load_m_ = start_m;
   }
 
-  void hold(double command_N, double duration_s) {
+  // Returns what the nominal law leaves of the command; where the axis stands friction takes what
+  // it must, and nothing is left.
+  double hold(double command_N, double duration_s) {
     const auto steps = static_cast<int>(std::lround(duration_s / kStep_s));
+    const double speed_before = read_m_per_s_;
+    const double read_before = read_m();
+    double direction = 0;
+    bool stood = false;
     for (int i = 0; i < steps; ++i) {
+      const double read = read_m();
       step(delayed(command_N));
+      read_m_per_s_ = (read_m() - read) / kStep_s;
+      stood = stood || s_.v_m_per_s == 0;
+      direction += std::copysign(1.0 / steps, s_.v_m_per_s);
     }
+    const double nominal_N = axis_.mass_kg * (read_m_per_s_ - speed_before) / duration_s +
+                             axis_.viscous_N_s_per_m * (read_m() - read_before) / duration_s +
+                             axis_.coulomb_N * direction;
+    return stood ? 0 : command_N - nominal_N;
   }
   [[nodiscard]] double read_m() const { return second_.read_m(first_.read_m(shaft())); }
 
@@ -145,6 +159,7 @@ class Body {
   BodyState s_;
   double load_m_ = 0;
   double load_v_ = 0;
+  double read_m_per_s_ = 0;
   double lagged_ = 0;
   double direction_ = 0;
   std::deque<double> history_;
@@ -173,7 +188,7 @@ HiddenLog make_hidden_log(const HiddenAxis& axis, std::uint64_t seed) {
     log.time_s.push_back(static_cast<double>(k) * axis.period_s);
     log.position_m.push_back(read);
     log.duty_pct.push_back(duty);
-    body.hold(duty * axis.newton_per_duty_pct, axis.period_s);
+    log.lacking_N.push_back(body.hold(duty * axis.newton_per_duty_pct, axis.period_s));
   }
   return log;
 }

@@ -22,15 +22,19 @@ struct HiddenAxis {
   double duration_s = 30;
   double period_s = 1e-3;
   std::string effect;  // a name of the interface, "outside" for one that is in no library, or empty
-  double strength = 1;  // 1 = full
+  double size = 1;     // in units of the law's own constants (hidden_force.cc)
   std::string second_effect;
+  double second_size = 1;
 };
 
 struct HiddenLog {
   std::vector<double> time_s, position_m, duty_pct, reference_m;
+  // The truth, which no bench would log: what the nominal law leaves of each held command along the
+  // motion as an encoder without steps would read it. Nothing where the axis stands.
+  std::vector<double> lacking_N;
 };
 
-// Draws the motion, the signs and the sizes (within 30 %) from the seed.
+// Draws the motion, the signs and the phases from the seed.
 [[nodiscard]] HiddenLog make_hidden_log(const HiddenAxis& axis, std::uint64_t seed);
 
 }  // namespace towbench::tests

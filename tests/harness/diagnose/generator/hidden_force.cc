@@ -15,9 +15,9 @@ constexpr double kDuration_s = 30;
 
 }  // namespace
 
-HiddenForce::HiddenForce(std::string effect, double strength, core::Random& random)
+HiddenForce::HiddenForce(std::string effect, double size, core::Random& random)
     : effect_(std::move(effect)),
-      size_(strength * (0.8 + 0.5 * random.uniform())),
+      size_(size),
       sign_(random.uniform() < 0.5 ? -1 : 1),
       phase_(random.uniform()) {}
 

@@ -18,7 +18,8 @@ struct BodyState {
 
 class HiddenForce {
  public:
-  HiddenForce(std::string effect, double strength, core::Random& random);
+  // Draws sign and phase.
+  HiddenForce(std::string effect, double size, core::Random& random);
 
   // Resists the motion like the model's own friction: added to Coulomb friction, sign by motion.
   [[nodiscard]] double friction_N(const BodyState& s) const;
@@ -36,7 +37,7 @@ class HiddenForce {
 
  private:
   std::string effect_;
-  double size_;  // strength, varied by the seed
+  double size_;
   double sign_;
   double phase_;  // in turns
 };
