@@ -1,7 +1,10 @@
 #include "harness/diagnose/cross_validation.h"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <vector>
+
+#include "harness/diagnose/wald.h"
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -10,15 +13,16 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kFoldStretches = 12;  // of a run
+constexpr Index kMostStretches = 30;
+constexpr double kLengthsOfMemory = 3;  // of a stretch, as of the bootstrap's blocks (gain.cc)
 constexpr Index kFolds = 4;
 
-std::vector<Index> fold_of_each_row(const std::vector<Index>& starts) {
+std::vector<Index> fold_of_each_row(const std::vector<Index>& starts, Index stretches) {
   std::vector<Index> folds;
   for (std::size_t run = 0; run + 1 < starts.size(); ++run) {
     const Index rows = starts[run + 1] - starts[run];
     for (Index row = 0; row < rows; ++row) {
-      folds.push_back((row * kFoldStretches / rows) % kFolds);
+      folds.push_back((row * stretches / rows) % kFolds);
     }
   }
   return folds;
@@ -39,8 +43,15 @@ VectorXd fitted_without(const Evidence& e, const std::vector<Index>& folds, Inde
 
 }  // namespace
 
-VectorXd cross_validated_residual(const Evidence& e) {
-  const std::vector<Index> folds = fold_of_each_row(e.starts);
+Index stretches_of(const Evidence& e) {
+  const auto runs = static_cast<double>(e.starts.size() - 1);
+  const double rows = static_cast<double>(e.y.size()) / runs;
+  const double length = kLengthsOfMemory * correlation_length(e.corrected, e.starts);
+  return std::clamp(static_cast<Index>(rows / length), kFewestStretches, kMostStretches);
+}
+
+VectorXd cross_validated_residual(const Evidence& e, Index stretches) {
+  const std::vector<Index> folds = fold_of_each_row(e.starts, stretches);
   const VectorXd twin_correction = e.coefficients - e.x.colPivHouseholderQr().solve(e.y);
   VectorXd residual(e.y.size());
   for (Index fold = 0; fold < kFolds; ++fold) {

@@ -7,6 +7,7 @@
 
 #include "harness/diagnose/context.h"
 #include "harness/diagnose/known_terms.h"
+#include "harness/diagnose/lookalikes.h"
 #include "harness/diagnose/model_checks.h"
 #include "harness/diagnose/score.h"
 
@@ -18,7 +19,8 @@ using Eigen::Index;
 constexpr Index kFewestRows = 60;
 
 // Of the only run of a diagnosis every fourth stretch is held out, to be scored on at the end.
-constexpr Index kStretches = 12;
+// Short ones: each part must have something of every kind of motion.
+constexpr Index kStretches = 48;
 constexpr Index kEveryNth = 4;
 
 // Of an elastic axis's fit.
@@ -175,6 +177,7 @@ Diagnosis diagnose(const Request& request) {
       heldout.gain(heldout.residual(supplied), heldout.residual(extended), request.seed);
   d.confirmed = confirm(heldout, d.context, supplied, extended, request.seed);
   d.parameters = judge_parameters(request.model, d.selection.after, d.selection.terms());
+  find_lookalikes(d.parameters, d.selection);
   d.unexplained = find_unexplained(data.fit, d.selection.after);
   d.not_testable = find_not_testable(d.selection);
   for (const Cause& cause : d.selection.causes) {

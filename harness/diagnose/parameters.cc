@@ -7,9 +7,6 @@
 namespace towbench::harness::diagnose {
 namespace {
 
-constexpr double kErrors = 4;
-constexpr double kLeastForceShare = 0.01;
-
 // fitted / supplied with its standard error.
 struct Ratio {
   double value = 1;
@@ -48,8 +45,9 @@ std::vector<ParameterShift> judge_parameters(const NominalModel& model, const Ev
     const double off = value - supplied[i];
     const double column =
         evidence.x.col(j).norm() / std::sqrt(static_cast<double>(evidence.y.size()));
-    const bool moved = model.supplied && !shared(causes, j) && std::abs(off) > kErrors * error &&
-                       std::abs(off) * column > kLeastForceShare * force &&
+    const bool moved = model.supplied && !shared(causes, j) &&
+                       std::abs(off) > kMovedErrors * error &&
+                       std::abs(off) * column > kMovedShare * force &&
                        !(model.elastic() && std::abs(off) < kElasticFloor * std::abs(supplied[i]));
     shifts.push_back({names[i],
                       supplied[i],
@@ -71,6 +69,16 @@ std::vector<ParameterShift> judge_parameters(const NominalModel& model, const Ev
     }
   }
   return shifts;
+}
+
+std::size_t things_moved(const std::vector<ParameterShift>& shifts) {
+  const auto moved = static_cast<std::size_t>(std::count_if(
+      shifts.begin(), shifts.end(), [](const ParameterShift& shift) { return shift.moved; }));
+  const std::string common = common_cause(shifts);
+  const auto explained = static_cast<std::size_t>(
+      std::count_if(shifts.begin(), shifts.begin() + kBias,
+                    [](const ParameterShift& shift) { return shift.moved; }));
+  return common.empty() ? moved : moved - explained + 1;
 }
 
 std::string common_cause(const std::vector<ParameterShift>& shifts) {

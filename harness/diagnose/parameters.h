@@ -9,6 +9,9 @@
 
 namespace towbench::harness::diagnose {
 
+inline constexpr double kMovedErrors = 4;    // standard errors (HAC)
+inline constexpr double kMovedShare = 0.01;  // of the force's rms
+
 struct ParameterShift {
   std::string name;     // inertia, viscous, coulomb, bias
   double supplied = 0;  // load side
@@ -26,6 +29,9 @@ struct ParameterShift {
 [[nodiscard]] std::vector<ParameterShift> judge_parameters(const NominalModel& model,
                                                            const Evidence& evidence,
                                                            const std::vector<Term>& causes);
+
+// How many things the shifts say are wrong: what has one cause is one thing.
+[[nodiscard]] std::size_t things_moved(const std::vector<ParameterShift>& shifts);
 
 // The one effect that stands behind several shifts, by name; empty when there is none.
 [[nodiscard]] std::string common_cause(const std::vector<ParameterShift>& shifts);

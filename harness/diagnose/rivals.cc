@@ -3,6 +3,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 
+#include "harness/diagnose/shortlist.h"
+
 namespace towbench::harness::diagnose {
 namespace {
 
@@ -10,6 +12,7 @@ constexpr double kInSample = 0.97;
 constexpr double kHeldOut = 1.05;
 // Two causes of equal size are no rivals: a rival must make most of the same contribution.
 constexpr double kRelated = 0.85;
+constexpr double kWorthRefining = 0.5;  // of what the cause explains, from the grid's best scale
 
 // Cosine between a vector and its projection on a space.
 double cosine(const Eigen::MatrixXd& space, const Eigen::VectorXd& vector) {
@@ -18,34 +21,78 @@ double cosine(const Eigen::MatrixXd& space, const Eigen::VectorXd& vector) {
   return length > 0 ? (q.transpose() * vector).norm() / length : 0;
 }
 
+std::vector<Term> all_but(std::vector<Term> terms, std::size_t which) {
+  terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(which));
+  return terms;
+}
+
+class Comparison {
+ public:
+  Comparison(const Trial& stand, std::size_t which, const Gates& gates, Candidates& candidates)
+      : stand_(stand),
+        gates_(gates),
+        candidates_(candidates),
+        before_(gates.trial(all_but(stand.terms, which))),
+        cause_(judge(before_.evidence, stand.terms[which], candidates.columns(stand.terms[which]))),
+        contribution_(projected_off(before_.evidence.basis, cause_.columns) * cause_.test.beta) {}
+
+  std::vector<Rival> rivals() {
+    std::vector<Rival> found;
+    for (const Candidate& other : candidates_.best_of_each(before_.evidence, stand_.terms)) {
+      if (other.term.effect == cause_.term.effect || !other.plausible ||
+          other.test.left_of_group < kLeastLeft || share(other) < kWorthRefining) {
+        continue;
+      }
+      const Candidate best = candidates_.refined(before_.evidence, other);
+      const Rival rival{best.term,
+                        cosine(projected_off(before_.evidence.basis, best.columns), contribution_),
+                        share(best)};
+      if (is_rival(rival)) {
+        found.push_back(rival);
+      }
+    }
+    std::stable_sort(found.begin(), found.end(), [](const Rival& a, const Rival& b) {
+      return a.explained_ratio > b.explained_ratio;
+    });
+    found.resize(std::min(found.size(), kMostRivals));
+    return found;
+  }
+
+ private:
+  [[nodiscard]] double share(const Candidate& other) const {
+    return other.test.explained / std::max(1e-12, cause_.test.explained);
+  }
+
+  // One that can make the contribution but with a sign that physics forbids has been left out; one
+  // that fits worse is no rival whatever its span.
+  [[nodiscard]] bool is_rival(const Rival& rival) const {
+    if (rival.likeness > kLikeness && rival.explained_ratio > 0.9) {
+      return true;
+    }
+    if (rival.likeness < kRelated) {
+      return false;
+    }
+    std::vector<Term> terms = before_.terms;
+    terms.push_back(rival.term);
+    const Trial with = gates_.trial(terms);
+    return (rival.explained_ratio > kInSample &&
+            with.home_rms_N() < kHeldOut * stand_.home_rms_N()) ||
+           gates_.as_good(with, stand_);
+  }
+
+  const Trial& stand_;
+  const Gates& gates_;
+  Candidates& candidates_;
+  Trial before_;
+  Candidate cause_;
+  Eigen::VectorXd contribution_;
+};
+
 }  // namespace
 
-std::vector<Rival> find_rivals(const Evidence& before, const Candidate& cause,
-                               const std::vector<Candidate>& others, double cause_heldout_rms,
-                               const HeldOutRms& rms) {
-  const Eigen::VectorXd contribution = projected_off(before.basis, cause.columns) * cause.test.beta;
-  std::vector<Rival> rivals;
-  for (const Candidate& other : others) {
-    if (other.term.effect == cause.term.effect || !other.plausible ||
-        other.test.left_of_group < kLeastLeft) {
-      continue;
-    }
-    Rival rival{other.term, cosine(projected_off(before.basis, other.columns), contribution),
-                other.test.explained / std::max(1e-12, cause.test.explained)};
-    // A rival that can make the contribution but has to do it with a sign that physics forbids has
-    // been left out above; one that fits worse is no rival whatever its span.
-    const bool alike = rival.likeness > kLikeness && rival.explained_ratio > 0.9;
-    const bool as_good =
-        rival.explained_ratio > kInSample && rms(other.term) < kHeldOut * cause_heldout_rms;
-    if (alike || as_good) {
-      rivals.push_back(std::move(rival));
-    }
-  }
-  std::stable_sort(rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) {
-    return a.explained_ratio > b.explained_ratio;
-  });
-  rivals.resize(std::min(rivals.size(), kMostRivals));
-  return rivals;
+std::vector<Rival> find_rivals(const Trial& stand, std::size_t which, const Gates& gates,
+                               Candidates& candidates) {
+  return Comparison(stand, which, gates, candidates).rivals();
 }
 
 }  // namespace towbench::harness::diagnose

@@ -1,9 +1,13 @@
 // Which other effects explain this data as well as an accepted cause does: its class.
 //
 // A rival is one whose projected columns can make the cause's projected contribution (cosine above
-// 0.97), or that explains within 3 % as much in sample and predicts held-out data within 5 %.
+// 0.97), or most of it (0.85) while it explains within 3 % as much in sample and predicts held-out
+// data within 5 %. Of a weak cause chance decides which of its kin explains most: one that makes
+// most of the contribution and does not predict worse for certain is a rival too.
 #pragma once
 
+#include "harness/diagnose/candidates.h"
+#include "harness/diagnose/gates.h"
 #include "harness/diagnose/selection.h"
 
 namespace towbench::harness::diagnose {
@@ -11,11 +15,8 @@ namespace towbench::harness::diagnose {
 inline constexpr double kLikeness = 0.97;
 inline constexpr std::size_t kMostRivals = 2;  // a class across families has three members at most
 
-// Held-out rms that the model would have with `term` in the cause's place.
-using HeldOutRms = std::function<double(const Term& term)>;
-
-[[nodiscard]] std::vector<Rival> find_rivals(const Evidence& before, const Candidate& cause,
-                                             const std::vector<Candidate>& others,
-                                             double cause_heldout_rms, const HeldOutRms& rms);
+// Of the cause `which` of `stand`, the others of it kept.
+[[nodiscard]] std::vector<Rival> find_rivals(const Trial& stand, std::size_t which,
+                                             const Gates& gates, Candidates& candidates);
 
 }  // namespace towbench::harness::diagnose

@@ -1,142 +1,71 @@
 #include "harness/diagnose/selection.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
-#include "harness/diagnose/cross_validation.h"
+#include "harness/diagnose/revision.h"
 #include "harness/diagnose/rivals.h"
 
 namespace towbench::harness::diagnose {
 namespace {
 
-constexpr std::size_t kRefined = 6;  // of the best by the criterion
-constexpr std::size_t kJudged = 4;   // of those, on held-out data, a round
-
-double information(const Candidate& c) {
-  const double n = std::max(8.0, c.test.effective_samples);
-  const auto parameters =
-      static_cast<double>(c.term.effect->coefficients.size() + c.term.scales.size());
-  return n * std::log(std::max(1e-12, 1 - c.test.explained)) + parameters * std::log(n);
-}
-
-void sort_by_information(std::vector<Candidate>& candidates) {
-  std::stable_sort(
-      candidates.begin(), candidates.end(),
-      [](const Candidate& a, const Candidate& b) { return information(a) < information(b); });
-}
-
-// Residuals of one model at both gates.
-struct AtGates {
-  Eigen::VectorXd home;
-  Eigen::VectorXd abroad;
-};
+constexpr int kMostRevisions = 4;
 
 class Selector {
  public:
   Selector(const Dataset& data, const HeldOut* abroad, const Context& context, std::uint64_t seed,
            const Progress& progress)
-      : data_(data),
-        abroad_(abroad),
-        context_(context),
-        seed_(seed),
+      : model_(context.model),
         progress_(progress),
-        candidates_(data, context) {
-    for (const auto& member : data.members) {
-      laws_.push_back(find_control_law(member.run));
-    }
-  }
+        gates_(data, abroad, context, seed),
+        candidates_(data, context),
+        stand_(gates_.trial({})),
+        least_N_(model_.elastic() ? kElasticFloor * stand_.evidence.force_rms_N : 0.0) {}
 
   Selection run() {
-    Selection s;
-    s.before = fitted({});
-    s.after = s.before;
-    stand_ = at_gates({}, s.before);
-    while (s.causes.size() < kMostCauses && add_one(s)) {
+    s_.before = stand_.evidence;
+    for (int i = 0; i < kMostRevisions; ++i) {
+      while (s_.causes.size() < kMostCauses && add_one()) {
+      }
+      prune();
+      if (!revise()) {
+        break;
+      }
+      prune();
     }
-    prune(s);
-    return s;
+    for (std::size_t i = 0; i < s_.causes.size(); ++i) {
+      s_.causes[i].rivals = find_rivals(stand_, i, gates_, candidates_);
+    }
+    s_.after = stand_.evidence;
+    s_.last_round = candidates_.best_of_each(s_.after, stand_.terms);
+    s_.tried = candidates_.tried();
+    return std::move(s_);
   }
 
  private:
-  [[nodiscard]] Evidence fitted(const std::vector<Term>& terms, int rounds = kTwinRounds) const {
-    return weigh(data_, context_, terms, laws_, rounds, seed_);
-  }
-
-  [[nodiscard]] AtGates at_gates(const std::vector<Term>& terms, const Evidence& e) const {
-    return {cross_validated_residual(e),
-            abroad_ == nullptr ? Eigen::VectorXd() : abroad_->residual({terms, e.coefficients})};
-  }
-
-  [[nodiscard]] Gain gain_at_home(const AtGates& before, const AtGates& after) const {
-    return gain_of(before.home, after.home, data_.starts(), seed_);
-  }
-
-  [[nodiscard]] bool proves_itself(const Gain& home, const AtGates& before, const AtGates& after,
-                                   bool with_the_rest) const {
-    if (!(home.ci99.low > 0 && home.ci99.value > kLeastGain)) {
-      return false;
-    }
-    if (abroad_ == nullptr) {
-      return true;
-    }
-    const Gain gain = abroad_->gain(before.abroad, after.abroad, seed_);
-    return (with_the_rest ? gain.ci99.low : gain.ci95.low) > 0;
-  }
-
-  // Significant and plausible ones, best first, the best of them refined.
-  std::vector<Candidate> shortlist(const Selection& s) {
-    std::vector<Candidate> list;
-    const double least_N = context_.model.elastic() ? kElasticFloor * s.before.force_rms_N : 0.0;
-    for (const Candidate& c : s.last_round) {
-      const double p = c.test.p_value * static_cast<double>(s.tried);
-      const bool matters = c.test.projected_rms > least_N;
-      if (matters && c.plausible && c.test.left_of_group > kLeastLeft && p < kAlpha) {
-        list.push_back(c);
-      }
-    }
-    sort_by_information(list);
-    for (std::size_t i = 0; i < std::min(kRefined, list.size()); ++i) {
-      list[i] = candidates_.refined(s.after, list[i]);
-    }
-    sort_by_information(list);
-    return list;
-  }
-
-  bool add_one(Selection& s) {
-    s.last_round = candidates_.best_of_each(s.after, s.terms());
-    s.tried = candidates_.tried();
-    const std::vector<Candidate> list = shortlist(s);
-    for (std::size_t i = 0; i < std::min(kJudged, list.size()); ++i) {
-      if (accept(s, list[i], list)) {
+  bool add_one() {
+    const Shortlist list = shortlist(candidates_, stand_.evidence, stand_.terms, least_N_);
+    for (std::size_t i = 0; i < std::min(kJudged, list.best.size()); ++i) {
+      if (accept(list.best[i], list.tried)) {
         return true;
       }
     }
     return false;
   }
 
-  bool accept(Selection& s, const Candidate& c, const std::vector<Candidate>& list) {
-    std::vector<Term> terms = s.terms();
+  bool accept(const Candidate& c, std::size_t tried) {
+    std::vector<Term> terms = stand_.terms;
     terms.push_back(c.term);
-    const Evidence with = fitted(terms);
-    const AtGates after = at_gates(terms, with);
-    const Gain gain = gain_at_home(stand_, after);
-    const double p = std::min(1.0, c.test.p_value * static_cast<double>(s.tried));
-    if (!proves_itself(gain, stand_, after, false)) {
-      s.rejected.push_back({c.term.effect->name, p, gain.ci99});
+    const Trial with = gates_.trial(terms);
+    const Gain gain = gates_.gain_at_home(stand_, with);
+    const double p = std::min(1.0, c.test.p_value * static_cast<double>(tried));
+    if (!gates_.stands(gain, stand_, with, false)) {
+      s_.rejected.push_back({c.term.effect->name, p, gain.ci99});
       return false;
     }
-    Cause cause{c.term, {}, {}, p, gain, {}};
-    cause.rivals = find_rivals(s.after, c, list, gain.after_rms_N, [&](const Term& rival) {
-      std::vector<Term> other = s.terms();
-      other.push_back(rival);
-      const Eigen::VectorXd r = at_gates(other, fitted(other, 1)).home;
-      return r.norm() / std::sqrt(static_cast<double>(r.size()));
-    });
-    s.causes.push_back(std::move(cause));
-    s.after = with;
-    stand_ = after;
+    s_.causes.push_back({c.term, {}, {}, p, gain, {}});
+    stand_ = with;
     if (progress_) {
       progress_(fmt::format("accepted {} (gain where it was tried {:.1f} %)", c.term.effect->name,
                             100 * gain.ci99.value));
@@ -144,33 +73,60 @@ class Selector {
     return true;
   }
 
+  void reject(std::size_t which) {
+    const Cause& cause = s_.causes[which];
+    s_.rejected.push_back({cause.term.effect->name, cause.p_value, cause.gain.ci99});
+    s_.causes.erase(s_.causes.begin() + static_cast<std::ptrdiff_t>(which));
+  }
+
   // A cause accepted early may be idle once the others stand: each must gain over the model without
   // it, and now that the others leave little it must be certain abroad too.
-  void prune(Selection& s) {
-    for (std::size_t i = s.causes.size(); s.causes.size() > 1 && i-- > 0;) {
-      std::vector<Term> others = s.terms();
+  void prune() {
+    for (std::size_t i = s_.causes.size(); s_.causes.size() > 1 && i-- > 0;) {
+      std::vector<Term> others = stand_.terms;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-      const Evidence without = fitted(others);
-      const AtGates lacking = at_gates(others, without);
-      const Gain gain = gain_at_home(lacking, stand_);
-      if (proves_itself(gain, lacking, stand_, true)) {
+      const Trial lacking = gates_.trial(others);
+      const Gain gain = gates_.gain_at_home(lacking, stand_);
+      if (gates_.stands(gain, lacking, stand_, true)) {
         continue;
       }
-      s.rejected.push_back({s.causes[i].term.effect->name, s.causes[i].p_value, gain.ci99});
-      s.causes.erase(s.causes.begin() + static_cast<std::ptrdiff_t>(i));
-      s.after = without;
+      s_.causes[i].gain = gain;
+      reject(i);
       stand_ = lacking;
     }
   }
 
-  const Dataset& data_;
-  const HeldOut* abroad_;
-  const Context& context_;
-  std::uint64_t seed_;
+  // Keeps causes and terms in the same order: those that stay, then the new one.
+  bool revise() {
+    const auto revision = revised(stand_, model_, gates_, candidates_, least_N_);
+    if (!revision) {
+      return false;
+    }
+    const std::vector<Term>& kept = revision->stand.terms;
+    for (std::size_t i = s_.causes.size(); i-- > 0;) {
+      const Term& term = s_.causes[i].term;
+      const bool stays = std::any_of(kept.begin(), kept.end() - 1, [&](const Term& other) {
+        return other.effect == term.effect && other.scales == term.scales;
+      });
+      if (!stays) {
+        reject(i);
+      }
+    }
+    s_.causes.push_back({revision->added, {}, {}, revision->p_value, revision->gain, {}});
+    stand_ = revision->stand;
+    if (progress_) {
+      progress_(fmt::format("said with less: {}", revision->added.effect->name));
+    }
+    return true;
+  }
+
+  const NominalModel& model_;
   const Progress& progress_;
+  Gates gates_;
   Candidates candidates_;
-  std::vector<ControlLaw> laws_;
-  AtGates stand_;  // of the causes accepted so far
+  Trial stand_;  // the causes accepted so far
+  double least_N_;
+  Selection s_;
 };
 
 }  // namespace

@@ -1,28 +1,23 @@
-// Forward selection of causes: significant, plausible, and a gain where they were not
-// fitted (the gate). What is reported as gained is measured elsewhere (score.h): data that
-// decided once is no longer unseen.
+// Which causes stand: chosen forward, pruned, and revised.
 //
-// Each round every effect is tried at its best scale. Its group Wald p-value is multiplied by the
-// number of groups looked at (Bonferroni, grids and searched frequencies included) and must lie
-// below alpha. The order is by the Bayesian information criterion on effective samples (Schwarz
-// 1978), so a flexible group does not beat a simple one for its flexibility alone. The first whose
-// gain on the gate stands is accepted; the twin is run again with it.
+// Each round the shortlist's first whose gain on the gates stands is accepted, and the twin is run
+// again with it. What was accepted early may be idle once the others stand, or a makeshift for a
+// cause that says the same alone: both are looked at again (prune, revision.h) until nothing
+// changes. What is reported as gained is measured elsewhere (score.h): data that decided once is no
+// longer unseen.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "harness/diagnose/candidates.h"
-#include "harness/diagnose/heldout.h"
+#include "harness/diagnose/gates.h"
+#include "harness/diagnose/shortlist.h"
 
 namespace towbench::harness::diagnose {
 
-inline constexpr double kAlpha = 1e-3;
-inline constexpr double kLeastGain = 0.01;
-inline constexpr double kLeastLeft = 0.05;  // of a group off the model, rms; below: not testable
 inline constexpr std::size_t kMostCauses = 8;
-inline constexpr int kTwinRounds = 2;
+inline constexpr std::size_t kJudged = 4;  // of a shortlist, at the gates
 
 // Another effect that explains the same data as well.
 struct Rival {
@@ -60,8 +55,7 @@ struct Selection {
 
 using Progress = std::function<void(const std::string&)>;
 
-// `abroad`: a part of another run, short as it is, or null. A cause stands when its gain at home,
-// cross-validated, is certain, and a gain abroad is likely.
+// `abroad`: a part of another run, short as it is, or null.
 [[nodiscard]] Selection select_causes(const Dataset& data, const HeldOut* abroad,
                                       const Context& context, std::uint64_t seed,
                                       const Progress& progress);

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "harness/diagnose/effect.h"
-#include "harness/diagnose/zero_phase_filter.h"
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -32,9 +31,18 @@ std::vector<Scales> delay_grid(const Context& c) {
   return {{0.5 * c.period_s}, {2 * c.period_s}, {5 * c.period_s}, {0.1 / c.cutoff_Hz}};
 }
 
-// tau F' + F = u.
-MatrixXd current_loop_lag(const Signals& s, const Context& c, std::span<const double>) {
-  return central_difference(c.model_force_N(s), s.period_s);
+// tau F' + F = u. The difference is as wide as the delay's, by a scale of its own: a narrow one is
+// mostly the encoder's steps, differentiated three times.
+MatrixXd current_loop_lag(const Signals& s, const Context& c, std::span<const double> scale) {
+  const VectorXd force = c.model_force_N(s);
+  const auto reach = std::max<Index>(1, std::lround(0.5 * scale[0] / s.period_s));
+  VectorXd column(s.size());
+  for (Index i = 0; i < s.size(); ++i) {
+    const Index from = std::max<Index>(i - reach, 0);
+    const Index to = std::min(i + reach, s.size() - 1);
+    column[i] = (force[to] - force[from]) / (static_cast<double>(to - from) * s.period_s);
+  }
+  return column;
 }
 
 // (1 + g) u = F: everything scales by 1/(1+g); in the span of the refitted structure.
@@ -92,9 +100,10 @@ void add_drive_effects(Library& library) {
   library.push_back({.name = "current_loop_lag",
                      .cause = "a first-order lag between command and force",
                      .coefficients = {"time_constant_s"},
+                     .scales = {"spacing_s"},
                      .first_is_positive = true,
                      .needs = "fast accelerations",
-                     .grid = no_scale,
+                     .grid = delay_grid,
                      .columns = current_loop_lag});
   library.push_back({.name = "amplifier_gain",
                      .cause = "an amplifier gain other than stated",

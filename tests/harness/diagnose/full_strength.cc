@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "harness/diagnose/context.h"
+#include "harness/diagnose/gates.h"
 #include "harness/diagnose/testability.h"
 #include "harness/diagnose/wald.h"
 #include "tests/harness/diagnose/hidden_case.h"
@@ -17,8 +18,12 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kMostTries = 12;
-constexpr double kCloseEnough = 0.03;  // relative
+constexpr double kCloseEnough = 0.05;  // relative
 constexpr double kFarthest = 4;        // a try may change the size by this factor
+// Of a hidden force, rms, off the model's columns; less is the filter's doing.
+constexpr double kInSpan = 0.1;
+// Of the force's rms; less is not held against a parameter, nor called unexplained.
+constexpr double kLeastShare = 0.01;
 
 bool everywhere(Index /*row*/, Index /*rows*/) {
   return true;
@@ -28,17 +33,36 @@ VectorXd input_of(const Dataset& data) {
   return data.stack([](const Signals& s) -> MatrixXd { return s.input_N; });
 }
 
-// Sizes at which the effect alone has the wanted strength: some laws are not linear in theirs.
+double rms(const VectorXd& x) {
+  return x.norm() / std::sqrt(static_cast<double>(x.size()));
+}
+
+// The size at which the effect alone has the wanted strength, or comes closest: some laws begin at
+// a threshold, so what is known to be too small and too large is closed in on.
 double sized(const HiddenAxis& alone, double wanted, std::uint64_t seed) {
   HiddenAxis axis = alone;
-  for (int i = 0; i < kMostTries; ++i) {
-    const double strength = times_detectable(axis, make_hidden_log(axis, seed));
-    if (std::abs(strength - wanted) < kCloseEnough * wanted) {
-      break;
+  double best = axis.size;
+  double least = 1e300;
+  double too_small = 0;
+  double too_large = 1e300;
+  for (int i = 0; i < kMostTries && least > std::log1p(kCloseEnough); ++i) {
+    const double strength = std::max(1e-9, times_detectable(axis, make_hidden_log(axis, seed)));
+    const double off = std::abs(std::log(strength / wanted));
+    if (off < least) {
+      least = off;
+      best = axis.size;
     }
-    axis.size *= std::clamp(wanted / std::max(strength, 1e-9), 1 / kFarthest, kFarthest);
+    (strength < wanted ? too_small : too_large) = axis.size;
+    const double next = axis.size * std::clamp(wanted / strength, 1 / kFarthest, kFarthest);
+    const bool between = next > too_small && next < too_large;
+    axis.size = between ? next : std::sqrt(too_small * too_large);
   }
-  return axis.size;
+  return best;
+}
+
+// Rms of a force that adds so much to the noise that leaving it out costs the least gain.
+double least_gaining(const VectorXd& noise) {
+  return rms(noise) * std::sqrt(1 / ((1 - kLeastGain) * (1 - kLeastGain)) - 1);
 }
 
 }  // namespace
@@ -52,15 +76,18 @@ double times_detectable(const HiddenAxis& axis, const HiddenLog& log) {
   const Dataset data = make_dataset({run}, conditioning, baseline, everywhere);
   const VectorXd hidden = input_of(make_dataset({truth}, conditioning, baseline, everywhere));
   const MatrixXd basis = orthonormal(data.stack(base_columns));
-  VectorXd visible = projected_off(basis, hidden);
-  if (visible.norm() < kLeastLeft * hidden.norm()) {
-    visible = hidden;
-  }
-  const VectorXd unit = visible.normalized();
+  const VectorXd off = projected_off(basis, hidden);
+  const bool in_span = off.norm() < kInSpan * hidden.norm();
+  const VectorXd& visible = in_span ? hidden : off;
   const VectorXd noise = projected_off(basis, input_of(data) - hidden);
-  const VectorXd scores = unit.cwiseProduct(noise);
-  const double error = std::sqrt(hac_covariance(scores, data.starts())(0, 0));
-  return visible.norm() / (kDetection * error);
+  const VectorXd scores = visible.normalized().cwiseProduct(noise);
+  const double error_N =
+      std::sqrt(hac_covariance(scores, data.starts())(0, 0) / static_cast<double>(noise.size()));
+  double detectable_N = std::max(kDetection * error_N, least_gaining(noise));
+  if (in_span || axis.effect == "outside") {
+    detectable_N = std::max(detectable_N, kLeastShare * rms(input_of(data)));
+  }
+  return rms(visible) / detectable_N;
 }
 
 HiddenAxis at_strength(HiddenAxis axis, double share, std::uint64_t seed) {

@@ -2,9 +2,11 @@
 // in units of what the log could just detect.
 //
 // The force is the generator's truth (what the nominal law lacks along the motion), passed through
-// the diagnosis' filter and rows. Detectable are kDetection standard errors of its amplitude (HAC,
-// from what the log leaves once the force is taken off). An effect inside the span of the model's
-// columns can only be seen against the model as supplied: its whole force counts.
+// the diagnosis' filter and rows. Just detectable is what passes the method's documented gates:
+// kDetection standard errors of its amplitude (HAC, from what the log leaves once the force is
+// taken off) and the least gain. An effect inside the span of the model's columns can only be seen
+// against the model as supplied: its whole force counts, and must reach 1 % of the log's, as must
+// what is to be called unexplained.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,12 @@
-// One thing wrong, hidden by a generator that shares no code with the library: is it named?
-// The full matrix is diagnose_campaign's; this gate takes one seed of each.
+// One thing wrong at full strength (full_strength.h), hidden by a generator that shares no code
+// with the library: is it named? The full matrix is diagnose_campaign's; this gate takes one seed
+// of each.
 #include <algorithm>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/harness/diagnose/full_strength.h"
 #include "tests/harness/diagnose/hidden_case.h"
 
 namespace towbench::tests {
@@ -19,7 +21,7 @@ class HiddenEffect : public testing::TestWithParam<const char*> {};
 TEST_P(HiddenEffect, IsNamedFromTheLogAndTheNominalModelAlone) {
   HiddenAxis axis;
   axis.effect = GetParam();
-  const auto d = diagnose_hidden(axis, 1);
+  const auto d = diagnose_hidden(at_strength(axis, 1, 1), 1);
   const auto all = named(d);
   EXPECT_TRUE(std::any_of(all.begin(), all.end(),
                           [&](const auto& names) { return holds(names, axis.effect); }));
@@ -50,7 +52,7 @@ TEST(NothingHidden, NothingIsNamed) {
 TEST(OutsideTheLibrary, IsCalledUnexplainedAndNotMisnamed) {
   HiddenAxis axis;
   axis.effect = "outside";
-  const auto d = diagnose_hidden(axis, 1);
+  const auto d = diagnose_hidden(at_strength(axis, 1, 1), 1);
   EXPECT_THAT(d.verdicts, testing::Contains("unexplained_structure"));
   EXPECT_THAT(named(d), testing::IsEmpty());
 }

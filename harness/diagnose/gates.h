@@ -1,0 +1,53 @@
+// Models on trial: a set of terms fitted, and what it leaves where it was not fitted.
+//
+// A cause stands when its gain at home, cross-validated, is certain, and a gain abroad is likely. A
+// line in time must gain across long stretches too: a burst of ringing, cut into short ones, looks
+// like a line to its neighbours.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "harness/diagnose/evidence.h"
+#include "harness/diagnose/heldout.h"
+
+namespace towbench::harness::diagnose {
+
+inline constexpr double kLeastGain = 0.01;
+inline constexpr int kTwinRounds = 2;
+
+struct Trial {
+  std::vector<Term> terms;
+  Evidence evidence;
+  Eigen::VectorXd home;    // residual, cross-validated
+  Eigen::VectorXd far;     // the same across the longest stretches
+  Eigen::VectorXd abroad;  // residual on a part of another run; empty without one
+
+  [[nodiscard]] double home_rms_N() const;
+};
+
+class Gates {
+ public:
+  // `abroad`: a part of another run, short as it is, or null.
+  Gates(const Dataset& data, const HeldOut* abroad, const Context& context, std::uint64_t seed);
+
+  // `rounds` of the twin; fewer are cheaper and less exact.
+  [[nodiscard]] Trial trial(const std::vector<Term>& terms, int rounds = kTwinRounds) const;
+  [[nodiscard]] Gain gain_at_home(const Trial& before, const Trial& after) const;
+  // Whether what `after` has and `before` lacks stands. With the rest: the other causes are in, so
+  // that little is left to hide behind, and abroad must be certain too.
+  [[nodiscard]] bool stands(const Gain& home, const Trial& before, const Trial& after,
+                            bool with_the_rest) const;
+  // Whether chance alone can be the reason that `one` predicts less well than `other`.
+  [[nodiscard]] bool as_good(const Trial& one, const Trial& other) const;
+
+ private:
+  const Dataset& data_;
+  const HeldOut* abroad_;
+  const Context& context_;
+  std::uint64_t seed_;
+  std::vector<ControlLaw> laws_;
+  Eigen::Index stretches_ = 0;  // of cross-validation: the same for all trials
+};
+
+}  // namespace towbench::harness::diagnose
