@@ -16,13 +16,8 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-class HiddenEffect : public testing::TestWithParam<const char*> {};
-
-TEST_P(HiddenEffect, IsNamedFromTheLogAndTheNominalModelAlone) {
-  HiddenAxis axis;
-  axis.effect = GetParam();
-  const auto d = diagnose_hidden(at_strength(axis, 1, 1), 1);
-  const auto all = named(d);
+void expect_named_alone(const HiddenAxis& axis) {
+  const auto all = named(diagnose_hidden(axis, 1));
   EXPECT_TRUE(std::any_of(all.begin(), all.end(),
                           [&](const auto& names) { return holds(names, axis.effect); }));
   for (const auto& names : all) {
@@ -30,15 +25,39 @@ TEST_P(HiddenEffect, IsNamedFromTheLogAndTheNominalModelAlone) {
   }
 }
 
+class HiddenEffect : public testing::TestWithParam<const char*> {};
+
+TEST_P(HiddenEffect, IsNamedFromTheLogAndTheNominalModelAlone) {
+  HiddenAxis axis;
+  axis.effect = GetParam();
+  expect_named_alone(at_strength(axis, 1, 1));
+}
+
 INSTANTIATE_TEST_SUITE_P(All, HiddenEffect,
-                         testing::Values("coulomb_asymmetry", "viscous_asymmetry", "stribeck",
-                                         "low_speed_rolloff", "presliding", "added_mass",
-                                         "transport_delay", "chain_elasticity", "thermal_drift",
-                                         "amplifier_gain", "amplifier_deadband",
-                                         "command_saturation", "voltage_saturation",
-                                         "load_dependent_friction", "position_force",
-                                         "torque_ripple", "sprocket_eccentricity", "chain_polygon",
-                                         "constant_bias", "encoder_count_loss", "periodic_force"),
+                         testing::Values("coulomb_asymmetry", "viscous_asymmetry", "quadratic_drag",
+                                         "cubic_viscous", "stribeck", "low_speed_rolloff",
+                                         "presliding", "added_mass", "transport_delay",
+                                         "thermal_drift", "amplifier_gain", "amplifier_deadband",
+                                         "load_dependent_friction", "cable_spring",
+                                         "position_friction", "position_viscous", "torque_ripple",
+                                         "sprocket_eccentricity", "chain_polygon",
+                                         "encoder_eccentricity", "constant_bias",
+                                         "encoder_count_loss", "periodic_force"),
+                         [](const auto& parameter) { return std::string(parameter.param); });
+
+// At full strength these are missed (docs/diagnosis.md) where a chain at 7 Hz, a clip at 9 N and a
+// supply that stalls at 14 N are not.
+class StrongEffect : public testing::TestWithParam<const char*> {};
+
+TEST_P(StrongEffect, IsNamedFromTheLogAndTheNominalModelAlone) {
+  HiddenAxis axis;
+  axis.effect = GetParam();
+  expect_named_alone(axis);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, StrongEffect,
+                         testing::Values("chain_elasticity", "command_saturation",
+                                         "voltage_saturation", "position_force"),
                          [](const auto& parameter) { return std::string(parameter.param); });
 
 TEST(NothingHidden, NothingIsNamed) {
