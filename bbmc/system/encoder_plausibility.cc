@@ -18,13 +18,6 @@ constexpr double kHeldChange = 2.5;  // twice what friction can hold, and what t
 // Of the observed swing that its model may be wrong by, and how long a swing is remembered.
 constexpr double kSwingShare = 0.25;
 constexpr double kSwingFades_s = 0.3;
-// What stops a motor dead may be half as strong again as thought; the last count may have come at
-// the end of the exchange before last, whose rate was a mean; so many exchanges without an edge are
-// no turning point.
-constexpr double kDeadStopMargin = 1.5;
-constexpr double kDeadStopExchanges = 1.5;
-constexpr std::uint32_t kStillExchanges = 3;
-constexpr double kPullFades = 0.8;  // an exchange
 // A rigid axis has moved so far, and a live encoder shows a tenth of it at the very least; a frozen
 // or half-dead one dithers by a count or two.
 constexpr double kStuckTravel_counts = 40;
@@ -41,7 +34,6 @@ EncoderPlausibility::EncoderPlausibility(const AxisConfiguration& axis) noexcept
       breakaway_Nm_(axis.plausibility.worst_breakaway_Nm +
                     axis.plausibility.external_load_N * axis.m_per_rad()),
       inertia_kg_m2_(axis.braking.inertia_kg_m2),
-      rotor_inertia_kg_m2_(axis.braking.rotor_inertia_kg_m2),
       rad_per_count_(axis.rad_per_count()),
       max_acceleration_count_per_s2_(kTorqueMargin * axis.drive.torque_limit_Nm() /
                                      axis.braking.rotor_inertia_kg_m2 / axis.rad_per_count()),
@@ -123,21 +115,11 @@ ErrorCode EncoderPlausibility::judge_push(const EncoderChange& change) noexcept 
   return ErrorCode::kNone;
 }
 
-// Keeps what stops_dead() compares a standstill with.
 void EncoderPlausibility::watch_for_motion(const EncoderChange& change) noexcept {
-  const bool still = change.counts == 0 && change.edges == 0;
   const double net_Nm = change.torque_Nm - chain_torque_Nm_;
-  if (!still) {
-    still_exchanges_ = 0;
+  if (change.counts != 0 || change.edges != 0) {
     held_ = {.lowest_Nm = net_Nm, .highest_Nm = net_Nm};
-    rate_before_count_per_s_ = rate_count_per_s_;
-    rate_count_per_s_ = static_cast<double>(change.counts) / change.elapsed_s;
   }
-  const double onwards = rate_before_count_per_s_ > 0 ? 1.0 : -1.0;
-  const double slows_Nm =
-      std::max(0.0, -onwards * net_Nm) + kSwingShare * std::fabs(chain_torque_Nm_);
-  slowing_Nm_ = std::max(slows_Nm, kPullFades * slowing_Nm_);
-  still_exchanges_ += still ? 1 : 0;
   held_.lowest_Nm = std::min(held_.lowest_Nm, net_Nm);
   held_.highest_Nm = std::max(held_.highest_Nm, net_Nm);
   const double moves_Nm = std::fabs(change.torque_Nm) - breakaway_Nm_;
@@ -154,17 +136,6 @@ void EncoderPlausibility::watch_for_motion(const EncoderChange& change) noexcept
 bool EncoderPlausibility::is_held_by_nothing() const noexcept {
   return held_.highest_Nm - held_.lowest_Nm > kHeldChange * breakaway_Nm_ &&
          held_.model_travel_rad >= kStuckTravel_counts * rad_per_count_;
-}
-
-bool EncoderPlausibility::stops_dead(const EncoderChange& change) const noexcept {
-  if (still_exchanges_ != kStillExchanges || change.elapsed_s != last_elapsed_s_) {
-    return false;
-  }
-  const double time_s = kDeadStopExchanges * change.elapsed_s;
-  const double lost_rad_per_s =
-      (std::fabs(rate_before_count_per_s_) - kRateSlack_counts / time_s) * rad_per_count_;
-  const double torque_Nm = kDeadStopMargin * (slowing_Nm_ + breakaway_Nm_);
-  return lost_rad_per_s > torque_Nm / rotor_inertia_kg_m2_ * time_s;
 }
 
 void EncoderPlausibility::count_events(const EncoderChange& change) noexcept {
@@ -188,9 +159,6 @@ ErrorCode EncoderPlausibility::judge(const EncoderChange& change, Scope scope,
                                      bool index_good) noexcept {
   if (const ErrorCode found = judge_kinematics(change); found != ErrorCode::kNone) {
     return found;
-  }
-  if (stops_dead(change)) {
-    return ErrorCode::kFaultEncoderFrozen;
   }
   if (scope == Scope::kEverything) {
     if (const ErrorCode found = judge_push(change); found != ErrorCode::kNone) {

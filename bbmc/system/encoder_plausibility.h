@@ -4,8 +4,6 @@
 //   kinematic   the count cannot change its rate faster than the drive can accelerate the rotor
 //               alone (times kTorqueMargin, for the chain pulls too): frozen, dead channel, jump or
 //               inversion at speed
-//   dead stop   from a rate to no count at all within an exchange and a half, which would take more
-//               than drive, chain and friction together: frozen on the way to standstill
 //   held        no edge at all, though the swing that would explain it has changed by more than
 //               friction can hold, and without the swing the drive would have moved the axis
 //   stuck       drive above worst-case break-away, motion that the rigid model must make is absent:
@@ -96,7 +94,6 @@ class EncoderPlausibility {
                                       bool index_good) noexcept;
   [[nodiscard]] core::ErrorCode judge_kinematics(const EncoderChange& change) const noexcept;
   [[nodiscard]] core::ErrorCode judge_push(const EncoderChange& change) noexcept;
-  [[nodiscard]] bool stops_dead(const EncoderChange& change) const noexcept;
   [[nodiscard]] bool is_held_by_nothing() const noexcept;
   void watch_for_motion(const EncoderChange& change) noexcept;
   void begin_push(const EncoderChange& change, double direction) noexcept;
@@ -105,19 +102,12 @@ class EncoderPlausibility {
   PlausibilityConfiguration settings_;
   double breakaway_Nm_;
   double inertia_kg_m2_;
-  double rotor_inertia_kg_m2_;
   double rad_per_count_;
   double max_acceleration_count_per_s2_;
   Push push_;
   ChainObserver chain_;
   double chain_torque_Nm_ = 0;
   double swing_Nm_ = 0;  // largest of late, fading
-  // Of the last exchanges with motion: rates of the last and the one before, and what slowed the
-  // motor down at most, then or since, friction apart.
-  double rate_count_per_s_ = 0;
-  double rate_before_count_per_s_ = 0;
-  double slowing_Nm_ = 0;
-  std::uint32_t still_exchanges_ = 0;
   Held held_;
   IndexWatch index_;
   Bucket illegal_;

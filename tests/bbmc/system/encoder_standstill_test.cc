@@ -41,20 +41,7 @@ class Encoder {
   bbmc::EncoderChange change_;
 };
 
-// From 12 rad/s: 7,600 rad/s2 for an exchange and a half, which takes five times what the drive
-// brakes with.
-TEST(StopsDead, WhatNeitherDriveNorFrictionCanStopIsFrozen) {
-  Encoder encoder(y_axis());
-  for (int i = 0; i < 400; ++i) {
-    ASSERT_EQ(encoder.moves(8, 2e-3), ErrorCode::kNone) << i;
-  }
-  EXPECT_EQ(encoder.moves(3, 2e-3), ErrorCode::kNone);
-  EXPECT_EQ(encoder.moves(0, 2e-3), ErrorCode::kNone);
-  EXPECT_EQ(encoder.moves(0, 2e-3), ErrorCode::kNone);
-  EXPECT_EQ(encoder.moves(0, 2e-3), ErrorCode::kFaultEncoderFrozen);
-}
-
-TEST(StopsDead, AMotorThatFrictionStopsDoesNot) {
+TEST(ComesToRest, AMotorThatFrictionStopsIsSound) {
   Encoder encoder(y_axis());
   for (int i = 0; i < 400; ++i) {
     ASSERT_EQ(encoder.moves(8, 2e-3), ErrorCode::kNone);
@@ -64,7 +51,7 @@ TEST(StopsDead, AMotorThatFrictionStopsDoesNot) {
   }
 }
 
-TEST(StopsDead, AMotorThatFullReverseStopsDoesNot) {
+TEST(ComesToRest, AMotorThatFullReverseStopsIsSound) {
   const auto settings = y_axis();
   Encoder encoder(settings);
   for (int i = 0; i < 400; ++i) {
@@ -74,6 +61,24 @@ TEST(StopsDead, AMotorThatFullReverseStopsDoesNot) {
   EXPECT_EQ(encoder.moves(4, full_reverse_Nm), ErrorCode::kNone);
   for (int i = 0; i < 6; ++i) {
     EXPECT_EQ(encoder.moves(0, i == 0 ? full_reverse_Nm : 0), ErrorCode::kNone) << i;
+  }
+}
+
+// A chain that skipped swings: with it full reverse takes a motor from 13 rad/s to none in two
+// exchanges, and what the observer takes for its swing is another.
+TEST(ComesToRest, AMotorThatChainAndDriveStopIsSound) {
+  const auto settings = y_axis();
+  Encoder encoder(settings);
+  const double full_reverse_Nm = -settings.drive.torque_limit_Nm();
+  for (int counts = 0; counts < 95; ++counts) {
+    ASSERT_EQ(encoder.moves(counts, 20e-3), ErrorCode::kNone);
+  }
+  for (const int counts : {95, 91, 78, 68, 55, 45, 34, 24, 13}) {
+    EXPECT_EQ(encoder.moves(counts, full_reverse_Nm), ErrorCode::kNone) << counts;
+  }
+  EXPECT_EQ(encoder.moves(5, 0.3 * full_reverse_Nm), ErrorCode::kNone);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(encoder.moves(0, 0), ErrorCode::kNone) << i;
   }
 }
 
