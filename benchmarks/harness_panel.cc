@@ -179,6 +179,10 @@ void panel_over_plain(benchmark::State& state, const char* experiment) {
 BENCHMARK_CAPTURE(panel_over_plain, circle, "circle")
     ->Iterations(100)
     ->Unit(benchmark::kMillisecond);
+// A minute of them: what starting and ending cost is nothing beside it.
+BENCHMARK_CAPTURE(panel_over_plain, minute, "wall-clock-60s")
+    ->Iterations(30)
+    ->Unit(benchmark::kMillisecond);
 // Most edges to listen to: 0.4 m/s.
 BENCHMARK_CAPTURE(panel_over_plain, trapezoid, "trapezoid-400")
     ->Iterations(100)
