@@ -1,6 +1,7 @@
 // A lockstep turn over a real carrier against a bare ping-pong of as many bytes or frames on the
 // same carrier, in alternating blocks of one run.
-// usage: benchmark_protocol_carriers local | can:IF[,IF] | serial:DEVICE,DEVICE    [BLOCKS [TURNS]]
+// usage: benchmark_protocol_carriers local | can:IF[,IF][@fd] | serial:DEVICE,DEVICE   [BLOCKS
+// [TURNS]]
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -90,9 +91,11 @@ struct End {
 End make_end(const CarrierAddress& address, CanDirection direction) {
   End end;
   if (address.scheme == Scheme::kCan) {
-    auto bus = SocketCan::open(address.place, direction == CanDirection::kToPlant
-                                                  ? CanDirection::kToController
-                                                  : CanDirection::kToPlant);
+    const auto named = named_bus(address.place).value_or(NamedBus{.interface = address.place});
+    auto bus = SocketCan::open(
+        named.interface,
+        direction == CanDirection::kToPlant ? CanDirection::kToController : CanDirection::kToPlant,
+        named.is_fd);
     if (!bus) {
       std::fprintf(stderr, "%s\n", bus.error().message.c_str());
       std::exit(3);

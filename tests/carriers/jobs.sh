@@ -215,7 +215,7 @@ three_carriers_at_once() {
   while [[ ! -e $ends/board || ! -e $ends/desk ]]; do kill -0 "$line" || return 1; done
   bench emulate --rig fixtures/rigs/macs-nominal.toml --carrier can:vcan0 --lines "sim:$chip" --patience 120 &
   plant=$!
-  python3 "$root/tests/carriers/operator.py" "$ends/desk" 'reset poscalib y 0.449092m' 'reset poscalib x 0.336819m' \
+  python3 "$root/tests/carriers/typing_operator.py" "$ends/desk" 'reset poscalib y 0.449092m' 'reset poscalib x 0.336819m' \
     'run -trapez y --distance 0.02m --speed 0.05m/s' quit &
   local operator=$!
   bench control --controller fixtures/controllers/bbmc-tuned.toml --fast --carrier can:vcan0 --lines "$chip" \

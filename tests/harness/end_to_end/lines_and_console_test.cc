@@ -77,7 +77,7 @@ TEST(LinesOption, ADebounceInLockstepIsRefused) {
 TEST(SerialConsole, ASessionIsTypedAtTheFarEndOfTheLine) {
   const PtyLine line;
   const auto output =
-      shell("python3 tests/carriers/operator.py " + line.far_end() +
+      shell("python3 tests/carriers/typing_operator.py " + line.far_end() +
             " 'reset poscalib y 0.449092m' 'reset poscalib x 0.336819m'"
             " 'run -trapez y --distance 0.02m --speed 0.05m/s' quit & operator=$!; " +
             TOWBENCH_PROGRAM +

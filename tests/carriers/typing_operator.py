@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A person at the far end of a serial console: types one line after another, each when the prompt is back.
 
-usage: operator.py DEVICE LINE...      the last line ends the session and is not waited for
+usage: typing_operator.py DEVICE LINE...      the last line ends the session and is not waited for
 exit code: 0 each line was answered with ok; else 1
 """
 import os
