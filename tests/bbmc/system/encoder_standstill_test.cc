@@ -64,24 +64,6 @@ TEST(ComesToRest, AMotorThatFullReverseStopsIsSound) {
   }
 }
 
-// A chain that skipped swings: with it full reverse takes a motor from 13 rad/s to none in two
-// exchanges, and what the observer takes for its swing is another.
-TEST(ComesToRest, AMotorThatChainAndDriveStopIsSound) {
-  const auto settings = y_axis();
-  Encoder encoder(settings);
-  const double full_reverse_Nm = -settings.drive.torque_limit_Nm();
-  for (int counts = 0; counts < 95; ++counts) {
-    ASSERT_EQ(encoder.moves(counts, 20e-3), ErrorCode::kNone);
-  }
-  for (const int counts : {95, 91, 78, 68, 55, 45, 34, 24, 13}) {
-    EXPECT_EQ(encoder.moves(counts, full_reverse_Nm), ErrorCode::kNone) << counts;
-  }
-  EXPECT_EQ(encoder.moves(5, 0.3 * full_reverse_Nm), ErrorCode::kNone);
-  for (int i = 0; i < 4; ++i) {
-    EXPECT_EQ(encoder.moves(0, 0), ErrorCode::kNone) << i;
-  }
-}
-
 // It froze while the carriage ran on: the observer swings, which would explain a drive that holds
 // the motor. For as long as a quarter of a swing, not for longer.
 TEST(HeldByNothing, ASwingThatHasTurnedRoundExplainsNoStandstill) {
