@@ -26,9 +26,9 @@ BoardRun::BoardRun(const ExperimentFixture& fixture, const RunOptions& options)
   }
 }
 
-RunOutcome BoardRun::play(const std::filesystem::path& folder, PlantEnd& plant) {
+RunOutcome BoardRun::play(const std::filesystem::path& folder, PlantEnd& plant, BoardTruth& truth) {
   const FirmwareOptions how{options_.firmware, options_.person_at_console};
-  return run_firmware(fixture_, how, folder, plant, options_.watchers, checks_);
+  return run_firmware(fixture_, how, folder, {plant, truth}, options_.watchers, checks_);
 }
 
 void BoardRun::play_twin(const std::filesystem::path& folder, std::uint64_t seed) const {
@@ -37,10 +37,11 @@ void BoardRun::play_twin(const std::filesystem::path& folder, std::uint64_t seed
   }
   std::filesystem::create_directory(folder / kTwinFolder);
   PlantRecorder recorder(folder / kTwinFolder, nullptr);
-  InProcessPlant plant(sound_->rig.parameters, seed, sound_->experiment.events, recorder);
+  BoardTruth truth(recorder);
+  InProcessPlant plant(sound_->rig.parameters, seed, sound_->experiment.events, truth);
   std::vector<Check> unused;
-  (void)run_firmware(*sound_, {.image = options_.firmware}, folder / kTwinFolder, plant, {},
-                     unused);
+  (void)run_firmware(*sound_, {.image = options_.firmware}, folder / kTwinFolder, {plant, truth},
+                     {}, unused);
   recorder.flush();
 }
 

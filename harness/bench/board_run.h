@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "harness/bench/board_truth.h"
 #include "harness/bench/experiment_run.h"
 #include "harness/bench/plant_end.h"
 
@@ -19,7 +20,8 @@ class BoardRun {
 
   // What is to be run: with the faults of the machine as events and as built.
   [[nodiscard]] const ExperimentFixture& fixture() const noexcept { return fixture_; }
-  [[nodiscard]] RunOutcome play(const std::filesystem::path& folder, PlantEnd& plant);
+  [[nodiscard]] RunOutcome play(const std::filesystem::path& folder, PlantEnd& plant,
+                                BoardTruth& truth);
   // After play(), and before the judge: the same image without the machine's faults, beside which
   // they are judged, in a folder of its own below.
   void play_twin(const std::filesystem::path& folder, std::uint64_t seed) const;

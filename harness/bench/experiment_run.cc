@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/bench/board_run.h"
+#include "harness/bench/board_truth.h"
 #include "harness/bench/carrier_name.h"
 #include "harness/bench/driven_run.h"
 #include "harness/bench/emulator_process.h"
@@ -159,9 +160,11 @@ class Run {
 
   RunOutcome run_in_process() {
     PlantRecorder plant_recorder(folder_, options_.tap);
+    BoardTruth board_truth(plant_recorder);
+    emulator::PlantObserver& observer = plant_recorder;
     InProcessPlant plant(fixture_.rig.parameters, identity_.seed, fixture_.experiment.events,
-                         plant_recorder);
-    auto outcome = !board_ ? play_against(plant, plant) : board_->play(folder_, plant);
+                         board_ ? board_truth : observer);
+    auto outcome = !board_ ? play_against(plant, plant) : board_->play(folder_, plant, board_truth);
     plant_recorder.flush();
     outcome.writes_succeeded = outcome.writes_succeeded && plant_recorder.good();
     return outcome;

@@ -13,17 +13,22 @@ constexpr std::size_t kDecodedKept = 4096;
 }  // namespace
 
 FirmwareBench::FirmwareBench(board::Board& board, const BoardWiring& wiring, std::uint8_t axes_mask,
-                             std::uint64_t rig_hash, PlantEnd& plant, FirmwareRecorder& recorder)
+                             std::uint64_t rig_hash, const FirmwareMachine& machine,
+                             FirmwareRecorder& recorder)
     : board_(board),
       wiring_(wiring),
-      plant_(plant),
+      plant_(machine.plant),
+      truth_(machine.truth),
       recorder_(recorder),
       node_(board, wiring, axes_mask, rig_hash),
       duty_watch_(&recorder),
-      to_plant_(duty_watch_, plant.sink()),
+      to_plant_(duty_watch_, plant_.sink()),
       probe_(board) {
   plant_.connect(node_);
   node_.connect(to_plant_);
+  if (!probe_.has_port()) {
+    truth_.keep_from(0);  // as the rows of the pins
+  }
 }
 
 core::Status FirmwareBench::start() noexcept {
@@ -133,6 +138,7 @@ void FirmwareBench::take_rows() {
     if (!row_seen_) {
       row_seen_ = true;
       row_offset_ns_ = now_ns_ - row.time_ns;
+      truth_.keep_from(now_ns_);
     }
     row.time_ns += row_offset_ns_;
     const Decoded& decoded = decoded_at(row.time_ns);

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "board/board.h"
+#include "harness/bench/board_truth.h"
 #include "harness/bench/board_wiring.h"
 #include "harness/bench/debug_probe.h"
 #include "harness/bench/duty_watch.h"
@@ -21,11 +22,16 @@
 
 namespace towbench::harness {
 
+struct FirmwareMachine {
+  PlantEnd& plant;
+  BoardTruth& truth;  // that observes it
+};
+
 class FirmwareBench {
  public:
   // All outlive this; the board has its image.
   FirmwareBench(board::Board& board, const BoardWiring& wiring, std::uint8_t axes_mask,
-                std::uint64_t rig_hash, PlantEnd& plant, FirmwareRecorder& recorder);
+                std::uint64_t rig_hash, const FirmwareMachine& machine, FirmwareRecorder& recorder);
 
   // Handshake. Before anything else.
   [[nodiscard]] core::Status start() noexcept;
@@ -68,6 +74,7 @@ class FirmwareBench {
   board::Board& board_;
   const BoardWiring& wiring_;
   PlantEnd& plant_;
+  BoardTruth& truth_;
   FirmwareRecorder& recorder_;
   FirmwareNode node_;
   DutyWatch duty_watch_;

@@ -69,7 +69,6 @@ class FirmwareLoop {
     }
     outcome_.wall_time_s = core::seconds(since(start));
     outcome_.end_ns = bench_.now_ns();
-    outcome_.exchange_ns = core::kPlantTick_ns;
     outcome_.rows_lost = bench_.rows_lost();
     return outcome_;
   }
@@ -89,9 +88,11 @@ class FirmwareLoop {
         outcome_.reason = "the emulator was lost: " + std::string(core::describe(alive.error()));
         return;
       }
-      const core::Nanoseconds host_ns = since(start);
-      recorder_.timing(bench_.now_ns(), host_ns, host_ns - last_host_ns);
-      last_host_ns = host_ns;
+      if (bench_.now_ns() % FirmwareBench::kPinRow_ns == 0) {
+        const core::Nanoseconds host_ns = since(start);
+        recorder_.timing(bench_.now_ns(), host_ns, host_ns - last_host_ns);
+        last_host_ns = host_ns;
+      }
       if (watchers_.progress && exchanges % kExchangesBetween == 0) {
         watchers_.progress(bench_.now_ns());
       }
@@ -174,6 +175,16 @@ class FirmwareLoop {
   RunOutcome outcome_;
 };
 
+// As a run of the project's own controller keeps it. An image that is switched off and on starts
+// its clock, and with it its rows, at any time: then every row is kept.
+core::Nanoseconds truth_period_ns(const ExperimentFixture& fixture, bool has_port) {
+  if (!fixture.experiment.board.faults.empty()) {
+    return core::kPlantTick_ns;
+  }
+  return has_port ? bbmc::exchange_period_ns(fixture.controller.configuration.control_period_ns())
+                  : FirmwareBench::kPinRow_ns;
+}
+
 }  // namespace
 
 void check_firmware(const std::filesystem::path& image) {
@@ -182,7 +193,7 @@ void check_firmware(const std::filesystem::path& image) {
 }
 
 RunOutcome run_firmware(const ExperimentFixture& fixture, const FirmwareOptions& options,
-                        const std::filesystem::path& folder, PlantEnd& plant,
+                        const std::filesystem::path& folder, const FirmwareMachine& machine,
                         const LoopWatchers& watchers, std::vector<Check>& checks) {
   board::Board board;
   load(board, options.image);
@@ -197,7 +208,8 @@ RunOutcome run_firmware(const ExperimentFixture& fixture, const FirmwareOptions&
   using Log = FirmwareRecorder::Log;
   FirmwareRecorder recorder(folder, probe.has_port() ? Log::kTelemetry : Log::kPins);
   const BoardWiring wiring;
-  FirmwareBench bench(board, wiring, axes_of(fixture.rig.parameters), fixture.rig.hash, plant,
+  machine.truth.keep_every(truth_period_ns(fixture, probe.has_port()));
+  FirmwareBench bench(board, wiring, axes_of(fixture.rig.parameters), fixture.rig.hash, machine,
                       recorder);
   BoardFaults faults(fixture.experiment.board.faults, board);
   std::optional<FirmwareTerminal> person;
@@ -209,6 +221,8 @@ RunOutcome run_firmware(const ExperimentFixture& fixture, const FirmwareOptions&
   }
   auto outcome =
       FirmwareLoop(fixture, bench, recorder, watchers, faults, person ? &*person : nullptr).run();
+  machine.truth.finish();
+  outcome.exchange_ns = machine.truth.period_ns();
   checks = faults.checks();
   for (Check& check : board_budget_checks(fixture.experiment.board.budgets, board, bench.probe())) {
     checks.push_back(std::move(check));

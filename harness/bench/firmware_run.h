@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "harness/bench/plant_end.h"
+#include "harness/bench/firmware_bench.h"
 #include "harness/bench/script_loop.h"
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/judge/check.h"
@@ -26,7 +26,8 @@ struct FirmwareOptions {
 // parameters. `checks` takes the verdicts on the board's own faults and budgets.
 [[nodiscard]] RunOutcome run_firmware(const ExperimentFixture& fixture,
                                       const FirmwareOptions& options,
-                                      const std::filesystem::path& folder, PlantEnd& plant,
-                                      const LoopWatchers& watchers, std::vector<Check>& checks);
+                                      const std::filesystem::path& folder,
+                                      const FirmwareMachine& machine, const LoopWatchers& watchers,
+                                      std::vector<Check>& checks);
 
 }  // namespace towbench::harness

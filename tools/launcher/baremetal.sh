@@ -1,9 +1,6 @@
 # shellcheck shell=bash disable=SC2154
 # The bare-metal image of BBMC, for the virtual board. Sourced by ./towbench; expects $root.
 
-# shellcheck disable=SC2034  # used by ./towbench
-baremetal_packages=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib)
-
 # Builds build/release/baremetal/bbmc.elf, where `demo --board` looks for it.
 build_baremetal() {
   local out=$root/build/release/baremetal log=$root/build/baremetal.log

@@ -9,8 +9,11 @@ run_packages=(
 )
 # What the experiments that estimate need besides: `identify`, `diagnose` and their like.
 study_packages=(libeigen3-dev libceres-dev)
+# To build BBMC as a bare-metal image for the virtual board.
+baremetal_packages=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib)
 # To build and test the bench in every way that CI does.
 test_packages=(
+  "${baremetal_packages[@]}"
   libgtest-dev libgmock-dev libbenchmark-dev libsundials-dev libode-dev
   clang clang-format clang-tidy libclang-rt-14-dev shellcheck chromium python3 debootstrap
   qemu-system-x86 can-utils socat cpio make

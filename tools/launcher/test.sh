@@ -4,7 +4,7 @@
 # A stage is a function stage_NAME that returns 0 (passed), 99 (skipped, reason in $skip_reason) or
 # anything else (failed). It adds what it counted to $passed and $failed.
 
-all_stages=(lint tests carriers step_cost armhf tidy sanitize_address sanitize_thread fuzz fresh_start)
+all_stages=(lint tests carriers step_cost armhf board tidy sanitize_address sanitize_thread fuzz fresh_start)
 quick_stages=(lint tests)
 on_request_stages=(carrier_table panel_lateness tidy_everything campaign mutants slurm)
 
@@ -25,6 +25,8 @@ stages: lint              format, shellcheck, include rules
         step_cost         instructions of every control step, counted: independent of the data within 20 %
         armhf             the controller built for armhf, under qemu-user: the same duty to the last bit, fed with a
                           record and as a process against the emulator
+        board             BBMC as a bare-metal image on the virtual board: the same duty to the last bit, and the
+                          demo's experiments twice: loopback's verdicts, the same record to the last byte
         tidy              clang-tidy of plant, controller and protocol
         sanitize_address  the tests under address and undefined-behaviour sanitizers
         sanitize_thread   the same under the thread sanitizer
@@ -211,6 +213,19 @@ stage_armhf() {
   local status=0 log=$root/build/armhf.log
   build_preset release release towbench-bench bbmc_record bbmc_controller_process
   "$root/tools/armhf_duty.sh" "$root/build/release" "$root" 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
+  report_of "$log" "$status"
+}
+
+stage_board() {
+  local status=0 log=$root/build/board.log
+  build_preset release release towbench-bench bbmc_record replay_on_board
+  # shellcheck source=tools/launcher/baremetal.sh
+  source "$root/tools/launcher/baremetal.sh"
+  build_baremetal
+  {
+    "$root/tools/baremetal_duty.sh" "$root/build/release" "$root" &&
+      "$root/tests/board/demo_on_board.sh" "$root/build/release" "$root"
+  } 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
   report_of "$log" "$status"
 }
 
