@@ -5,7 +5,43 @@ namespace towbench::board {
 void ExecutionProfile::observe(const ElfImage& image) {
   image_ = &image;
   functions_.assign(image.symbols().size(), {});
+  blocks_.clear();
+  restart();
+}
+
+Block& ExecutionProfile::new_block(std::uint32_t address, std::uint32_t size,
+                                   std::uint32_t instructions) {
+  return blocks_.add({.address = address,
+                      .size = size,
+                      .instructions = instructions,
+                      .function = image_ == nullptr ? -1 : image_->function_at(address)});
+}
+
+std::vector<FunctionCost> ExecutionProfile::functions() const {
+  auto costs = functions_;
+  for (const Block& block : blocks_.blocks()) {
+    if (block.function >= 0) {
+      FunctionCost& cost = costs[static_cast<std::size_t>(block.function)];
+      cost.instructions += block.runs * block.instructions;
+      cost.in_interrupts += block.runs_in_interrupts * block.instructions;
+    }
+  }
+  return costs;
+}
+
+void ExecutionProfile::forget_blocks() {
+  functions_ = functions();
+  blocks_.clear();
+}
+
+void ExecutionProfile::restart() noexcept {
   frames_.clear();
+  look_at_innermost();
+}
+
+void ExecutionProfile::look_at_innermost() noexcept {
+  in_interrupt_ = frames_.empty() ? 0 : 1;
+  innermost_pc_ = frames_.empty() ? 0 : frames_.back().pc;
 }
 
 void ExecutionProfile::enter(unsigned interrupt, std::uint32_t return_pc, std::uint32_t return_sp,
@@ -18,6 +54,7 @@ void ExecutionProfile::enter(unsigned interrupt, std::uint32_t return_pc, std::u
   }
   highest_stack_ = return_sp > highest_stack_ ? return_sp : highest_stack_;
   frames_.push_back({interrupt % kInterrupts, return_pc, return_sp, instructions_, 0, now_ns});
+  look_at_innermost();
 }
 
 bool ExecutionProfile::left(std::uint32_t sp) {
@@ -26,6 +63,7 @@ bool ExecutionProfile::left(std::uint32_t sp) {
     return false;
   }
   frames_.pop_back();
+  look_at_innermost();
   const std::uint64_t all = instructions_ - frame.before;
   const std::uint64_t own = all - frame.nested;
   if (!frames_.empty()) {

@@ -13,8 +13,8 @@ constexpr std::uint32_t kMostPatience =
 
 }  // namespace
 
-bool IdleDetector::at_block(std::uint32_t address, std::uint64_t disturbances,
-                            const RegisterReader& reader) {
+bool IdleDetector::look(std::uint32_t address, std::uint64_t disturbances,
+                        const RegisterReader& reader) {
   if (disturbances != seen_) {
     seen_ = disturbances;
     head_ = address;

@@ -37,13 +37,21 @@ class IdleDetector {
 
   // At the start of each block. True: the program is idle here.
   [[nodiscard]] bool at_block(std::uint32_t address, std::uint64_t disturbances,
-                              const RegisterReader& reader);
+                              const RegisterReader& reader) {
+    if (disturbances == seen_ && address != head_ && steps_ < limit_) {
+      ++steps_;
+      return false;
+    }
+    return look(address, disturbances, reader);
+  }
   // Something happened: the search starts over.
   void restart() noexcept { seen_ = ~0ULL; }
 
  private:
   enum class Standing : std::uint8_t { kUnknown, kIdle, kBusy };
 
+  [[nodiscard]] bool look(std::uint32_t address, std::uint64_t disturbances,
+                          const RegisterReader& reader);
   [[nodiscard]] bool confirm(std::uint32_t address, const RegisterReader& reader);
   [[nodiscard]] std::vector<std::uint8_t> copy_of_memory() const;
   [[nodiscard]] bool memory_is(const std::vector<std::uint8_t>& copy) const;

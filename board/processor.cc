@@ -39,15 +39,6 @@ void must(uc_err error, const char* what) {
   }
 }
 
-// What a basic block is, found out when it first runs.
-struct Block {
-  std::uint32_t address = 0;
-  std::uint32_t size = 0;
-  std::uint32_t instructions = 0;
-  int function = -1;
-};
-constexpr std::size_t kBlocks = 1U << 13U;
-
 }  // namespace
 
 struct Processor::Unicorn {
@@ -60,7 +51,6 @@ struct Processor::Unicorn {
   };
   std::vector<std::unique_ptr<Region>> regions;
   std::unique_ptr<StorePath> stores;
-  std::vector<Block> blocks = std::vector<Block>(kBlocks);
 
   ~Unicorn() { uc_close(engine); }
 
@@ -180,7 +170,7 @@ void Processor::start(std::uint32_t entry) {
   write_coprocessor(12, 0, 0);           // VBAR
   write_coprocessor(1, 0, 0x00C5'0078);  // SCTLR of the Cortex-A8 after reset
   set_reg(UC_ARM_REG_FPEXC, 0);
-  std::fill(unicorn_->blocks.begin(), unicorn_->blocks.end(), Block{});
+  profile_.forget_blocks();
   pc_ = entry;
   crash_ = {};
   idle_.restart();
@@ -225,18 +215,22 @@ void Processor::on_block(std::uint32_t address, std::uint32_t size) {
     pause(Pause::kIdle);
     return;
   }
-  Block& block = unicorn_->blocks[(address >> 1U) % kBlocks];
-  if (block.address != address || block.size != size) {
-    const bool thumb = (reg(UC_ARM_REG_CPSR) & kThumb) != 0;
-    const auto read = [this](std::uint32_t at) { return code_word(at); };
-    block = {address, size, thumb ? thumb_instructions(address, size, read) : size / 4,
-             profile_.function_at(address)};
-    unicorn_->stores->code_at(address, size);
+  Block* block = profile_.block_at(address, size);
+  if (block == nullptr) {
+    block = &meet(address, size);
   }
   block_ = address;
   block_size_ = size;
-  profile_.block(block.function, block.instructions);
-  bus_.now_ns += kInstruction_ns * block.instructions;
+  profile_.ran(*block);
+  bus_.now_ns += kInstruction_ns * block->instructions;
+}
+
+Block& Processor::meet(std::uint32_t address, std::uint32_t size) {
+  const bool thumb = (reg(UC_ARM_REG_CPSR) & kThumb) != 0;
+  const auto read = [this](std::uint32_t at) { return code_word(at); };
+  unicorn_->stores->code_at(address, size);
+  return profile_.new_block(address, size,
+                            thumb ? thumb_instructions(address, size, read) : size / 4);
 }
 
 void Processor::on_exception(std::uint32_t number) {

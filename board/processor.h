@@ -103,6 +103,8 @@ class Processor final : private RegisterReader {
   struct Unicorn;
 
   void on_block(std::uint32_t address, std::uint32_t size);
+  // A block that has never run.
+  Block& meet(std::uint32_t address, std::uint32_t size);
   void on_exception(std::uint32_t number);
   void pause(Pause why);
   void fail(CrashKind kind, std::uint32_t address, std::uint32_t pc);
