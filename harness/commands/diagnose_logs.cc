@@ -1,7 +1,6 @@
 #include "harness/commands/diagnose_logs.h"
 
 #include <cstdio>
-#include <fstream>
 
 #include <unistd.h>
 
@@ -12,6 +11,7 @@
 #include "harness/diagnose/headline.h"
 #include "harness/diagnose/run_reader.h"
 #include "harness/diagnosis_page/page.h"
+#include "harness/record/line_writer.h"
 
 namespace towbench::harness {
 namespace {
@@ -26,14 +26,6 @@ void refuse_fatal(const diagnose::Findings& findings) {
     if (finding.kind == diagnose::Finding::Kind::kFatal) {
       throw UnusableData(finding.name + ": " + finding.sentence);
     }
-  }
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  if (!file.flush()) {
-    throw std::runtime_error(path.string() + ": cannot be written");
   }
 }
 
@@ -70,7 +62,7 @@ diagnose::Run read_log(const std::string& path, const DiagnoseOptions& options,
   const auto log = log_of(path);
   const auto table = diagnose::read_table(log, findings);
   refuse_fatal(findings);
-  const auto map = options.columns.empty() ? diagnose::bench_columns(table, model, findings)
+  const auto map = options.columns.empty() ? diagnose::bench_columns(table, model, log.string(), findings)
                                            : diagnose::read_column_map(options.columns, findings);
   refuse_fatal(findings);
   model.input_is_held = map.input_hold.value_or(model.input_is_held);
@@ -99,16 +91,17 @@ diagnose::Diagnosis diagnose_logs(const DiagnoseOptions& options, PlantModel pla
 
 void write_diagnosis(const DiagnoseOptions& options, const PlantModel& plant,
                      const diagnose::Diagnosis& d) {
+  refuse_fatal(d.findings);
   const std::filesystem::path folder = options.out;
   std::filesystem::create_directories(folder);
-  write_text(folder / "diagnosis.json", diagnose::diagnosis_json(d));
-  refuse_fatal(d.findings);
-  write_text(folder / "extended_plant.toml", diagnose::extend_plant(plant.plant, d).text);
+  write_atomically(folder / "diagnosis.json", diagnose::diagnosis_json(d));
+  write_atomically(folder / "extended_plant.toml", diagnose::extend_plant(plant.plant, d).text);
   diagnose::write_series(d, folder);
-  write_text(folder / "report.html",
-             diagnosis_page::page(
-                 "Diagnosis of " + model_of(options).string() + ", axis " + options.axis, d));
-  write_text(folder / "headline.txt", diagnose::headline(d));
+  write_atomically(
+      folder / "report.html",
+      diagnosis_page::page("Diagnosis of " + model_of(options).string() + ", axis " + options.axis,
+                           d));
+  write_atomically(folder / "headline.txt", diagnose::headline(d));
 }
 
 }  // namespace towbench::harness

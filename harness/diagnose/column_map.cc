@@ -76,7 +76,8 @@ ColumnMap read_column_map(const std::filesystem::path& path, Findings& findings)
   return map;
 }
 
-ColumnMap bench_columns(const Table& table, const NominalModel& model, Findings& findings) {
+ColumnMap bench_columns(const Table& table, const NominalModel& model, const std::string& file,
+                        Findings& findings) {
   ColumnMap map;
   const std::string axis = model.axis + "_";
   const std::string other = model.axis == "y" ? "x_" : "y_";
@@ -101,8 +102,10 @@ ColumnMap bench_columns(const Table& table, const NominalModel& model, Findings&
   }
   for (const auto* name : {&map.time, &map.position, &map.input}) {
     if (table.find(*name) == nullptr) {
-      fatal(findings,
-            fmt::format("no column '{}'; name the columns with --columns MAP.toml", *name));
+      fatal(findings, fmt::format("{}: no column '{}' as in a log of the bench, its header has: {}; "
+                                  "name the columns with --columns MAP.toml",
+                                  file, *name, fmt::join(table.names, " ")));
+      break;
     }
   }
   return map;

@@ -37,6 +37,6 @@ struct ColumnMap {
 
 // The bench's own log, by the columns it has: count before position, duty before force.
 [[nodiscard]] ColumnMap bench_columns(const Table& table, const NominalModel& model,
-                                      Findings& findings);
+                                      const std::string& file, Findings& findings);
 
 }  // namespace towbench::harness::diagnose

@@ -9,6 +9,7 @@
 #include "harness/diagnose/known_terms.h"
 #include "harness/diagnose/lookalikes.h"
 #include "harness/diagnose/model_checks.h"
+#include "harness/diagnose/run_checks.h"
 #include "harness/diagnose/score.h"
 
 namespace towbench::harness::diagnose {
@@ -118,18 +119,57 @@ std::optional<double> lap_noise_N(const Dataset& data) {
   return std::nullopt;
 }
 
+// Whether the columns are what they are said to be is asked of a rigid body: it has no fit that
+// could wander off to meet them.
+void check_against_rigid(const Request& request, const Conditioning& conditioning,
+                         Findings& findings) {
+  NominalModel rigid = request.model;
+  rigid.chain = {};
+  const Dataset plain = make_dataset(request.runs, conditioning, stated_baseline(rigid), everywhere);
+  if (plain.rows() >= kFewestRows) {
+    check_against_model(plain, make_context(rigid, plain), findings);
+  }
+}
+
+void check_data(Request& request, Findings& findings) {
+  for (auto* runs : {&request.runs, &request.holdout}) {
+    for (Run& run : *runs) {
+      check_run(run, request.model, findings);
+    }
+  }
+  if (!is_fatal(findings)) {
+    check_against_rigid(
+        request, choose_conditioning(request.runs, std::max(request.model.mass_kg, 1e-9)),
+        findings);
+  }
+}
+
+std::string lost_samples(const std::vector<Run>& runs) {
+  double lost = 0;
+  double all = 0;
+  for (const Run& run : runs) {
+    lost += static_cast<double>(std::count(run.missing.begin(), run.missing.end(), 1));
+    all += static_cast<double>(run.size());
+  }
+  return lost > 0 ? fmt::format(" (gaps take {:.1f} % of the samples and their surroundings)",
+                                100 * lost / all)
+                  : "";
+}
+
 // A log in the wrong unit looks like one without motion: its noise would drown a true one's forces.
 void explain_lack_of_rows(const Request& request, const Split& data, Findings& findings) {
-  const Dataset plain =
-      make_dataset(request.runs, Conditioning{}, stated_baseline(request.model), everywhere);
-  if (plain.rows() >= kFewestRows) {
-    check_against_model(plain, make_context(request.model, plain), findings);
+  Conditioning widest;
+  for (const Run& run : request.runs) {
+    widest.cutoff_Hz = std::min(widest.cutoff_Hz, 0.2 / run.period_s);
+    widest.smoothing_Hz = std::min(widest.smoothing_Hz, 0.4 / run.period_s);
   }
+  check_against_rigid(request, widest, findings);
   if (!is_fatal(findings)) {
     findings.push_back({Finding::Kind::kFatal, "too_little_motion",
                         fmt::format("{} independent samples in motion to fit and {} to judge on, "
-                                    "{} of each are needed: log longer, or give another run",
-                                    data.fit.rows(), data.heldout.rows(), kFewestRows)});
+                                    "{} of each are needed{}: log longer, or give another run",
+                                    data.fit.rows(), data.heldout.rows(), kFewestRows,
+                                    lost_samples(request.runs))});
   }
 }
 
@@ -152,19 +192,20 @@ void conclude(Diagnosis& d) {
 
 }  // namespace
 
-Diagnosis diagnose(const Request& request) {
+Diagnosis diagnose(const Request& given) {
   Diagnosis d;
+  Request request = given;
+  check_data(request, d.findings);
+  if (is_fatal(d.findings)) {
+    return d;
+  }
   const Split data = split_around_the_fit(request);
   if (std::min(data.fit.rows(), data.heldout.rows()) < kFewestRows) {
     explain_lack_of_rows(request, data, d.findings);
     return d;
   }
   d.context = make_context(request.model, data.fit);
-  check_against_model(data.fit, d.context, d.findings);
   d.data = data.fit;
-  if (is_fatal(d.findings)) {
-    return d;
-  }
   const HeldOut abroad(data.heldout, d.context, kGateOfAnotherSession);
   const HeldOut heldout(data.heldout, d.context,
                         data.same_session ? kSameSession : kRestOfAnotherSession);

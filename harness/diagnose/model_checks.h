@@ -6,7 +6,8 @@
 
 namespace towbench::harness::diagnose {
 
-// Named findings: command_sign_reversed, input_unit_off, columns_shifted, model_explains_nothing.
+// Named findings: command_sign_reversed, input_unit_off, columns_shifted, model_explains_little,
+// model_explains_nothing.
 void check_against_model(const Dataset& data, const Context& context, Findings& findings);
 
 }  // namespace towbench::harness::diagnose

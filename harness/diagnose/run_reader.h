@@ -8,8 +8,8 @@
 
 namespace towbench::harness::diagnose {
 
-// Named findings: time_not_rising, jittered_time, missing_samples, not_a_number, constant_position,
-// constant_input, too_short, bad_rows. After a fatal one the run is unusable.
+// Named findings: those of log_columns.h, time_grid.h and position_jump.h. After a fatal one the run
+// is unusable.
 [[nodiscard]] Run make_run(const Table& table, const ColumnMap& map, std::string name,
                            Findings& findings);
 

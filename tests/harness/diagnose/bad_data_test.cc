@@ -26,12 +26,15 @@ bool has(const Findings& findings, const std::string& name) {
 }
 
 Table good_table(std::size_t rows = 2000) {
-  Table table{{"t", "q", "u"}, {{}, {}, {}}, 0, 0};
+  Table table;
+  table.names = {"t", "q", "u"};
+  table.columns.resize(3);
   for (std::size_t i = 0; i < rows; ++i) {
     const double t = 1e-3 * static_cast<double>(i);
     table.columns[0].push_back(t);
     table.columns[1].push_back(0.1 * std::sin(t));
     table.columns[2].push_back(std::cos(t));
+    table.line.push_back(static_cast<std::uint32_t>(i + 2));
   }
   return table;
 }
