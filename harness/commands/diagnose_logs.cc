@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "harness/commands/fixture_paths.h"
+#include "harness/commands/leave_on_signal.h"
 #include "harness/diagnose/column_map.h"
 #include "harness/diagnose/diagnosis_json.h"
 #include "harness/diagnose/extended_plant.h"
@@ -62,8 +63,9 @@ diagnose::Run read_log(const std::string& path, const DiagnoseOptions& options,
   const auto log = log_of(path);
   const auto table = diagnose::read_table(log, findings);
   refuse_fatal(findings);
-  const auto map = options.columns.empty() ? diagnose::bench_columns(table, model, log.string(), findings)
-                                           : diagnose::read_column_map(options.columns, findings);
+  const auto map = options.columns.empty()
+                       ? diagnose::bench_columns(table, model, log.string(), findings)
+                       : diagnose::read_column_map(options.columns, findings);
   refuse_fatal(findings);
   model.input_is_held = map.input_hold.value_or(model.input_is_held);
   diagnose::Run run = diagnose::make_run(table, map, log.string(), findings);
@@ -72,6 +74,7 @@ diagnose::Run read_log(const std::string& path, const DiagnoseOptions& options,
 }
 
 diagnose::Diagnosis diagnose_logs(const DiagnoseOptions& options, PlantModel plant) {
+  const LeaveOnSignal until_it_writes;
   diagnose::Findings findings;
   diagnose::Request request;
   request.runs = read_logs(options.data, options, plant.model, findings);
@@ -97,10 +100,9 @@ void write_diagnosis(const DiagnoseOptions& options, const PlantModel& plant,
   write_atomically(folder / "diagnosis.json", diagnose::diagnosis_json(d));
   write_atomically(folder / "extended_plant.toml", diagnose::extend_plant(plant.plant, d).text);
   diagnose::write_series(d, folder);
-  write_atomically(
-      folder / "report.html",
-      diagnosis_page::page("Diagnosis of " + model_of(options).string() + ", axis " + options.axis,
-                           d));
+  write_atomically(folder / "report.html",
+                   diagnosis_page::page(
+                       "Diagnosis of " + model_of(options).string() + ", axis " + options.axis, d));
   write_atomically(folder / "headline.txt", diagnose::headline(d));
 }
 

@@ -102,9 +102,10 @@ ColumnMap bench_columns(const Table& table, const NominalModel& model, const std
   }
   for (const auto* name : {&map.time, &map.position, &map.input}) {
     if (table.find(*name) == nullptr) {
-      fatal(findings, fmt::format("{}: no column '{}' as in a log of the bench, its header has: {}; "
-                                  "name the columns with --columns MAP.toml",
-                                  file, *name, fmt::join(table.names, " ")));
+      fatal(findings,
+            fmt::format("{}: no column '{}' as in a log of the bench, its header has: {}; "
+                        "name the columns with --columns MAP.toml",
+                        file, *name, fmt::join(table.names, " ")));
       break;
     }
   }

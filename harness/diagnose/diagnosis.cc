@@ -125,7 +125,8 @@ void check_against_rigid(const Request& request, const Conditioning& conditionin
                          Findings& findings) {
   NominalModel rigid = request.model;
   rigid.chain = {};
-  const Dataset plain = make_dataset(request.runs, conditioning, stated_baseline(rigid), everywhere);
+  const Dataset plain =
+      make_dataset(request.runs, conditioning, stated_baseline(rigid), everywhere);
   if (plain.rows() >= kFewestRows) {
     check_against_model(plain, make_context(rigid, plain), findings);
   }
@@ -138,9 +139,9 @@ void check_data(Request& request, Findings& findings) {
     }
   }
   if (!is_fatal(findings)) {
-    check_against_rigid(
-        request, choose_conditioning(request.runs, std::max(request.model.mass_kg, 1e-9)),
-        findings);
+    check_against_rigid(request,
+                        choose_conditioning(request.runs, std::max(request.model.mass_kg, 1e-9)),
+                        findings);
   }
 }
 
@@ -164,6 +165,11 @@ void explain_lack_of_rows(const Request& request, const Split& data, Findings& f
     widest.smoothing_Hz = std::min(widest.smoothing_Hz, 0.4 / run.period_s);
   }
   check_against_rigid(request, widest, findings);
+  for (Finding& finding : findings) {
+    if (finding.name == "reference_unit_off") {
+      finding.kind = Finding::Kind::kFatal;  // now it is the position that must be meant
+    }
+  }
   if (!is_fatal(findings)) {
     findings.push_back({Finding::Kind::kFatal, "too_little_motion",
                         fmt::format("{} independent samples in motion to fit and {} to judge on, "
@@ -195,10 +201,17 @@ void conclude(Diagnosis& d) {
 Diagnosis diagnose(const Request& given) {
   Diagnosis d;
   Request request = given;
+  const auto tell = [&](const char* what_next) {
+    if (request.progress) {
+      request.progress(what_next);
+    }
+  };
+  tell("are the columns what they are said to be");
   check_data(request, d.findings);
   if (is_fatal(d.findings)) {
     return d;
   }
+  tell("fitting the model as it is");
   const Split data = split_around_the_fit(request);
   if (std::min(data.fit.rows(), data.heldout.rows()) < kFewestRows) {
     explain_lack_of_rows(request, data, d.findings);
@@ -209,18 +222,23 @@ Diagnosis diagnose(const Request& given) {
   const HeldOut abroad(data.heldout, d.context, kGateOfAnotherSession);
   const HeldOut heldout(data.heldout, d.context,
                         data.same_session ? kSameSession : kRestOfAnotherSession);
+  tell("looking for causes");
   d.selection = select_causes(data.fit, data.same_session ? nullptr : &abroad, d.context,
                               request.seed, request.progress);
+  tell("scoring on data not yet seen");
   refit_and_score(d.selection, data.fit, heldout, d.context, request.seed);
   const FittedModel supplied{{}, Eigen::VectorXd(stated_baseline(request.model).at)};
   const FittedModel extended{d.selection.terms(), d.selection.after.coefficients};
   d.gain_over_supplied =
       heldout.gain(heldout.residual(supplied), heldout.residual(extended), request.seed);
+  tell("simulating both models");
   d.confirmed = confirm(heldout, d.context, supplied, extended, request.seed);
   d.parameters = judge_parameters(request.model, d.selection.after, d.selection.terms());
+  tell("what is left, and what the data cannot show");
   find_lookalikes(d.parameters, d.selection);
   d.unexplained = find_unexplained(data.fit, d.selection.after);
   d.not_testable = find_not_testable(d.selection);
+  tell("what would separate causes");
   for (const Cause& cause : d.selection.causes) {
     d.separating.push_back(cause.rivals.empty()
                                ? std::nullopt

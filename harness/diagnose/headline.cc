@@ -73,6 +73,19 @@ std::string simulated(const Confirmation& c) {
                    kWindow_s, 1e3 * c.position_m.after_rms, 1e3 * c.position_m.before_rms);
 }
 
+// What the fitted runs ask for and the held-out one could not confirm; null: nothing of the kind.
+const Rejected* not_borne_out(const Diagnosis& d) {
+  constexpr double kMuch = 0.05;  // of the residual, for certain
+  const Rejected* most = nullptr;
+  for (const Rejected& rejected : d.selection.rejected) {
+    const bool much = !d.heldout_same_session && rejected.gain.low > kMuch;
+    if (much && (most == nullptr || rejected.gain.value > most->gain.value)) {
+      most = &rejected;
+    }
+  }
+  return most;
+}
+
 std::string next_step(const Diagnosis& d) {
   for (std::size_t i = 0; i < d.separating.size(); ++i) {
     if (d.separating[i]) {
@@ -85,6 +98,12 @@ std::string next_step(const Diagnosis& d) {
       return fmt::format("no motion in reach tells {} apart; {}", class_of(cause),
                          cause.term.effect->needs);
     }
+  }
+  if (const Rejected* rejected = not_borne_out(d)) {
+    return fmt::format(
+        "hold out a run with every speed and stretch: {} would explain much of the "
+        "fitted runs, the held-out one does not bear it out",
+        rejected->effect);
   }
   if (d.unexplained) {
     return fmt::format("look at unexplained.csv: what is left depends on {}",

@@ -54,8 +54,7 @@ void check_shift(const Dataset& data, const MatrixXd& basis, double aligned, Fin
   if (std::abs(seconds) >= kToldShift_s && (1 - most) < 0.7 * (1 - aligned)) {
     // y(t + shift) fits x(t) best: the input column is late by the shift.
     findings.push_back(
-        {aligned < kWellExplained ? Finding::Kind::kFatal : Finding::Kind::kNote,
-         "columns_shifted",
+        {aligned < kWellExplained ? Finding::Kind::kFatal : Finding::Kind::kNote, "columns_shifted",
          fmt::format("the input column lies about {:.0f} ms {} the position column: the model "
                      "explains {:.0f} % of it there and {:.0f} % where it is; align them first",
                      1e3 * std::abs(seconds), seconds > 0 ? "behind" : "ahead of", 100 * most,
@@ -78,8 +77,7 @@ void check_unit(const Context& c, Findings& findings) {
   if (std::abs(decades) < 1.3) {
     return;
   }
-  const char* guess =
-      "a scale factor is missing, or the model is of another machine";
+  const char* guess = "a scale factor is missing, or the model is of another machine";
   if (std::abs(std::abs(decades) - 3) < 0.3) {
     guess = decades > 0 ? "the input is in thousandths or the position in thousands (mm for m?)"
                         : "the input is in thousands or the position is in mm read as m";
@@ -101,14 +99,14 @@ void check_unit(const Context& c, Findings& findings) {
 void check_against_model(const Dataset& data, const Context& c, Findings& findings) {
   const MatrixXd basis = orthonormal(data.stack(base_columns));
   const double aligned = explained_at(data, basis, 0);
-  if (c.theta[kMass] < 0 && c.theta[kCoulomb] < 0 && aligned >= kLeastExplained) {
+  check_shift(data, basis, aligned, findings);
+  if (is_fatal(findings)) {
+    return;
+  }
+  if (c.theta[kMass] < 0 && c.theta[kCoulomb] < 0) {
     findings.push_back({Finding::Kind::kFatal, "command_sign_reversed",
                         "inertia and friction come out negative: the sign of the command is "
                         "reversed against the position's"});
-    return;
-  }
-  check_shift(data, basis, aligned, findings);
-  if (is_fatal(findings)) {
     return;
   }
   if (aligned < kLeastExplained) {

@@ -19,8 +19,8 @@ constexpr double kBeyondCommand = 2;
 constexpr double kReferenceOff = 4;  // by which followed and asked way may differ, either way
 
 double quantile(std::vector<double> values, double share) {
-  const auto nth = values.begin() +
-                   static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto nth =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), nth, values.end());
   return *nth;
 }
@@ -93,7 +93,7 @@ void check_reference(Run& run, Index window, Findings& findings) {
   } else if (ratio < 1 / kReferenceOff || ratio > kReferenceOff) {
     findings.push_back({Kind::kNote, "reference_unit_off",
                         fmt::format("{}: the position goes {:.3g} times as far as its reference "
-                                    "asks, in another unit? It was left out",
+                                    "asks: another unit? It goes on without the reference",
                                     run.name, ratio)});
     run.reference_m.resize(0);
   }

@@ -8,8 +8,8 @@
 
 namespace towbench::harness::diagnose {
 
-// Named findings: those of log_columns.h, time_grid.h and position_jump.h. After a fatal one the run
-// is unusable.
+// Named findings: those of log_columns.h, time_grid.h and position_jump.h. After a fatal one the
+// run is unusable.
 [[nodiscard]] Run make_run(const Table& table, const ColumnMap& map, std::string name,
                            Findings& findings);
 

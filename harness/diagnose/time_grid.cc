@@ -35,6 +35,11 @@ std::vector<double> gaps_of(const std::vector<double>& time_s) {
   return gaps;
 }
 
+double roughness(const Eigen::VectorXd& x) {
+  const Eigen::Index n = x.size() - 2;
+  return (x.tail(n) - 2 * x.segment(1, n) + x.head(n)).squaredNorm();
+}
+
 }  // namespace
 
 TimeGrid::TimeGrid(const Table& table, const LogColumns& columns, double time_scale_s,
@@ -46,7 +51,7 @@ TimeGrid::TimeGrid(const Table& table, const LogColumns& columns, double time_sc
   }
   if (rises(table) && is_steady()) {
     find_gaps();
-    tell_jitter();
+    choose_times(*columns.position);
   }
 }
 
@@ -57,10 +62,11 @@ void TimeGrid::tell(Kind kind, const char* name, std::string sentence) {
 bool TimeGrid::rises(const Table& table) {
   for (std::size_t j = 1; j < time_s_.size(); ++j) {
     if (time_s_[j] <= time_s_[j - 1]) {
-      tell(Kind::kFatal, "time_not_rising",
-           fmt::format("{}:{}: time goes from {:.9g} to {:.9g} s and must rise; are two runs in one "
-                       "file?",
-                       file_, table.line[rows_[j]], time_s_[j - 1], time_s_[j]));
+      tell(
+          Kind::kFatal, "time_not_rising",
+          fmt::format("{}:{}: time goes from {:.9g} to {:.9g} s and must rise; are two runs in one "
+                      "file?",
+                      file_, table.line[rows_[j]], time_s_[j - 1], time_s_[j]));
       return false;
     }
   }
@@ -126,24 +132,56 @@ void TimeGrid::find_gaps() {
     tell(Kind::kNote, "missing_samples",
          fmt::format("{}: {} samples ({:.2g} %) are missing; gaps above {:g} ms are left out of "
                      "every test",
-                     file_, lost,
-                     100 * static_cast<double>(lost) / static_cast<double>(samples_),
+                     file_, lost, 100 * static_cast<double>(lost) / static_cast<double>(samples_),
                      1e3 * kBridged_s));
   }
 }
 
-void TimeGrid::tell_jitter() {
+double TimeGrid::jitter_share() const {
   double sum = 0;
   for (std::size_t j = 1; j < time_s_.size(); ++j) {
     const double gap = (time_s_[j] - time_s_[j - 1]) / period_s_;
     const double off = gap - std::round(gap);
     sum += off * off;
   }
-  const double share = std::sqrt(sum / static_cast<double>(time_s_.size()));
+  return std::sqrt(sum / static_cast<double>(time_s_.size()));
+}
+
+// Each stamp on the next point of the grid; empty when two would share one.
+std::vector<double> TimeGrid::evened() const {
+  std::vector<double> even;
+  even.reserve(time_s_.size());
+  double last = -1;
+  for (const double t : time_s_) {
+    const double at = std::round((t - time_s_.front()) / period_s_);
+    if (at <= last) {
+      return {};
+    }
+    last = at;
+    even.push_back(time_s_.front() + at * period_s_);
+  }
+  return even;
+}
+
+void TimeGrid::choose_times(const std::vector<double>& position) {
+  const double share = jitter_share();
+  std::vector<double> other = uniform_ || share <= kJitterShare ? std::vector<double>{} : evened();
+  const char* taken = "as they say";
+  if (!other.empty()) {
+    const double as_stamped = roughness(resampled(position, 1));
+    std::swap(time_s_, other);
+    if (roughness(resampled(position, 1)) < as_stamped) {
+      taken = "evenly";
+    } else {
+      std::swap(time_s_, other);
+    }
+  }
   if (!uniform_ && share > kJitterShare) {
-    tell(Kind::kNote, "jittered_time",
-         fmt::format("{}: time stamps jitter by {:.0f} % of the period; resampled at {:.6g} Hz",
-                     file_, 100 * share, 1 / period_s_));
+    tell(
+        Kind::kNote, "jittered_time",
+        fmt::format("{}: time stamps jitter by {:.0f} % of the period; by the position the samples "
+                    "were taken {}; resampled at {:.6g} Hz",
+                    file_, 100 * share, taken, 1 / period_s_));
   }
 }
 

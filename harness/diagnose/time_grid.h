@@ -1,4 +1,7 @@
 // Uniform time for samples that came at nearly uniform times, with gaps.
+//
+// Jittered stamps are ambiguous: the samples were taken when they say, or evenly and only the
+// stamps are late. The position tells: a moving body read at other times than stated is rougher.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,8 +30,10 @@ class TimeGrid {
   void tell(Finding::Kind kind, const char* name, std::string sentence);
   [[nodiscard]] bool rises(const Table& table);
   [[nodiscard]] bool is_steady();
+  void choose_times(const std::vector<double>& position);
   void find_gaps();
-  void tell_jitter();
+  [[nodiscard]] std::vector<double> evened() const;
+  [[nodiscard]] double jitter_share() const;
 
   const std::vector<std::size_t>& rows_;
   const std::string& file_;

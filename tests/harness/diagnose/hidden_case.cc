@@ -24,12 +24,14 @@ Run run_of(const HiddenAxis& axis, const HiddenLog& log) {
   run.period_s = axis.period_s;
   const auto n = static_cast<Eigen::Index>(log.time_s.size());
   run.position_m = Eigen::Map<const Eigen::VectorXd>(log.position_m.data(), n);
-  run.reference_m = Eigen::Map<const Eigen::VectorXd>(log.reference_m.data(), n);
+  if (!axis.open_loop) {
+    run.reference_m = Eigen::Map<const Eigen::VectorXd>(log.reference_m.data(), n);
+  }
   run.input_N =
       axis.newton_per_duty_pct * Eigen::Map<const Eigen::VectorXd>(log.duty_pct.data(), n);
   run.missing.assign(log.time_s.size(), 0);
   run.resolution_m = 1 / axis.counts_per_m;
-  run.input_step_N = 0.1 * axis.newton_per_duty_pct;
+  run.input_step_N = axis.duty_step_pct * axis.newton_per_duty_pct;
   return run;
 }
 

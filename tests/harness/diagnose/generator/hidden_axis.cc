@@ -44,6 +44,15 @@ std::vector<double> draw_reference(const HiddenAxis& axis, core::Random& random)
   return r;
 }
 
+// Sines whose motion stays on the rails by itself: friction takes what a drift would need.
+double open_loop_force_N(const HiddenAxis& axis, double t_s) {
+  const auto sine = [&](double amplitude_N, double frequency_Hz) {
+    return amplitude_N * std::sin(kTurn * frequency_Hz * t_s);
+  };
+  return axis.mass_kg * (sine(0.45, 0.31) + sine(0.5, 0.83) + sine(0.6, 2.1)) +
+         1.3 * axis.coulomb_N * std::copysign(1.0, std::sin(kTurn * 0.31 * t_s));
+}
+
 class Body {
  public:
   Body(const HiddenAxis& axis, double start_m, std::uint64_t seed)
@@ -171,7 +180,7 @@ HiddenLog make_hidden_log(const HiddenAxis& axis, std::uint64_t seed) {
   core::Random random(seed);
   HiddenLog log;
   log.reference_m = draw_reference(axis, random);
-  Body body(axis, log.reference_m.front(), seed);
+  Body body(axis, log.reference_m.front(), axis.machine == 0 ? seed : axis.machine);
   const double w = kTurn * 4;  // closed-loop bandwidth of the PID
   double integral = 0;
   double last = 0;
@@ -183,9 +192,12 @@ HiddenLog make_hidden_log(const HiddenAxis& axis, std::uint64_t seed) {
     last = error;
     const double force =
         axis.mass_kg * (w * w * error + 1.6 * w * rate + 0.8 * w * w * w * integral);
+    const double t_s = static_cast<double>(k) * axis.period_s;
+    const double wanted_pct =
+        (axis.open_loop ? open_loop_force_N(axis, t_s) : force) / axis.newton_per_duty_pct;
     const double duty =
-        std::clamp(std::round(10 * force / axis.newton_per_duty_pct) / 10, -100.0, 100.0);
-    log.time_s.push_back(static_cast<double>(k) * axis.period_s);
+        std::clamp(std::round(wanted_pct / axis.duty_step_pct) * axis.duty_step_pct, -100.0, 100.0);
+    log.time_s.push_back(t_s);
     log.position_m.push_back(read);
     log.duty_pct.push_back(duty);
     log.lacking_N.push_back(body.hold(duty * axis.newton_per_duty_pct, axis.period_s));

@@ -21,10 +21,13 @@ struct HiddenAxis {
   double sprocket_radius_m = 0.050;
   double duration_s = 30;
   double period_s = 1e-3;
+  double duty_step_pct = 0.1;
+  bool open_loop = false;  // sines of command, whatever the axis makes of them; no reference
   std::string effect;  // a name of the interface, "outside" for one that is in no library, or empty
   double size = 1;     // in units of the law's own constants (hidden_force.cc)
   std::string second_effect;
   double second_size = 1;
+  std::uint64_t machine = 0;  // draws the signs and phases; 0: the motion's seed does
 };
 
 struct HiddenLog {
