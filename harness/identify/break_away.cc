@@ -52,7 +52,8 @@ std::vector<BreakAway> find_break_aways(const Recording& data, core::Axis axis,
       ++k;
     }
     const std::size_t last = k - 1;
-    if (std::fabs(speed_at(data, axis, from, last)) < 0.5 * threshold_m_per_s) {
+    // A light axis passes the threshold within the span of the mean, which is then far below it.
+    if (std::fabs(speed_at(data, axis, from, last)) < kOnsetShare * threshold_m_per_s) {
       continue;  // gave up without moving
     }
     std::size_t onset = last;

@@ -49,6 +49,13 @@ TEST(BreakAway, LiesBetweenTheLevelThatStartedTheMotionAndTheOneBefore) {
   }
 }
 
+// Fast after 11 ms: the mean over the 20 ms before that is a quarter of the last speed.
+TEST(BreakAway, IsToldOfALightAxisThatJumpsAway) {
+  const auto found = find_break_aways(ramp(4.15, 10'000), Axis::kY, 8e-3);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0].duty_pct, 4.15, 1e-6);
+}
+
 TEST(BreakAway, IsNotToldOfARampThatGaveUp) {
   auto data = ramp(4.2, 58);
   for (auto& count : data.axes[Axis::kY].count) {
