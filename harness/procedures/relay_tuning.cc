@@ -19,6 +19,9 @@
 namespace towbench::harness::procedures {
 namespace {
 
+constexpr double kSmallest_m = 2e-4;  // 89 counts of Y: below, friction is all there is
+constexpr double kSmaller = 0.8;
+
 struct Settings {
   core::BoundedVector<double, 16> amplitudes_m;
   double chosen_m = 5e-4;
@@ -33,8 +36,10 @@ struct Settings {
 
   template <typename Visitor>
   void visit(Visitor& v) {
-    v.list("amplitudes_m", amplitudes_m, core::between(2e-4, 1e-3), "of the relay's oscillation");
-    v.value("chosen_m", chosen_m, core::between(2e-4, 1e-3), "amplitude whose gains are tried");
+    v.list("amplitudes_m", amplitudes_m, core::between(kSmallest_m, 1e-3),
+           "of the relay's oscillation");
+    v.value("chosen_m", chosen_m, core::between(kSmallest_m, 1e-3),
+            "amplitude whose gains are tried");
     v.value("trial_speed_m_per_s", trial_speed_m_per_s, core::between(0.01, 0.5), "of the trial");
     v.value("trial_distance_m", trial_distance_m, core::between(0.02, 1), "of the trial");
   }
@@ -89,7 +94,7 @@ class RelayTuning final : public Procedure {
     std::vector<Critical> curve;
     std::vector<std::string> lost;
     std::optional<Critical> chosen;
-    for (const double amplitude : settings.amplitudes_m) {
+    const auto look = [&](double amplitude) {
       const auto data = oscillate(context, amplitude);
       const auto found = critical_in(data.console);
       if (!data.trouble.empty() || !found) {
@@ -97,7 +102,7 @@ class RelayTuning final : public Procedure {
         lost.push_back(
             fmt::format("{:.2f} mm: {}", 1e3 * amplitude,
                         data.trouble.empty() ? "the controller's report lacks K_C" : data.trouble));
-        continue;
+        return;
       }
       curve.push_back(*found);
       if (!chosen || std::fabs(amplitude - settings.chosen_m) <
@@ -106,6 +111,16 @@ class RelayTuning final : public Procedure {
       }
       context.tell(0.9 * static_cast<double>(curve.size()) /
                    static_cast<double>(settings.amplitudes_m.size()));
+    };
+    double least_m = settings.chosen_m;
+    for (const double amplitude : settings.amplitudes_m) {
+      look(amplitude);
+      least_m = std::min(least_m, amplitude);
+    }
+    // The larger the swing, the wider the range in which it has two values: so smaller ones.
+    while (chosen && 2 * curve.size() < settings.amplitudes_m.size() && least_m > kSmallest_m) {
+      least_m = std::max(kSmallest_m, kSmaller * least_m);
+      look(least_m);
     }
     if (!chosen || 2 * curve.size() < settings.amplitudes_m.size()) {
       return ProcedureOutcome::failed(fmt::format("no oscillation of {}", fmt::join(lost, "; ")));
