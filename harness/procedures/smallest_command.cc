@@ -111,17 +111,20 @@ class SmallestCommand final : public Procedure {
       }
       context.tell(high_pct == 0 ? 0.2 : std::clamp(1 - (high_pct - low_pct) / high_pct, 0.2, 1.0));
     }
+    const double by_time_pct = 0.5 * (low_pct + high_pct) * share_by_time(context);
     ProcedureOutcome outcome;
     outcome.estimates.push_back(
         {.quantity = "smallest_command_pct",
          .axis = std::string(core::name_of(context.axis)),
          .value = 0.5 * (low_pct + high_pct),
-         .low = low_pct,
-         .high = high_pct,
+         .low = low_pct - by_time_pct,
+         .high = high_pct + by_time_pct,
          .unit = "%",
-         .rests_on = fmt::format("steps of {:.3f} s around {:.2f} m; reached is {:.0f} % of the "
-                                 "saturation speed; the interval is the bracket",
-                                 time_s, middle_m, 100 * kArrived),
+         .rests_on =
+             fmt::format("steps of {:.3f} s around {:.2f} m; reached is {:.0f} % of the "
+                         "saturation speed; the interval is the bracket and what that time's own "
+                         "interval makes of it",
+                         time_s, middle_m, 100 * kArrived),
          .procedure = "EXP-P-4",
          .at = middle_m});
     outcome.tables.push_back(std::move(table));
@@ -129,6 +132,15 @@ class SmallestCommand final : public Procedure {
   }
 
  private:
+  // By how much of itself the command is off when the time of the step is off by its interval:
+  // D ~ 1 / (1 - exp(-t/T)), so d ln D / d ln t = -1 / (e - 1) at t = T, less where friction takes
+  // a part of D.
+  static double share_by_time(const ProcedureContext& context) {
+    constexpr double kSteepest = 0.582;
+    const auto* time = context.find("mechanical_time_constant_s");
+    return time == nullptr ? 0.0 : kSteepest * time->half_width() / time->value;
+  }
+
   // (C + B w_s / (1 - 1/e)) / k, B = J / T, by the controller's belief of J and C.
   static double first_guess_pct(const ProcedureContext& context, double time_s, double saturation) {
     const auto axis = believed_axis(context);
