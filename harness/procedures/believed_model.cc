@@ -47,6 +47,28 @@ identify::DrivePath believed_path(const ProcedureContext& context) {
           .supply_V = plate.output_limit_V / amplifier.output_limit_ratio};
 }
 
+namespace {
+
+// The guard of the encoder takes off the drive what the carriage's swing asks of the motor. With a
+// chain that was only believed it takes a motor that is held by the swing for a frozen encoder.
+void tell_swing(const identify::Estimates& known, core::Axis which,
+                bbmc::BrakingConfiguration& braking) {
+  const auto of = [&](std::string_view quantity, double otherwise) {
+    const auto* found = identify::find(known, quantity, core::name_of(which));
+    return found != nullptr ? found->value : otherwise;
+  };
+  const double coasts_kg_m2 =
+      of("mechanical_time_constant_s", 0) * of("steady_viscous_Nm_s_per_rad", 0);
+  const double inertia_kg_m2 = of("inertia_kg_m2", coasts_kg_m2);
+  const double free_Hz = of("chain_resonance_Hz", of("swing_Hz", 0));
+  if (inertia_kg_m2 > braking.rotor_inertia_kg_m2 && free_Hz > 0) {
+    braking.inertia_kg_m2 = inertia_kg_m2;
+    braking.held_motor_chain_Hz = free_Hz * std::sqrt(braking.rotor_inertia_kg_m2 / inertia_kg_m2);
+  }
+}
+
+}  // namespace
+
 bbmc::Configuration studied_configuration(const ProcedureContext& context) {
   constexpr double kFrictionRoom = 1.6;  // *assumed*: no machine of a kind has more than that
   auto configuration = context.machine.configuration();
@@ -60,6 +82,7 @@ bbmc::Configuration studied_configuration(const ProcedureContext& context) {
     of("torque_constant_Nm_per_A", axis.drive.torque_constant_Nm_per_A);
     of("amplifier_gain_A_per_V", axis.drive.amplifier_gain_A_per_V);
     axis.plausibility.worst_breakaway_Nm *= kFrictionRoom;
+    tell_swing(context.known, which, axis.braking);
     // With a weaker motor than believed the voltage is used up at a higher speed; the guard against
     // running away shall know of it.
     const auto& plate = context.machine.nameplate(which);
