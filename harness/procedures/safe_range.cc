@@ -5,8 +5,7 @@
 // them is stretched by some hundred counts. Homing takes that off by its belief of friction and
 // chain. Here it is taken off again from the log, by the torque at the edge and the chain and the
 // motor's friction that the pulses have found (switch_study.h); so this comes after them. The
-// searches, many times faster, must tell the same to within a row's way. The min switch is the
-// origin.
+// searches, many times faster, tell the same to within a row's way. The min switch is the origin.
 #include <algorithm>
 #include <cmath>
 
@@ -53,12 +52,12 @@ class SafeRange final : public Procedure {
         static_cast<double>(belief.ends.hard_max_count - belief.ends.hall_max_count);
     const auto [chain, doubts, known] = known_chain(context);
     const double slow_m_per_s = belief.homing.approach_speed_m_per_s;
-    std::vector<Edges> all;
+    std::vector<Distance> all;
     std::vector<double> doubted(doubts.size(), 0.0);
     ResultTable table{.title = "Approaches",
                       .head = {"between the motor's counts at the edges", "the chain's stretch",
-                               "between the switches, counts", "the same at seeking speed",
-                               "furthest beyond min switch, mm (room)",
+                               "between the switches, counts +-", "the same at seeking speed",
+                               "weighed", "furthest beyond min switch, mm (room)",
                                "beyond max switch, mm (room)", "controller's own shift, counts"}};
     for (int i = 0; i < settings.repeats; ++i) {
       const auto data = play(context, settings, track, i);
@@ -78,16 +77,16 @@ class SafeRange final : public Procedure {
         return ProcedureOutcome::failed("the approach went as far as the hard end should be");
       }
       const auto edges = study.edges(chain);
+      const auto weighed = edges.weighed();
       for (std::size_t k = 0; k < doubts.size(); ++k) {
         auto other = chain;
         other.*doubts[k].what += doubts[k].deviation;
-        doubted[k] += (study.edges(other).slow_counts - edges.slow_counts) / settings.repeats;
+        doubted[k] += (study.edges(other).weighed().counts - weighed.counts) / settings.repeats;
       }
-      all.push_back(edges);
+      all.push_back(weighed);
       table.rows.push_back({fmt::format("{:.1f}", edges.motor_counts),
-                            fmt::format("{:+.1f}", edges.slow_counts - edges.motor_counts),
-                            fmt::format("{:.1f}", edges.slow_counts),
-                            fmt::format("{:.1f}", edges.fast_counts),
+                            fmt::format("{:+.1f}", edges.slow.counts - edges.motor_counts),
+                            told(edges.slow), told(edges.fast), told(weighed),
                             fmt::format("{:.2f} ({:.2f})", 1e3 * beyond_min_m, 1e3 * room_min_m),
                             fmt::format("{:.2f} ({:.2f})", 1e3 * beyond_max_m, 1e3 * room_max_m),
                             fmt::format("{:+.0f}", approaches[1].shift_counts)});
@@ -97,6 +96,10 @@ class SafeRange final : public Procedure {
   }
 
  private:
+  static std::string told(const Distance& distance) {
+    return fmt::format("{:.1f} +- {:.1f}", distance.counts, distance.deviation_counts);
+  }
+
   static identify::Recording play(const ProcedureContext& context, const Settings& settings,
                                   const Track& track, int number) {
     Conversation talk{.name = fmt::format("EXP-P-5-{}-{}", core::name_of(context.axis), number)};
@@ -118,16 +121,19 @@ class SafeRange final : public Procedure {
 
   static ProcedureOutcome judged(const ProcedureContext& context,
                                  const bbmc::AxisConfiguration& belief,
-                                 const std::vector<Edges>& all, const std::vector<double>& doubted,
-                                 bool identified, ResultTable table) {
+                                 const std::vector<Distance>& all,
+                                 const std::vector<double>& doubted, bool identified,
+                                 ResultTable table) {
     const auto n = static_cast<double>(all.size());
     double mean = 0;
     for (const auto& each : all) {
-      mean += each.slow_counts / n;
+      mean += each.counts / n;
     }
     double square = kEdge_counts * kEdge_counts;
     for (const auto& each : all) {
-      square += (each.slow_counts - mean) * (each.slow_counts - mean) / (n - 1) / n;
+      // What a slip hides is alike in all repeats, for they come from the same place.
+      square += (each.counts - mean) * (each.counts - mean) / (n - 1) / n +
+                each.alike_counts * each.alike_counts / n;
     }
     for (const double each : doubted) {
       square += each * each;
@@ -140,12 +146,12 @@ class SafeRange final : public Procedure {
            .axis = std::string(core::name_of(context.axis)),
            .value = value,
            .unit = "m",
-           .rests_on = fmt::format(
-               "{} approaches at the controller's homing speed, less the chain's stretch by "
-               "the torque at the edge with {}; the min switch is the origin",
-               all.size(),
-               identified ? "the chain and friction of EXP-OL-2"
-                          : "a chain and friction that were only believed"),
+           .rests_on =
+               fmt::format("{} approaches by the controller's homing, less the chain's stretch by "
+                           "the torque at the edge with {}; the min switch is the origin",
+                           all.size(),
+                           identified ? "the chain and friction of EXP-OL-2"
+                                      : "a chain and friction that were only believed"),
            .procedure = "EXP-P-5"},
           std::sqrt(square) * m));
     };

@@ -16,7 +16,7 @@ double stiffness_Nm_per_rad(const Chain& chain) {
   return w * w * chain.rotor_kg_m2 * load / chain.inertia_kg_m2;
 }
 
-// What of the torque the motor keeps for itself at a steady speed, (3.25).
+// What of the torque the motor's own friction takes, (3.25).
 double own_friction_Nm(const Chain& chain, double rad_per_s) {
   const double ratio = rad_per_s / chain.stribeck_rad_per_s;
   return (1 - chain.carriage_share) *
@@ -49,6 +49,7 @@ KnownChain known_chain(const ProcedureContext& context) {
   };
   take(&Chain::inertia_kg_m2, "inertia_kg_m2", axis.inertia_kg_m2);
   take(&Chain::resonance_Hz, "chain_resonance_Hz", axis.chain.resonance_Hz);
+  take(&Chain::damping_ratio, "chain_damping_ratio", axis.chain.damping_ratio);
   take(&Chain::carriage_share, "friction_carriage_share", axis.friction.carriage_share);
   take(&Chain::common_Nm, "friction_common_Nm", axis.coulomb_friction_Nm);
   take(&Chain::excess_Nm, "stiction_excess_Nm",
@@ -65,17 +66,44 @@ SwitchStudy::SwitchStudy(const identify::Recording& data, core::Axis axis,
       approaches_(approaches),
       counts_(identify::counts_in_one_frame(data, axis, approaches)) {}
 
+Distance Edges::weighed() const noexcept {
+  const double of_slow = 1 / (slow.deviation_counts * slow.deviation_counts);
+  const double of_fast = 1 / (fast.deviation_counts * fast.deviation_counts);
+  const double all = of_slow + of_fast;
+  return {
+      .counts = (of_slow * slow.counts + of_fast * fast.counts) / all,
+      .deviation_counts = 1 / std::sqrt(all),
+      .alike_counts = std::hypot(of_slow * slow.alike_counts, of_fast * fast.alike_counts) / all};
+}
+
 Edges SwitchStudy::edges(const Chain& chain) const {
-  Edges edges;
+  Edges edges{.slow = between(chain, &identify::SwitchApproach::slow_edge),
+              .fast = between(chain, &identify::SwitchApproach::fast_edge)};
   for (const auto& each : approaches_) {
-    const auto motor = [&](std::size_t row) { return 0.5 * (counts_[row] + counts_[row + 1]); };
-    edges.motor_counts += each.outward * motor(each.slow_edge);
-    edges.slow_counts +=
-        each.outward * motor(each.slow_edge) - lead_counts(chain, each, each.slow_edge);
-    edges.fast_counts +=
-        each.outward * motor(each.fast_edge) - lead_counts(chain, each, each.fast_edge);
+    edges.motor_counts +=
+        each.outward * 0.5 * (counts_[each.slow_edge] + counts_[each.slow_edge + 1]);
   }
   return edges;
+}
+
+// The switch closed somewhere between a row and the next one.
+Distance SwitchStudy::between(const Chain& chain,
+                              std::size_t identify::SwitchApproach::*edge) const {
+  constexpr double kSomewhere = 0.29;  // 1/sqrt(12) of a row
+  Distance distance;
+  double square = 0;
+  double alike_square = 0;
+  for (const auto& each : approaches_) {
+    const std::size_t row = each.*edge;
+    const auto ahead = lead(chain, each, row);
+    const double way = kSomewhere * (counts_[row + 1] - counts_[row]);
+    distance.counts += each.outward * 0.5 * (counts_[row] + counts_[row + 1]) - ahead.counts;
+    square += way * way + ahead.rounding_counts * ahead.rounding_counts;
+    alike_square += ahead.hidden_counts * ahead.hidden_counts;
+  }
+  distance.deviation_counts = std::sqrt(square + alike_square);
+  distance.alike_counts = std::sqrt(alike_square);
+  return distance;
 }
 
 double SwitchStudy::beyond_m(const identify::SwitchApproach& each) const {
@@ -86,15 +114,15 @@ double SwitchStudy::beyond_m(const identify::SwitchApproach& each) const {
   return beyond * data_.metres_per_count[axis_];
 }
 
-// A straight line through the duty of the last tenth of a swing, carried on to the edge: the
-// chain's stretch may be on its way while the carriage sticks and slips.
-double SwitchStudy::duty_at_pct(const Chain& chain, std::size_t edge) const {
-  constexpr double kOfASwing = 0.1;
-  constexpr std::size_t kFewest = 8;
-  const double held_s =
-      std::sqrt(chain.inertia_kg_m2 / chain.rotor_kg_m2) / chain.resonance_Hz;  // motor held
-  const auto rows =
-      std::max(kFewest, static_cast<std::size_t>(std::lround(kOfASwing * held_s / data_.period_s)));
+namespace {
+
+// Over the last `rows` rows up to `edge`, carried on to half a row beyond it.
+struct Trend {
+  double value = 0;
+  double per_row = 0;
+};
+template <typename Column>
+Trend straight_line(const Column& column, std::size_t edge, std::size_t rows) {
   const std::size_t from = edge + 1 > rows ? edge + 1 - rows : 0;
   const auto n = static_cast<double>(edge + 1 - from);
   double mean = 0;
@@ -102,20 +130,63 @@ double SwitchStudy::duty_at_pct(const Chain& chain, std::size_t edge) const {
   double square = 0;
   for (std::size_t k = from; k <= edge; ++k) {
     const double t = static_cast<double>(k - from) - 0.5 * (n - 1);
-    mean += data_.axes[axis_].duty_pct[k] / n;
-    moment += t * data_.axes[axis_].duty_pct[k];
+    mean += column[k] / n;
+    moment += t * column[k];
     square += t * t;
   }
-  return mean + moment / square * 0.5 * n;  // half a row beyond the last one
+  const double slope = moment / square;
+  return {.value = mean + slope * 0.5 * n, .per_row = slope};
 }
 
-double SwitchStudy::lead_counts(const Chain& chain, const identify::SwitchApproach& approach,
-                                std::size_t edge) const {
-  const double rad_per_s = std::fabs(data_.axes[axis_].reference_velocity_m_per_s[edge]) /
-                           data_.metres_per_count[axis_] * data_.rad_per_count[axis_];
-  const double torque_Nm = approach.outward * duty_at_pct(chain, edge) * chain.torque_per_duty_Nm;
-  return (torque_Nm - own_friction_Nm(chain, rad_per_s)) / stiffness_Nm_per_rad(chain) /
-         data_.rad_per_count[axis_];
+}  // namespace
+
+// By straight lines through a seventh of a swing: the chain's stretch may be on its way while the
+// carriage sticks and slips.
+SwitchStudy::Moment SwitchStudy::moment_at(const Chain& chain,
+                                           const identify::SwitchApproach& approach,
+                                           std::size_t edge) const {
+  constexpr double kOfASwing = 0.15;
+  constexpr std::size_t kFewest = 8;
+  const double held_s =
+      std::sqrt(chain.inertia_kg_m2 / chain.rotor_kg_m2) / chain.resonance_Hz;  // motor held
+  const auto rows =
+      std::max(kFewest, static_cast<std::size_t>(std::lround(kOfASwing * held_s / data_.period_s)));
+  const auto duty = straight_line(data_.axes[axis_].duty_pct, edge, rows);
+  const auto last = straight_line(counts_, edge, rows);
+  const auto before = straight_line(counts_, edge - rows, rows);
+  const double per_s = 1 / data_.period_s;
+  const double rad_per_count = approach.outward * data_.rad_per_count[axis_];
+  const double acceleration =
+      (last.per_row - before.per_row) / static_cast<double>(rows) * rad_per_count * per_s * per_s;
+  // Rounding to a count leaves a line's slope sqrt(12 / n^3) of 1/sqrt(12) counts a row off.
+  const auto n = static_cast<double>(rows);
+  // The slope of a stretch is the speed in its middle.
+  const double since_s = 0.5 * static_cast<double>(rows) * data_.period_s;
+  return {.torque_Nm = approach.outward * duty.value * chain.torque_per_duty_Nm,
+          .torque_Nm_per_s = approach.outward * duty.per_row * chain.torque_per_duty_Nm * per_s,
+          .speed_rad_per_s = last.per_row * rad_per_count * per_s + acceleration * since_s,
+          .acceleration_rad_per_s2 = acceleration,
+          .acceleration_deviation =
+              std::sqrt(2 / (n * n * n * n * n)) * data_.rad_per_count[axis_] * per_s * per_s};
+}
+
+SwitchStudy::Lead SwitchStudy::lead(const Chain& chain, const identify::SwitchApproach& approach,
+                                    std::size_t edge) const {
+  // In a slip all of this changes within a few rows; straight lines were seen to miss by what two
+  // to four rows change.
+  constexpr double kLeftOut_rows = 3;
+  constexpr double kLeast_counts = 1;
+  const auto moment = moment_at(chain, approach, edge);
+  const double counts_per_Nm = 1 / stiffness_Nm_per_rad(chain) / data_.rad_per_count[axis_];
+  const double chain_Nm = moment.torque_Nm -
+                          own_friction_Nm(chain, std::max(0.0, moment.speed_rad_per_s)) -
+                          chain.rotor_kg_m2 * moment.acceleration_rad_per_s2;
+  const double changes = moment.torque_Nm_per_s * counts_per_Nm;  // counts per s
+  const double damping_s =
+      chain.damping_ratio / (std::numbers::pi * chain.resonance_Hz);  // 2 zeta / w_0
+  return {.counts = chain_Nm * counts_per_Nm - damping_s * changes,
+          .rounding_counts = chain.rotor_kg_m2 * moment.acceleration_deviation * counts_per_Nm,
+          .hidden_counts = std::hypot(kLeast_counts, kLeftOut_rows * data_.period_s * changes)};
 }
 
 }  // namespace towbench::harness::procedures
