@@ -21,7 +21,7 @@ enum Index : int {
   kShare,  // plain, 0 .. 1
   kDelay,  // in units of 10 us
   kPlace,  // share of the lowest friction that belongs to the place, not to the machine
-  kKnots,  // logarithm of the friction at each knot
+  kKnots,  // logarithm of the friction at each knot, then the inner knots' places in cm
 };
 
 class Problem {
@@ -35,9 +35,16 @@ class Problem {
     }
   }
 
-  [[nodiscard]] int parameters() const { return kKnots + static_cast<int>(start_.knots_m.size()); }
+  [[nodiscard]] int knots() const { return static_cast<int>(start_.knots_m.size()); }
+  // The ends of the map are where the data end; only what is between can stand elsewhere.
+  [[nodiscard]] int moving() const {
+    return start_.knots_known_m > 0 ? std::max(0, knots() - 2) : 0;
+  }
+  [[nodiscard]] int first_place() const { return kKnots + knots(); }
+  [[nodiscard]] int parameters() const { return first_place() + moving(); }
   [[nodiscard]] int data_residuals() const { return static_cast<int>(rows_.size()); }
-  static constexpr int kPriors = 5;
+  [[nodiscard]] int prior_residuals() const { return kFixedPriors + moving(); }
+  [[nodiscard]] int residuals() const { return data_residuals() + prior_residuals(); }
   [[nodiscard]] Eigen::Index lags() const { return static_cast<Eigen::Index>(4 * span_ / every_); }
 
   [[nodiscard]] Eigen::VectorXd first() const {
@@ -51,12 +58,27 @@ class Problem {
     p[kDamping] = std::log(a.chain.damping_ratio);
     p[kShare] = a.friction.carriage_share;
     p[kDelay] = start_.path.delay_s / 1e-5;
-    p[kPlace] = 0.1;
-    for (int i = kKnots; i < parameters(); ++i) {
-      const auto knot = static_cast<std::size_t>(i - kKnots);
-      p[i] = std::log(start_.coulomb_Nm.empty() ? a.coulomb_friction_Nm : start_.coulomb_Nm[knot]);
+    p[kPlace] = first_place_share();
+    for (int i = 0; i < knots(); ++i) {
+      const auto knot = static_cast<std::size_t>(i);
+      p[kKnots + i] =
+          std::log(start_.coulomb_Nm.empty() ? a.coulomb_friction_Nm : start_.coulomb_Nm[knot]);
+    }
+    for (int i = 0; i < moving(); ++i) {
+      p[first_place() + i] = start_.knots_m[static_cast<std::size_t>(i) + 1] / kPlaceUnit_m;
     }
     return p;
+  }
+
+  // Where friction is the same all along, none of it belongs to the place.
+  [[nodiscard]] double first_place_share() const {
+    constexpr double kBelieved = 0.1;
+    if (start_.coulomb_Nm.empty()) {
+      return kBelieved;
+    }
+    const auto [low, high] =
+        std::minmax_element(start_.coulomb_Nm.begin(), start_.coulomb_Nm.end());
+    return std::min(kBelieved, 1 - *low / *high);
   }
 
   [[nodiscard]] emulator::AxisParameters axis_of(const double* p) const {
@@ -77,12 +99,20 @@ class Problem {
     a.friction.breakaway_Nm = lowest + std::exp(p[kExcess]);
     a.friction.position.position_m.clear();
     a.friction.position.friction_Nm.clear();
+    const auto places_m = knots_of(p);
     for (std::size_t i = 0; knots > 1 && i < knots; ++i) {
-      (void)a.friction.position.position_m.push_back(start_.knots_m[i]);
+      (void)a.friction.position.position_m.push_back(places_m[i]);
       (void)a.friction.position.friction_Nm.push_back(std::exp(p[kKnots + static_cast<int>(i)]) -
                                                       lowest);
     }
     return a;
+  }
+  [[nodiscard]] std::vector<double> knots_of(const double* p) const {
+    auto places_m = start_.knots_m;
+    for (int i = 0; i < moving(); ++i) {
+      places_m[static_cast<std::size_t>(i) + 1] = p[first_place() + i] * kPlaceUnit_m;
+    }
+    return places_m;
   }
   [[nodiscard]] DrivePath path_of(const double* p) const {
     auto path = start_.path;
@@ -94,7 +124,7 @@ class Problem {
     return simulate_counts(axis_of(p), path_of(p), data_, axis_);
   }
 
-  [[nodiscard]] bool residuals(const double* p, double* out) const {
+  [[nodiscard]] bool leave(const double* p, double* out) const {
     const auto simulated = simulate(p);
     if (!simulated) {
       return false;
@@ -120,10 +150,59 @@ class Problem {
     out[2] = pull(kShare, start_.share_known);
     out[3] = pull(kDelay, 3.0);
     out[4] = pull(kPlace, 0.2);
+    for (int i = 0; i < moving(); ++i) {
+      out[kFixedPriors + i] = pull(first_place() + i, start_.knots_known_m / kPlaceUnit_m);
+    }
+  }
+
+  [[nodiscard]] double step_of(int i) const {
+    const bool share = i == kShare || i == kPlace;
+    return share ? 1e-3 : (i == kDelay || i >= first_place() ? 1e-2 : 2e-4);
+  }
+
+  // While inertia, friction and swing are still wrong, what shows in small things only would make
+  // up for them, and be stuck at the end of its range.
+  [[nodiscard]] Bounds swing_only(const Eigen::VectorXd& p) const {
+    constexpr double kHeld = 1e-6;
+    auto bounds = bounds_around(p);
+    for (int i = 0; i < p.size(); ++i) {
+      if (i == kExcess || i == kStribeck || i == kShare || i == kDelay || i == kPlace ||
+          i >= first_place()) {
+        bounds.low[i] = std::max(bounds.low[i], p[i] - kHeld);
+        bounds.high[i] = std::min(bounds.high[i], p[i] + kHeld);
+      }
+    }
+    return bounds;
+  }
+
+  [[nodiscard]] Bounds bounds_around(const Eigen::VectorXd& p) const {
+    Bounds bounds{.low = p, .high = p};
+    const auto bound = [&](int i, double low, double high) {
+      bounds.low[i] = low;
+      bounds.high[i] = high;
+    };
+    for (int i = 0; i < first_place(); ++i) {
+      const double room = i == kViscous || i == kDamping || i == kExcess ? 3.0 : 1.6;
+      bound(i, p[i] - room, p[i] + room);
+    }
+    bound(kShare, 0.02, 0.98);
+    bound(kDelay, 0.0, 9.9);
+    bound(kPlace, 0.0, 0.7);
+    // No knot passes another one, whatever its neighbour does.
+    for (int i = 0; i < moving(); ++i) {
+      const auto knot = static_cast<std::size_t>(i) + 1;
+      const auto& x = start_.knots_m;
+      bound(first_place() + i, (x[knot] - kNearer * (x[knot] - x[knot - 1])) / kPlaceUnit_m,
+            (x[knot] + kNearer * (x[knot + 1] - x[knot])) / kPlaceUnit_m);
+    }
+    return bounds;
   }
 
  private:
   static constexpr double kPriorWeight = 10;
+  static constexpr int kFixedPriors = 5;
+  static constexpr double kPlaceUnit_m = 0.01;
+  static constexpr double kNearer = 0.4;  // of the way to a neighbour
   const TwoMassStart& start_;
   const Recording& data_;
   core::Axis axis_;
@@ -132,37 +211,16 @@ class Problem {
   std::vector<std::size_t> rows_;
 };
 
-constexpr double step_of(int i) {
-  return i == kShare || i == kPlace ? 1e-3 : (i == kDelay ? 1e-2 : 2e-4);
-}
-
 // By differences alone the way to the minimum is dearer and less often lost.
 enum class Way { kQuick, kCareful };
 
 SecantCost cost_of(const Problem& problem, Way way) {
   std::vector<double> steps;
   for (int i = 0; i < problem.parameters(); ++i) {
-    steps.push_back(step_of(i));
+    steps.push_back(problem.step_of(i));
   }
-  return {[&problem](const double* p, double* out) { return problem.residuals(p, out); },
-          problem.data_residuals() + Problem::kPriors, std::move(steps),
-          way == Way::kQuick ? 0.5 : 0.0};
-}
-
-Bounds bounds_around(const Eigen::VectorXd& p) {
-  Bounds bounds{.low = p, .high = p};
-  const auto bound = [&](int i, double low, double high) {
-    bounds.low[i] = low;
-    bounds.high[i] = high;
-  };
-  for (int i = 0; i < p.size(); ++i) {
-    const double room = i == kViscous || i == kDamping || i == kExcess ? 3.0 : 1.6;
-    bound(i, p[i] - room, p[i] + room);
-  }
-  bound(kShare, 0.02, 0.98);
-  bound(kDelay, 0.0, 9.9);
-  bound(kPlace, 0.0, 0.7);
-  return bounds;
+  return {[&problem](const double* p, double* out) { return problem.leave(p, out); },
+          problem.residuals(), std::move(steps), way == Way::kQuick ? 0.5 : 0.0};
 }
 
 TwoMassFit fit_from(const TwoMassStart& start, const Recording& data, core::Axis axis, Way way) {
@@ -173,23 +231,23 @@ TwoMassFit fit_from(const TwoMassStart& start, const Recording& data, core::Axis
   Eigen::VectorXd p = coarse.first();
   auto first = cost_of(coarse, way);
   auto cost = cost_of(fine, way);
-  fit.converged = minimise(first, {.bounds = bounds_around(p), .tolerance = 1e-3, .most_rounds = 1},
-                           p, fit.message);
-  fit.converged = fit.converged &&
-                  minimise(cost, {.bounds = bounds_around(p), .tolerance = 1e-7}, p, fit.message);
+  fit.converged = minimise(
+      first, {.bounds = coarse.swing_only(p), .tolerance = 1e-3, .most_rounds = 1}, p, fit.message);
+  fit.converged =
+      fit.converged &&
+      minimise(cost, {.bounds = fine.bounds_around(p), .tolerance = 1e-7}, p, fit.message);
   fit.axis = fine.axis_of(p.data());
   fit.path = fine.path_of(p.data());
   if (auto counts = fine.simulate(p.data())) {
     fit.simulated_counts = std::move(*counts);
   }
-  const int n = fine.parameters();
   const int m = fine.data_residuals();
   if (!fit.converged) {
     return fit;
   }
   const auto& residual = cost.residual();
   const auto& jacobian = cost.jacobian();
-  const Eigen::MatrixXd priors = jacobian.bottomRows(Problem::kPriors);
+  const Eigen::MatrixXd priors = jacobian.bottomRows(fine.prior_residuals());
   const Eigen::MatrixXd covariance =
       sandwich(jacobian.topRows(m), residual.head(m), priors.transpose() * priors, fine.lags());
   const auto deviation = [&](int i) { return std::sqrt(std::max(0.0, covariance(i, i))); };
@@ -202,7 +260,8 @@ TwoMassFit fit_from(const TwoMassStart& start, const Recording& data, core::Axis
   fit.excess_Nm = std::exp(p[kExcess]);
   fit.excess_deviation_Nm = fit.excess_Nm * deviation(kExcess);
   fit.stribeck_deviation = fit.axis.friction.stribeck_speed_rad_per_s * deviation(kStribeck);
-  for (int i = kKnots; i < n; ++i) {
+  fit.knots_m = fine.knots_of(p.data());
+  for (int i = kKnots; i < fine.first_place(); ++i) {
     fit.coulomb_Nm.push_back(std::exp(p[i]));
     fit.coulomb_deviation_Nm.push_back(std::exp(p[i]) * deviation(i));
   }
@@ -218,31 +277,43 @@ TwoMassFit fit_two_mass(const TwoMassStart& start, const Recording& data, core::
   constexpr double kStuck_counts = 2;
   constexpr double kRight_counts = 0.5;
   auto best = fit_from(start, data, axis, Way::kQuick);
-  const auto better = [&](const TwoMassStart& other, Way way) {
-    auto fit = fit_from(other, data, axis, way);
-    if (fit.converged && (!best.converged || fit.residual_rms_counts < best.residual_rms_counts)) {
+  const auto leaves_more_than = [&](double counts) {
+    return !best.converged || best.residual_rms_counts > counts;
+  };
+  // Whether it led somewhere else.
+  const auto another = [&](const TwoMassStart& from, Way way) {
+    constexpr double kSame = 0.01;
+    const double left = best.residual_rms_counts;
+    auto fit = fit_from(from, data, axis, way);
+    const bool same = fit.converged && std::fabs(fit.residual_rms_counts - left) < kSame * left;
+    if (fit.converged && leaves_more_than(fit.residual_rms_counts)) {
       best = std::move(fit);
     }
+    return !same;
   };
-  for (const double factor : {1.0, 0.7, 1.4}) {
-    if (best.converged && best.residual_rms_counts < kStuck_counts) {
-      break;
-    }
-    auto other = start;
-    other.axis.chain.resonance_Hz *= factor;
-    better(other, Way::kCareful);
-  }
-  if (best.converged && best.residual_rms_counts > kRight_counts &&
-      best.residual_rms_counts < kStuck_counts) {
+  bool lost = leaves_more_than(kRight_counts);
+  if (lost && !leaves_more_than(kStuck_counts)) {
     // From there, with the rise towards standstill where it was first believed.
     auto other = start;
     const auto& friction = start.axis.friction;
     other.axis = best.axis;
+    other.knots_m = best.knots_m;
     other.coulomb_Nm = best.coulomb_Nm;
     other.axis.friction.stribeck_speed_rad_per_s = friction.stribeck_speed_rad_per_s;
     other.axis.friction.breakaway_Nm =
         best.axis.coulomb_friction_Nm + friction.breakaway_Nm - start.axis.coulomb_friction_Nm;
-    better(other, Way::kQuick);
+    // Twice the same end is no bad luck but what the model leaves.
+    lost = another(other, Way::kQuick) && leaves_more_than(kRight_counts);
+  }
+  if (lost) {
+    (void)another(start, Way::kCareful);
+  }
+  for (const double factor : {0.7, 1.4}) {
+    if (leaves_more_than(kStuck_counts)) {
+      auto other = start;
+      other.axis.chain.resonance_Hz *= factor;
+      (void)another(other, Way::kCareful);
+    }
   }
   return best;
 }

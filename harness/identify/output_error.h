@@ -7,7 +7,9 @@
 // over a span s: what the model leaves out cannot pile up over the whole run. Minimised by Ceres.
 //
 // Friction is C + tau_P(x), tau_P piecewise linear between `knots_m`; what is estimated is its
-// value at each knot. Torques scale with K_T K_amp, which encoder and duty cannot show.
+// value at each knot and, on request, where the inner ones stand: the motor remembers for J/B, so a
+// bend that is 3 mm off is seen a metre later. Torques scale with K_T K_amp, which encoder and duty
+// cannot show.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,6 +25,7 @@ struct TwoMassStart {
   DrivePath path;
   std::vector<double> knots_m{};     // ascending, at least one
   std::vector<double> coulomb_Nm{};  // first guess at each knot; empty: the axis's own
+  double knots_known_m = 0;          // standard deviation of an inner knot's place; 0: exact
   // How well the first guess is known, as a standard deviation of its logarithm; 0: not at all.
   double stribeck_known = 0;
   double excess_known = 0;
@@ -33,6 +36,7 @@ struct TwoMassStart {
 struct TwoMassFit {
   emulator::AxisParameters axis;
   DrivePath path;
+  std::vector<double> knots_m;
   std::vector<double> coulomb_Nm;  // at each knot
   std::vector<double> coulomb_deviation_Nm;
   double inertia_deviation = 0;

@@ -22,7 +22,6 @@ ProcedureOutcome study_log(const ProcedureContext& context, const BroughtLog& lo
     report_two_mass({.context = context,
                      .data = log.recording,
                      .fit = fit,
-                     .knots_m = start.knots_m,
                      .knots_are_bends = false,
                      .cutoff_Hz = kCutoff_Hz,
                      .procedure = "log",

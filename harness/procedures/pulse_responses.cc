@@ -66,7 +66,6 @@ class PulseResponses final : public Procedure {
         {.context = context,
          .data = data,
          .fit = fit,
-         .knots_m = start.knots_m,
          .knots_are_bends = !start.coulomb_Nm.empty(),
          .cutoff_Hz = settings.cutoff_Hz,
          .procedure = "EXP-OL-2",

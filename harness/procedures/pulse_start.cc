@@ -48,6 +48,8 @@ identify::TwoMassStart pulse_start(const ProcedureContext& context, const identi
                                    double spacing_m) {
   // A bend nearer to an end of the pulses than that cannot be told from the end's own level.
   constexpr double kNearEnd = 0.03;
+  constexpr double kBendKnown = 0.02;  // of the way: three times what bends were seen to be off
+  constexpr double kLeastLoad = 1.05;  // J over the rotor's own
   identify::TwoMassStart start{.axis = believed_axis(context), .path = believed_path(context)};
   // The swing that a coast shows is the free-free mode itself.
   start.axis.chain.resonance_Hz = value_or(context, "swing_Hz", start.axis.chain.resonance_Hz);
@@ -75,11 +77,17 @@ identify::TwoMassStart pulse_start(const ProcedureContext& context, const identi
     }
   }
   start.knots_m.push_back(to);
+  start.knots_known_m = kBendKnown * (to - from);
   for (const double knot : start.knots_m) {
     start.coulomb_Nm.push_back(sliding.at(knot));
   }
   start.axis.viscous_friction_Nm_s_per_rad =
       value_or(context, "steady_viscous_Nm_s_per_rad", start.axis.viscous_friction_Nm_s_per_rad);
+  // J/B of the coasts: from the inertia that was believed the search may end beside the swing.
+  if (const auto* time_s = context.find("mechanical_time_constant_s")) {
+    start.axis.inertia_kg_m2 = std::max(time_s->value * start.axis.viscous_friction_Nm_s_per_rad,
+                                        kLeastLoad * start.axis.rotor_inertia_kg_m2);
+  }
   start.axis.coulomb_friction_Nm =
       *std::min_element(start.coulomb_Nm.begin(), start.coulomb_Nm.end());
   const double excess = excess_of(context, sliding);

@@ -14,7 +14,6 @@ struct TwoMassReport {
   const ProcedureContext& context;
   const identify::Recording& data;
   const identify::TwoMassFit& fit;
-  const std::vector<double>& knots_m;
   bool knots_are_bends = false;  // they stand where friction was seen to bend
   double cutoff_Hz = 20;         // of the filter before least squares
   std::string procedure;         // id that the estimates carry
