@@ -14,16 +14,41 @@ namespace {
 
 using nlohmann::json;
 
-// Digits enough for a tenth of a count over the whole tank, and a third of the bytes.
-void add(std::string& text, double value) {
-  text += std::isfinite(value) ? fmt::format(",{:.8g}", value) : ",null";
+// A number as a whole one with a power of ten, "-1234567e-8": a frame holds thousands, and whole
+// ones are written ten times as fast.
+void add(std::string& text, double value, double parts, std::string_view power) {
+  constexpr double kMost = 9e18;  // of std::int64_t
+  const double scaled = value * parts;
+  if (!(std::fabs(scaled) < kMost)) {
+    text += "null";
+    return;
+  }
+  const auto whole = fmt::format_int(std::llround(scaled));
+  text.append(whole.data(), whole.size());
+  if (whole.size() != 1 || *whole.data() != '0') {
+    text += power;
+  }
 }
+// 10 nm and 10 nm/s: a two-hundredth of a count.
+void add(std::string& text, double value) {
+  text += ',';
+  add(text, value, 1e8, "e-8");
+}
+// A, N, % of duty, and speeds to a micrometre a second.
 void add(std::string& text, float value) {
-  text += std::isfinite(value) ? fmt::format(",{:.5g}", value) : ",null";
+  text += ',';
+  add(text, static_cast<double>(value), 1e6, "e-6");
+}
+template <typename Integer>
+void add_whole(std::string& text, Integer value) {
+  const auto digits = fmt::format_int(value);
+  text += ',';
+  text.append(digits.data(), digits.size());
 }
 
-std::string begin_row(const std::string& text, core::Nanoseconds time_ns) {
-  return fmt::format("{}[{:.6f}", text.empty() ? "" : ",", core::seconds(time_ns));
+void begin_row(std::string& text, core::Nanoseconds time_ns) {
+  text += text.empty() ? "[" : ",[";
+  add(text, core::seconds(time_ns), 1e6, "e-6");
 }
 
 }  // namespace
@@ -91,19 +116,19 @@ std::string FrameMaker::rows_text() {
   }
   std::string text;
   for (const auto& [live, position_m, speeds] : thinned(seen_)) {
-    text += begin_row(text, live.time_ns);
+    begin_row(text, live.time_ns);
     for (const auto axis : core::kAxes) {
       add(text, live.reference_m[axis]);
       add(text, position_m[axis]);
       add(text, live.reference_velocity_m_per_s[axis]);
       add(text, live.velocity_m_per_s[axis]);
       add(text, live.duty_pct[axis]);
-      text += fmt::format(",{}", live.mode[axis]);
+      add_whole(text, live.mode[axis]);
       for (const double speed : speeds[axis]) {
         add(text, speed);
       }
     }
-    text += fmt::format(",{}", live.fault);
+    add_whole(text, live.fault);
     for (const float force : live.force_N) {
       add(text, live.has_force ? force : std::nanf(""));
     }
@@ -130,14 +155,15 @@ std::string FrameMaker::truths_text() {
   take_truths();
   std::string text;
   for (const auto& row : thinned(truths_)) {
-    text += begin_row(text, row.time_ns);
+    begin_row(text, row.time_ns);
     for (const auto axis : core::kAxes) {
       add(text, row.carriage_m[axis]);
       add(text, row.carriage_speed_m_per_s[axis]);
       add(text, row.current_A[axis]);
       add(text, row.chain_force_N[axis]);
     }
-    text += fmt::format(",{}]", row.input_lines);
+    add_whole(text, row.input_lines);
+    text += ']';
   }
   return text;
 }
