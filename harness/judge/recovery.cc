@@ -95,7 +95,7 @@ struct Demand {
 };
 
 // experiments.md, "must show".
-const std::array<Demand, 18> kDemands{{
+const std::array<Demand, 20> kDemands{{
     {"torque_constant_Nm_per_A", 1,
      [](const auto&, const auto& a, const auto&) { return a.plant.torque_constant_Nm_per_A; }},
     {"amplifier_gain_A_per_V", 1,
@@ -134,6 +134,12 @@ const std::array<Demand, 18> kDemands{{
      [](const auto&, const auto& a, const auto&) {
        return a.hall_max.position_m - a.hall_min.position_m;
      }},
+    {"map_coulomb_Nm", 10,
+     [](const auto&, const auto& a, const auto& e) {
+       return a.plant.coulomb_friction_Nm + position_friction_at(a.plant, e);
+     }},
+    {"map_viscous_Nm_s_per_rad", 10,
+     [](const auto&, const auto& a, const auto&) { return a.plant.viscous_friction_Nm_s_per_rad; }},
     {"map_stribeck_rad_per_s", 10,
      [](const auto&, const auto& a, const auto&) {
        return a.plant.friction.stribeck_speed_rad_per_s;

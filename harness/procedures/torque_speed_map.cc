@@ -4,9 +4,9 @@
 // in all of them and the law of speed stands alone.
 //
 // Below the Stribeck speed the carriage can stick and slip on its chain while the motor runs
-// evenly: the mean torque is then below the friction at that speed and the law's fall looks too
-// steep. The same experiment on the identified plant says by how much, and the Stribeck speed is
-// corrected.
+// evenly: the mean torque is then below the friction at that speed, the law's fall looks too steep
+// and its line too flat. The same experiment on the identified plant says by how much, and the law
+// is corrected.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -14,12 +14,14 @@
 #include <fmt/format.h>
 
 #include "harness/fixtures/rig_fixture.h"
+#include "harness/identify/bent_line.h"
 #include "harness/identify/friction_law.h"
 #include "harness/identify/window_means.h"
 #include "harness/procedures/believed_model.h"
 #include "harness/procedures/identified_plant.h"
 #include "harness/procedures/procedures.h"
 #include "harness/procedures/settings.h"
+#include "harness/procedures/steady_speeds.h"
 
 namespace towbench::harness::procedures {
 namespace {
@@ -112,42 +114,47 @@ class TorqueSpeedMap final : public Procedure {
     return known == nullptr ? std::nullopt : std::optional(known->value);
   }
 
+  // By what a law that is seen is to be multiplied; 0: not known.
+  struct Correction {
+    double stribeck = 0;
+    double coulomb = 0;
+    double viscous = 0;
+  };
+
+  // C and what belongs to the place.
+  static double friction_at(const emulator::AxisParameters& axis, double place_m) {
+    const auto& table = axis.friction.position;
+    identify::BentLine of_place;
+    of_place.x.assign(table.position_m.begin(), table.position_m.end());
+    of_place.y.assign(table.friction_Nm.begin(), table.friction_Nm.end());
+    return axis.coulomb_friction_Nm + of_place.at(place_m);
+  }
+
   // The same experiment on the identified plant, whose law is known: what it shows of that law is
-  // what such an experiment shows, stick-slip of the carriage included. The factor by which the
-  // Stribeck speed seen is to be multiplied; 0 when there is no such plant.
-  static double shown_by_twin(const ProcedureContext& context, const Settings& settings,
-                              const std::vector<double>& speeds, double middle_m) {
+  // what such an experiment shows, stick-slip of the carriage included. Nothing when there is no
+  // such plant.
+  static std::optional<Correction> shown_by_twin(const ProcedureContext& context,
+                                                 const Settings& settings,
+                                                 const std::vector<double>& speeds,
+                                                 double middle_m) {
     const auto* known = context.find("stribeck_speed_rad_per_s");
     if (known == nullptr || context.find("inertia_kg_m2") == nullptr) {
-      return 0;
+      return std::nullopt;
     }
     const auto plant = read_plant(FixtureFile::parse(
         identified_plant(context.machine, context.known), "identified_plant.toml"));
-    const auto twin = context.machine.twin(context.axis, plant.parameters.axes[context.axis].plant);
+    const auto& of_twin = plant.parameters.axes[context.axis].plant;
+    const auto twin = context.machine.twin(context.axis, of_twin);
     const auto seen = collect({.machine = twin, .axis = context.axis, .known = context.known},
                               settings, speeds, middle_m, 0);
     const auto law = identify::fit_friction_law(seen.runs, known->value, excess_of(context));
-    return seen.trouble.empty() && law.found && law.excess_Nm > 0
-               ? known->value / law.stribeck_rad_per_s
-               : 0;
-  }
-
-  // 1-10 mm/s by 1, 1-10 cm/s by 1, 10-40 cm/s by 10 (experiments.md).
-  static std::vector<double> speeds_up_to(double top) {
-    std::vector<double> speeds;
-    for (int i = 1; i <= 10; ++i) {
-      speeds.push_back(1e-3 * i);
+    if (!seen.trouble.empty() || !law.found || !(law.excess_Nm > 0) ||
+        !(law.viscous_Nm_s_per_rad > 0)) {
+      return std::nullopt;
     }
-    for (int i = 2; i <= 10; ++i) {
-      speeds.push_back(1e-2 * i);
-    }
-    for (int i = 2; i <= 4; ++i) {
-      speeds.push_back(1e-1 * i);
-    }
-    while (!speeds.empty() && speeds.back() > top) {
-      speeds.pop_back();
-    }
-    return speeds;
+    return Correction{.stribeck = known->value / law.stribeck_rad_per_s,
+                      .coulomb = friction_at(of_twin, middle_m) / law.coulomb_Nm,
+                      .viscous = of_twin.viscous_friction_Nm_s_per_rad / law.viscous_Nm_s_per_rad};
   }
 
   static identify::Recording play(const ProcedureContext& context, double speed, double whole,
@@ -204,21 +211,6 @@ class TorqueSpeedMap final : public Procedure {
     return stalled;
   }
 
-  static bool sticks(const identify::Recording& data, core::Axis axis, std::size_t from,
-                     std::size_t to, double speed) {
-    // Over 20 counts of way or 20 ms, whichever is longer, the speed stays within a third.
-    const double span_s = std::max(0.02, 20 * data.metres_per_count[axis] / speed);
-    const auto span = static_cast<std::size_t>(std::lround(span_s / data.period_s));
-    for (std::size_t k = from + span; k < to; k += span / 2 + 1) {
-      const double v = std::fabs(data.position_m(axis, k) - data.position_m(axis, k - span)) /
-                       (data.time_s[k] - data.time_s[k - span]);
-      if (std::fabs(v / speed - 1) > 0.35) {
-        return true;
-      }
-    }
-    return false;
-  }
-
   static ProcedureOutcome judged(const ProcedureContext& context, const Settings& settings,
                                  const std::vector<double>& speeds, const Collected& measured,
                                  double middle_m) {
@@ -247,24 +239,30 @@ class TorqueSpeedMap final : public Procedure {
            .procedure = "EXP-CL-1"},
           std::hypot(deviation, scales ? value * scale.relative_deviation : 0.0)));
     };
-    add("map_coulomb_Nm", law.coulomb_Nm, law.coulomb_deviation_Nm, "N m", true);
-    outcome.estimates.back().at = middle_m;
     add("map_excess_Nm", law.excess_Nm, law.excess_deviation_Nm, "N m", true);
-    const double correction = shown_by_twin(context, settings, speeds, middle_m);
+    const auto correction = shown_by_twin(context, settings, speeds, middle_m);
     context.tell(1);
-    if (correction > 0) {
+    if (correction) {
       // Twice: the twin's own reading has the same spread.
-      add("map_stribeck_rad_per_s", law.stribeck_rad_per_s * correction,
-          std::sqrt(2.0) * law.stribeck_deviation * correction, "rad/s", false);
+      const auto add_corrected = [&](const char* quantity, double seen, double deviation,
+                                     double factor, const char* unit, bool scales) {
+        add(quantity, seen * factor, std::sqrt(2.0) * deviation * factor, unit, scales);
+      };
+      add_corrected("map_stribeck_rad_per_s", law.stribeck_rad_per_s, law.stribeck_deviation,
+                    correction->stribeck, "rad/s", false);
+      add_corrected("map_viscous_Nm_s_per_rad", law.viscous_Nm_s_per_rad, law.viscous_deviation,
+                    correction->viscous, "N m s/rad", true);
+      add_corrected("map_coulomb_Nm", law.coulomb_Nm, law.coulomb_deviation_Nm, correction->coulomb,
+                    "N m", true);
+      outcome.estimates.back().at = middle_m;
     }
-    add("map_viscous_Nm_s_per_rad", law.viscous_Nm_s_per_rad, law.viscous_deviation, "N m s/rad",
-        true);
     add_pictures(runs, law, stalled, correction, outcome);
     return outcome;
   }
 
   static void add_pictures(const std::vector<SteadyRun>& runs, const identify::FrictionLaw& law,
-                           std::size_t stalled, double correction, ProcedureOutcome& outcome) {
+                           std::size_t stalled, const std::optional<Correction>& correction,
+                           ProcedureOutcome& outcome) {
     Curve measured{.name = "steady runs, 95 %", .mark = Mark::kDots};
     Curve fitted{.name = "law"};
     Curve places{.name = "steady runs", .mark = Mark::kDots};
@@ -288,13 +286,20 @@ class TorqueSpeedMap final : public Procedure {
                                .y_label = "torque, mN m",
                                .curves = {std::move(measured), std::move(fitted)},
                                .caption = "Compare Figs 7.10 to 7.12."});
-    outcome.tables.push_back(
-        {.title = "Stribeck speed, rad/s",
-         .head = {"seen", "a twin whose law is known shows it by a factor of", "corrected"},
-         .rows = {{fmt::format("{:.2f}", law.stribeck_rad_per_s),
-                   correction > 0 ? fmt::format("{:.2f}", 1 / correction) : "no twin: no model yet",
-                   correction > 0 ? fmt::format("{:.2f}", law.stribeck_rad_per_s * correction)
-                                  : "withheld"}}});
+    ResultTable corrected{
+        .title = "The law, seen and corrected",
+        .head = {"", "seen", "a twin whose law is known shows it by a factor of", "corrected"}};
+    const auto row = [&](const char* name, double seen, double Correction::*factor) {
+      corrected.rows.push_back(
+          {name, fmt::format("{:.4g}", seen),
+           correction ? fmt::format("{:.3f}", 1 / ((*correction).*factor))
+                      : "no twin: no model yet",
+           correction ? fmt::format("{:.4g}", seen * ((*correction).*factor)) : "withheld"});
+    };
+    row("Stribeck speed, rad/s", law.stribeck_rad_per_s, &Correction::stribeck);
+    row("C at the place, N m", law.coulomb_Nm, &Correction::coulomb);
+    row("B, N m s/rad", law.viscous_Nm_s_per_rad, &Correction::viscous);
+    outcome.tables.push_back(std::move(corrected));
     outcome.figures.push_back({.title = "Torque against position",
                                .x_label = "position, m",
                                .y_label = "torque, mN m",
