@@ -10,11 +10,11 @@ std::vector<std::unique_ptr<Procedure>> identification_procedures() {
   all.push_back(time_constant());
   all.push_back(saturation_speed());
   all.push_back(smallest_command());
-  all.push_back(relay_tuning());
   all.push_back(break_away_map());
   all.push_back(torque_place_map());
   all.push_back(pulse_responses());
-  all.push_back(safe_range());  // takes the chain's stretch off by what the pulses have found
+  all.push_back(relay_tuning());  // its guard takes off the swing that the pulses have found
+  all.push_back(safe_range());    // takes the chain's stretch off by what the pulses have found
   all.push_back(torque_speed_map());
   all.push_back(validation());
   return all;
