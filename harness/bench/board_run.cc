@@ -4,9 +4,7 @@
 
 #include "harness/bench/firmware_faults.h"
 #include "harness/bench/firmware_run.h"
-#include "harness/bench/in_process_plant.h"
 #include "harness/fixtures/fixture_error.h"
-#include "harness/record/plant_recorder.h"
 
 namespace towbench::harness {
 namespace {
@@ -15,14 +13,20 @@ constexpr const char* kTwinFolder = "twin";
 
 }  // namespace
 
-BoardRun::BoardRun(const ExperimentFixture& fixture, const RunOptions& options)
+BoardRun::BoardRun(const ExperimentFixture& fixture, const RunOptions& options, std::uint64_t seed)
     : options_(options), fixture_(fixture) {
   if (options.person_at_console) {
     fixture_.experiment.budgets_apply = false;  // they speak of the script
   }
   if (!fixture.experiment.faults.empty()) {
-    sound_ = fixture_;
-    fixture_ = with_faults_of_machine(*sound_);
+    refuse_faults_beyond_machine(fixture.experiment.faults);
+    const auto sound = fixture_;
+    twin_ = std::make_unique<BoardTwin>(sound, options.firmware, seed);
+    const auto prepared = prepare_for_image(sound, twin_->record());
+    if (const auto pressed = pressed_where_welded(sound, prepared)) {
+      twin_ = std::make_unique<BoardTwin>(*pressed, options.firmware, seed);
+    }
+    fixture_ = with_faults(sound, prepared);
   }
 }
 
@@ -31,18 +35,10 @@ RunOutcome BoardRun::play(const std::filesystem::path& folder, PlantEnd& plant, 
   return run_firmware(fixture_, how, folder, {plant, truth}, options_.watchers, checks_);
 }
 
-void BoardRun::play_twin(const std::filesystem::path& folder, std::uint64_t seed) const {
-  if (!sound_) {
-    return;
+void BoardRun::keep_twin(const std::filesystem::path& folder) const {
+  if (twin_) {
+    twin_->copy_to(folder / kTwinFolder);
   }
-  std::filesystem::create_directory(folder / kTwinFolder);
-  PlantRecorder recorder(folder / kTwinFolder, nullptr);
-  BoardTruth truth(recorder);
-  InProcessPlant plant(sound_->rig.parameters, seed, sound_->experiment.events, truth);
-  std::vector<Check> unused;
-  (void)run_firmware(*sound_, {.image = options_.firmware}, folder / kTwinFolder, {plant, truth},
-                     {}, unused);
-  recorder.flush();
 }
 
 void BoardRun::judge_into(const std::filesystem::path& folder, Judgement& judgement) const {
@@ -60,11 +56,11 @@ void BoardRun::judge_into(const std::filesystem::path& folder, Judgement& judgem
   if (goes_dark) {
     drop("log_complete");  // an image without a supply logs nothing
   }
-  if (sound_ || (!faults.empty() && !fixture_.experiment.budgets_apply)) {
+  if (twin_ || (!faults.empty() && !fixture_.experiment.budgets_apply)) {
     drop("console_script");  // it speaks of the sound machine
   }
   checks.insert(checks.begin(), checks_.begin(), checks_.end());
-  if (sound_) {
+  if (twin_) {
     const auto beside = judge_beside_twin(folder, folder / kTwinFolder);
     checks.insert(checks.begin(), beside.begin(), beside.end());
   }

@@ -4,10 +4,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "harness/bench/board_truth.h"
+#include "harness/bench/board_twin.h"
 #include "harness/bench/experiment_run.h"
 #include "harness/bench/plant_end.h"
 
@@ -16,21 +17,21 @@ namespace towbench::harness {
 class BoardRun {
  public:
   // The options outlive this. Throws FixtureError for a fault that cannot be here.
-  BoardRun(const ExperimentFixture& fixture, const RunOptions& options);
+  BoardRun(const ExperimentFixture& fixture, const RunOptions& options, std::uint64_t seed);
 
   // What is to be run: with the faults of the machine as events and as built.
   [[nodiscard]] const ExperimentFixture& fixture() const noexcept { return fixture_; }
   [[nodiscard]] RunOutcome play(const std::filesystem::path& folder, PlantEnd& plant,
                                 BoardTruth& truth);
-  // After play(), and before the judge: the same image without the machine's faults, beside which
-  // they are judged, in a folder of its own below.
-  void play_twin(const std::filesystem::path& folder, std::uint64_t seed) const;
+  // Before the judge: the record of the same image without the machine's faults, in a folder of its
+  // own below.
+  void keep_twin(const std::filesystem::path& folder) const;
   // Adds the verdicts on faults and budgets, and drops what speaks of a sound board or machine.
   void judge_into(const std::filesystem::path& folder, Judgement& judgement) const;
 
  private:
   const RunOptions& options_;
-  std::optional<ExperimentFixture> sound_;  // of a machine with faults
+  std::unique_ptr<BoardTwin> twin_;  // of a machine with faults
   ExperimentFixture fixture_;
   std::vector<Check> checks_;
 };

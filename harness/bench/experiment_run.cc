@@ -53,7 +53,7 @@ class Run {
     if (options.firmware.empty()) {
       refuse_board_plan(fixture);
     } else {
-      fixture_ = board_.emplace(fixture, options).fixture();
+      fixture_ = board_.emplace(fixture, options, seed_of(fixture, options)).fixture();
     }
     if (options.hand != nullptr) {
       given_ = fixture;
@@ -91,7 +91,7 @@ class Run {
     result.reason = outcome.reason;
     if (outcome.complete) {
       if (board_) {
-        board_->play_twin(folder_, identity_.seed);
+        board_->keep_twin(folder_);
       }
       merge_events(folder_);
       if (!faults_ || !faults_->kills_host()) {

@@ -19,6 +19,7 @@ FirmwareBench::FirmwareBench(board::Board& board, const BoardWiring& wiring, std
       wiring_(wiring),
       plant_(machine.plant),
       truth_(machine.truth),
+      rows_(machine.rows),
       recorder_(recorder),
       node_(board, wiring, axes_mask, rig_hash),
       duty_watch_(&recorder),
@@ -148,11 +149,17 @@ void FirmwareBench::take_rows() {
       edges_told_[axis] = decoded.edges[axis];
     }
     recorder_.row(row);
+    if (rows_ != nullptr) {
+      rows_->log.push_back(row);
+    }
   }
   bbmc::SystemEvent event;
   while (probe_.next_event(event)) {
     event.time_ns += row_offset_ns_;
     recorder_.event(event);
+    if (rows_ != nullptr) {
+      rows_->controller_events.push_back(event);
+    }
   }
 }
 

@@ -17,6 +17,7 @@
 #include "harness/bench/duty_watch.h"
 #include "harness/bench/firmware_node.h"
 #include "harness/bench/plant_end.h"
+#include "harness/faults/case_record.h"
 #include "harness/record/firmware_recorder.h"
 #include "protocol/tee_sink.h"
 
@@ -24,7 +25,8 @@ namespace towbench::harness {
 
 struct FirmwareMachine {
   PlantEnd& plant;
-  BoardTruth& truth;  // that observes it
+  BoardTruth& truth;           // that observes it
+  CaseRecord* rows = nullptr;  // takes the rows and events that an image tells; may be null
 };
 
 class FirmwareBench {
@@ -75,6 +77,7 @@ class FirmwareBench {
   const BoardWiring& wiring_;
   PlantEnd& plant_;
   BoardTruth& truth_;
+  CaseRecord* rows_;
   FirmwareRecorder& recorder_;
   FirmwareNode node_;
   DutyWatch duty_watch_;

@@ -14,20 +14,24 @@
 namespace towbench::harness {
 namespace {
 
-// Empty, or why it cannot be.
-const char* why_not(const Fault& fault) {
-  if (fault.place.part == FaultPart::kLink || fault.place.part == FaultPart::kHost) {
-    return "a fault of the machine: there is no link and no host between board and plant";
-  }
-  const bool built_in = fault.row().start == FaultStart::kWholeRun;
-  if (!built_in && fault.trigger.kind != FaultTrigger::Kind::kTime) {
-    return "at=TIME: other moments are found in a twin of the project's own controller";
-  }
-  if (fault.place.part == FaultPart::kEndStop && fault.kind == FaultKind::kBounce) {
-    return "another fault: when a contact bounces is found in a twin of the project's own "
-           "controller";
-  }
-  return nullptr;
+void refuse(const Fault& fault, const char* allowed) {
+  throw FixtureError({.file = "fault plan"},
+                     fmt::format("\"{}\" with an image on the virtual board", describe(fault)),
+                     allowed);
+}
+
+// What the controller's own record tells, beyond positions, speeds and lines of the machine.
+bool asks_controller(const FaultTrigger& trigger) {
+  return trigger.kind == FaultTrigger::Kind::kPhase ||
+         (trigger.kind == FaultTrigger::Kind::kEvent &&
+          (trigger.name == "motion" || trigger.name == "motion_end" || trigger.name == "fault"));
+}
+
+void add_events(ExperimentFixture& fixture, const std::vector<emulator::ScheduledEvent>& more) {
+  auto& events = fixture.experiment.events;
+  events.insert(events.end(), more.begin(), more.end());
+  std::stable_sort(events.begin(), events.end(),
+                   [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; });
 }
 
 // Time of the first line in which the files differ, in s; negative when none does.
@@ -62,26 +66,45 @@ std::size_t contacts_in(const std::filesystem::path& folder) {
 
 }  // namespace
 
-ExperimentFixture with_faults_of_machine(const ExperimentFixture& fixture) {
-  std::vector<core::Nanoseconds> onsets_ns;
-  for (const Fault& fault : fixture.experiment.faults) {
-    if (const char* why = why_not(fault)) {
-      throw FixtureError({.file = "fault plan"},
-                         fmt::format("\"{}\" with an image on the virtual board", describe(fault)),
-                         why);
+void refuse_faults_beyond_machine(const FaultPlan& faults) {
+  for (const Fault& fault : faults) {
+    if (fault.place.part == FaultPart::kLink || fault.place.part == FaultPart::kHost) {
+      refuse(fault, "a fault of the machine: there is no link and no host between board and plant");
     }
-    const bool built_in = fault.row().start == FaultStart::kWholeRun;
-    onsets_ns.push_back(built_in ? 0
-                                 : core::nanoseconds(fault.trigger.value + fault.trigger.after_s));
   }
-  auto faulted = fixture;
-  const auto prepared = prepare_at(fixture.experiment.faults, onsets_ns, fixture, CaseRecord());
-  auto& events = faulted.experiment.events;
-  events.insert(events.end(), prepared.injection.events.begin(), prepared.injection.events.end());
-  std::stable_sort(events.begin(), events.end(),
-                   [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; });
+}
+
+PreparedPlan prepare_for_image(const ExperimentFixture& sound, const CaseRecord& twin) {
+  for (const Fault& fault : sound.experiment.faults) {
+    if (twin.log.empty() && asks_controller(fault.trigger)) {
+      refuse(fault,
+             "a time, a position, a speed or the edge of a line: this image tells nobody of its "
+             "motions and faults");
+    }
+  }
+  return prepare(sound.experiment.faults, sound, twin);
+}
+
+ExperimentFixture with_faults(const ExperimentFixture& sound, const PreparedPlan& prepared) {
+  auto faulted = sound;
+  add_events(faulted, prepared.injection.events);
   faulted.rig.parameters = prepared.built;
   return faulted;
+}
+
+std::optional<ExperimentFixture> pressed_where_welded(const ExperimentFixture& sound,
+                                                      const PreparedPlan& prepared) {
+  std::optional<ExperimentFixture> pressed;
+  for (std::size_t i = 0; i < prepared.plan.size(); ++i) {
+    if (prepared.plan[i].kind == FaultKind::kWelded) {
+      if (!pressed) {
+        pressed = sound;
+      }
+      add_events(*pressed, {{.time_ns = prepared.onsets_ns[i] + kHandComes_ns,
+                             .kind = emulator::ScheduledEventKind::kPressKillSwitch}});
+    }
+  }
+  return pressed;
 }
 
 std::vector<Check> judge_beside_twin(const std::filesystem::path& folder,

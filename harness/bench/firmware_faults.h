@@ -1,19 +1,31 @@
-// Faults of the machine under an image on the virtual board. The image is a stranger: there is no
-// twin of it in memory, so that moments are given by time alone, and what a fault has changed is
-// read from the record of the same image's run without it.
+// Faults of the machine under an image on the virtual board. When they begin is found in the run of
+// the same image without them (board_twin.h), and what they have changed is read from both records.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "harness/experiment/experiment_fixture.h"
+#include "harness/faults/fault_case.h"
 #include "harness/judge/check.h"
 
 namespace towbench::harness {
 
-// The experiment with its faults as events and as built. Throws FixtureError for a fault that needs
-// more than the machine (link, host), another moment than a time, or the project's own controller.
-[[nodiscard]] ExperimentFixture with_faults_of_machine(const ExperimentFixture& fixture);
+// Throws FixtureError for a fault that needs more than the machine: a link, or a host.
+void refuse_faults_beyond_machine(const FaultPlan& faults);
+
+// The plan of a sound experiment, with its moments. Throws FixtureError for one that the twin does
+// not meet, or that only an image with a record of its own would tell.
+[[nodiscard]] PreparedPlan prepare_for_image(const ExperimentFixture& sound,
+                                             const CaseRecord& twin);
+// As events and as built.
+[[nodiscard]] ExperimentFixture with_faults(const ExperimentFixture& sound,
+                                            const PreparedPlan& prepared);
+// A welded contact shows only when somebody presses it: then the sound one, pressed too, is what
+// the fault is judged beside. None when no contact is welded.
+[[nodiscard]] std::optional<ExperimentFixture> pressed_where_welded(const ExperimentFixture& sound,
+                                                                    const PreparedPlan& prepared);
 
 // From the records of both runs: whether anything differs (INVALID when nothing does), and whether
 // the carriage met a hard end that it did not meet without.

@@ -120,8 +120,19 @@ class WordReader {
     const auto text = word_.substr(equals + 1);
     const bool taken = take_name(key, text) || take_number(key, text);
     if (!taken) {
+      refuse_without_unit(key, text);
       refuse(word_, fmt::format("at, position, speed, phase, event, after, for, seed{}",
                                 parameter_list()));
+    }
+  }
+
+  void refuse_without_unit(std::string_view key, std::string_view text) const {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kUnitOf{
+        {{"at", "s"}, {"after", "s"}, {"for", "s"}, {"position", "m"}, {"speed", "m/s"}}};
+    for (const auto& [name, unit] : kUnitOf) {
+      if (key == name) {
+        refuse(word_, fmt::format("a number with its unit, as {}={}{}", key, text, unit));
+      }
     }
   }
 

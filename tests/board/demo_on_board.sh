@@ -50,4 +50,7 @@ for run in "$out"/first/*/; do
     exit 1
   fi
 done
+# A fault of the machine, at a moment that the image's own run without it tells.
+"$bench" run circle --controller "firmware:$build/baremetal/bbmc.elf" --out "$out/fault" --quiet \
+  --fault 'kill_switch pressed phase=cruise after=1s' >"$out/fault.log" || { cat "$out/fault.log"; exit 1; }
 echo "the demo on the virtual board: $(wc -l <"$out/first.verdicts") experiments with loopback's verdicts, $compared files twice the same to the last byte"

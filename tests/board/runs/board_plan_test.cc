@@ -1,4 +1,5 @@
 // Faults of the board and budgets of the image: judged both ways, refused where they cannot be.
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -12,6 +13,13 @@
 
 namespace towbench::harness {
 namespace {
+
+// In the last row at or before a time.
+double carriage_at(const CsvTable& truth, double time_s) {
+  const auto times_s = truth.column("time_s");
+  const auto after = std::upper_bound(times_s.begin(), times_s.end(), time_s + 1e-9);
+  return truth.column("y_carriage_m")[static_cast<std::size_t>(after - times_s.begin()) - 1];
+}
 
 class BoardPlanRun : public testing::Test {
  protected:
@@ -133,6 +141,38 @@ at_s = 1.8
       << "the run ends before it";
   auto link = servo("[[fault]]\ncomponent = \"link.to_plant\"\nkind = \"loss\"\nat_s = 1.0\n");
   EXPECT_THROW((void)run_experiment(link, options_), FixtureError);
+}
+
+TEST_F(BoardPlanRun, MomentsAreFoundInTheSameImageWithoutTheFault) {
+  const auto with = [&](const std::string& when) {
+    auto fixture = servo("[[fault]]\ncomponent = \"encoder.y\"\nkind = \"frozen\"\n" + when + "\n");
+    fixture.experiment.budgets_apply = false;
+    return fixture;
+  };
+  const auto there = run_experiment(with("position_m = 0.5"), options_);
+  ASSERT_NE(check_named(there, "fault_fired"), nullptr) << complaints_of(there);
+  const auto truth = CsvTable::load(there.folder / "twin" / "truth.csv");
+  const auto fired_s = check_named(there, "fault_fired")->value.value_or(0);
+  EXPECT_NEAR(carriage_at(truth, fired_s), 0.5, 1e-3)
+      << "the carriage was there, without the fault";
+  EXPECT_THROW((void)run_experiment(with("position_m = 2.5"), options_), FixtureError)
+      << "it never comes there";
+  EXPECT_THROW((void)run_experiment(with("phase = \"cruise\""), options_), FixtureError)
+      << "this image has no log of its own";
+}
+
+TEST_F(BoardPlanRun, AWeldedKillSwitchIsJudgedBesideASoundOneThatIsPressedToo) {
+  const auto at = [&](const char* time) {
+    auto fixture = servo("[[fault]]\ncomponent = \"kill_switch\"\nkind = \"welded\"\nat_s = " +
+                         std::string(time) + "\n");
+    fixture.experiment.budgets_apply = false;
+    return run_experiment(fixture, options_);
+  };
+  const auto run = at("1.8");
+  ASSERT_NE(check_named(run, "fault_fired"), nullptr) << complaints_of(run);
+  EXPECT_EQ(check_named(run, "fault_fired")->verdict, Verdict::kPass);
+  EXPECT_NE(contents_of(run.folder / "twin" / "console.txt").find("killed at"), std::string::npos);
+  EXPECT_EQ(contents_of(run.folder / "console.txt").find("killed at"), std::string::npos);
 }
 
 TEST_F(BoardPlanRun, APersonTypesAtATerminalByTheWallClock) {

@@ -71,6 +71,7 @@ TEST(FaultWords, WhatIsNotUnderstoodIsRefusedOnOneLineThatHelps) {
   EXPECT_THAT(refusal_of("endstop.y_max displaced at=1s"), HasSubstr("built so"));
   EXPECT_THAT(refusal_of("endstop.y_max stuck_open at=-1s"), HasSubstr("0 <= x"));
   EXPECT_THAT(refusal_of("endstop.y_max stuck_open at=1h"), HasSubstr("a unit"));
+  EXPECT_THAT(refusal_of("endstop.y_max stuck_open position=0.6"), HasSubstr("position=0.6m"));
   EXPECT_THAT(refusal_of("endstop.y_max stuck_open at=nan"), HasSubstr("finite"));
   EXPECT_THAT(refusal_of("encoder.y jump at=1s metres=3"), HasSubstr("counts"));
   EXPECT_THAT(refusal_of(""), HasSubstr("kill_switch"));
