@@ -100,9 +100,10 @@ void write_diagnosis(const DiagnoseOptions& options, const PlantModel& plant,
   write_atomically(folder / "diagnosis.json", diagnose::diagnosis_json(d));
   write_atomically(folder / "extended_plant.toml", diagnose::extend_plant(plant.plant, d).text);
   diagnose::write_series(d, folder);
-  write_atomically(folder / "report.html",
-                   diagnosis_page::page(
-                       "Diagnosis of " + model_of(options).string() + ", axis " + options.axis, d));
+  write_atomically(
+      folder / "report.html",
+      diagnosis_page::page(
+          "Diagnosis of " + model_of(options).filename().string() + ", axis " + options.axis, d));
   write_atomically(folder / "headline.txt", diagnose::headline(d));
 }
 

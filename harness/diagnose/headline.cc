@@ -73,6 +73,23 @@ std::string simulated(const Confirmation& c) {
                    kWindow_s, 1e3 * c.position_m.after_rms, 1e3 * c.position_m.before_rms);
 }
 
+std::string what_it_gains(const Diagnosis& d) {
+  const bool named = !d.selection.causes.empty();
+  if (!named && moved_parameters(d).empty()) {
+    return fmt::format(
+        "nothing, the model stays; {:.3g} N rms of the held-out force is not explained, {:.2g} % "
+        "of "
+        "it",
+        d.selection.gain.after_rms_N,
+        100 * d.selection.gain.after_rms_N / std::max(1e-12, d.heldout_force_rms_N));
+  }
+  const Gain& gain = named ? d.selection.gain : d.gain_over_supplied;
+  return fmt::format(
+      "{:.1f} % of the held-out force error, {:.3g} to {:.3g} N rms (95 %: {:.1f} to {:.1f} %){}",
+      100 * gain.ci95.value, gain.before_rms_N, gain.after_rms_N, 100 * gain.ci95.low,
+      100 * gain.ci95.high, simulated(d.confirmed));
+}
+
 // What the fitted runs ask for and the held-out one could not confirm; null: nothing of the kind.
 const Rejected* not_borne_out(const Diagnosis& d) {
   constexpr double kMuch = 0.05;  // of the residual, for certain
@@ -124,15 +141,9 @@ std::string headline(const Diagnosis& d) {
     }
     return out;
   }
-  const bool refit_alone = d.selection.causes.empty() && !moved_parameters(d).empty();
-  const Gain& gain = refit_alone ? d.gain_over_supplied : d.selection.gain;
   std::string out = fmt::format("What is wrong: {}.\n", what_is_wrong(d));
   out += fmt::format("How sure:      {}.\n", how_sure(d));
-  out += fmt::format(
-      "What it gains: {:.1f} % of the held-out force error, {:.3g} to {:.3g} N rms "
-      "(95 %: {:.1f} to {:.1f} %){}.\n",
-      100 * gain.ci95.value, gain.before_rms_N, gain.after_rms_N, 100 * gain.ci95.low,
-      100 * gain.ci95.high, simulated(d.confirmed));
+  out += fmt::format("What it gains: {}.\n", what_it_gains(d));
   out += d.unexplained
              ? fmt::format("Left over:     {:.3g} N rms along {}, which no effect explains.\n",
                            d.unexplained->rms_N, d.unexplained->coordinate)

@@ -63,7 +63,7 @@ std::string causes(const Diagnosis& d) {
       rivals += (rivals.empty() ? "" : ", ") + rival.term.effect->name;
     }
     rows.push_back({cause.term.effect->name, cause.term.effect->cause, sizes_of(cause),
-                    fmt::format("{:.1e}", cause.p_value),
+                    cause.p_value < 1e-300 ? "< 1e-300" : fmt::format("{:.1e}", cause.p_value),
                     fmt::format("{:.1f} % [{:.1f}, {:.1f}]", 100 * cause.gain.ci99.value,
                                 100 * cause.gain.ci99.low, 100 * cause.gain.ci99.high),
                     rivals.empty() ? "none" : rivals});
@@ -86,7 +86,7 @@ std::string parameters(const Diagnosis& d) {
                                 shift.fitted.high),
                     shift.unit, shift.moved ? "moved" : "as stated", others});
   }
-  return table({"parameter", "stated", "fitted (95 %)", "unit, load side", "", "or else"}, rows);
+  return table({"parameter", "stated", "fitted (95 %)", "unit, load side", "is", "or else"}, rows);
 }
 
 std::string confirmed(const diagnose::Confirmation& c) {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -47,10 +49,17 @@ Index rows_of_first(const Diagnosis& d) {
   return d.data.members.front().conditioner.rows();
 }
 
+// A line is broken where rows are left out.
 Curve curve(std::string name, const VectorXd& x, const VectorXd& y, Index rows, Mark mark) {
   Curve out{.name = std::move(name), .mark = mark};
   const Index stride = std::max<Index>(1, rows / kMostPoints);
+  const double next = rows > 1 ? (x.segment(1, rows - 1) - x.head(rows - 1)).minCoeff() : 0;
   for (Index i = 0; i < rows; i += stride) {
+    if (mark == Mark::kLine && i > 0 &&
+        x[i] - x[i - stride] > 1.5 * static_cast<double>(stride) * next) {
+      out.x.push_back(x[i]);
+      out.y.push_back(std::numeric_limits<double>::quiet_NaN());
+    }
     out.x.push_back(x[i]);
     out.y.push_back(y[i]);
   }
@@ -143,6 +152,18 @@ std::size_t natural_coordinate(const std::vector<VectorXd>& along_all, const Vec
   return best;
 }
 
+// What repeats along the way is seen over one period, folded; null: it does not.
+std::optional<VectorXd> folded(const Diagnosis& d, const diagnose::Term& term) {
+  const auto& names = term.effect->scales;
+  const auto at = std::find(names.begin(), names.end(), "spatial_frequency_per_m");
+  if (at == names.end()) {
+    return std::nullopt;
+  }
+  const double per_m = term.scales[static_cast<std::size_t>(at - names.begin())];
+  const VectorXd periods = per_m * along(d, &Signals::position_m);
+  return periods.array() - periods.array().floor();
+}
+
 void add_causes(const Diagnosis& d, std::vector<Figure>& figures) {
   std::vector<VectorXd> all;
   for (const Coordinate& coordinate : coordinates()) {
@@ -153,16 +174,19 @@ void add_causes(const Diagnosis& d, std::vector<Figure>& figures) {
   for (const auto& cause : d.selection.causes) {
     const VectorXd force = after.x.middleCols(column, cause.beta.size()) * cause.beta;
     column += cause.beta.size();
+    const std::optional<VectorXd> period = folded(d, cause.term);
     const std::size_t c = natural_coordinate(all, force);
+    const VectorXd& x = period ? *period : all[c];
     figures.push_back(
         {.title = fmt::format("What {} takes away", cause.term.effect->name),
-         .x_label = coordinates()[c].label,
+         .x_label = period ? "position within a period, turns" : coordinates()[c].label,
          .y_label = "force, N",
-         .curves = {curve("what is left without it", all[c], after.corrected + force, force.size(),
+         .curves = {curve("what is left without it", x, after.corrected + force, force.size(),
                           Mark::kDots),
-                    curve("what it explains", all[c], force, force.size(), Mark::kDots)},
-         .caption = fmt::format("{}; {:.3g} N rms.", cause.term.effect->cause,
-                                force.norm() / std::sqrt(static_cast<double>(force.size())))});
+                    curve("what it explains", x, force, force.size(), Mark::kDots)},
+         .caption = fmt::format("{:.3g} N rms: {}.",
+                                force.norm() / std::sqrt(static_cast<double>(force.size())),
+                                cause.term.effect->cause)});
   }
 }
 
