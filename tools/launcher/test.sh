@@ -12,7 +12,7 @@ test_usage() {
   cat <<'TEXT'
 usage: ./towbench test [--quick] [--carriers] [--only STAGE]... [--list]
 
-  (nothing)     every stage; about half an hour on two cores from nothing
+  (nothing)     every stage; about an hour on two cores, a third more where the compiler cache is empty
   --quick       lint, unit, integration and browser tests only
   --carriers    the same as --only carriers
   --only STAGE  this stage only; may be repeated
