@@ -92,9 +92,11 @@ class Loop {
                                            : question.why));
       return;
     }
-    end(End::kOneCause, outcome_.answer == "nothing"
-                            ? "nothing is named, so nothing is open"
-                            : "no other cause explains these logs as well");
+    const bool several = outcome_.answer.find(", ") != std::string::npos;
+    end(End::kOneCause, outcome_.answer == "nothing" ? "nothing is named, so nothing is open"
+                        : several ? "they act together, and none of them has a rival left that "
+                                    "explains these logs as well"
+                                  : "no other cause explains these logs as well");
   }
 
   void end(End how, std::string why) {
