@@ -19,12 +19,35 @@ bool same_effect(const std::vector<Term>& taken, const Effect& effect) {
                      [&](const Term& term) { return term.effect == &effect; });
 }
 
+// What the group explains when its only coefficient is what the law says, and not what fits best.
+void hold_to(double law, const Evidence& evidence, const Eigen::MatrixXd& columns, WaldTest& test) {
+  const Eigen::VectorXd r = projected_off(evidence.basis, evidence.corrected);
+  const Eigen::VectorXd made = law * projected_off(evidence.basis, columns);
+  test.beta[0] = law;
+  test.explained = 1 - (r - made).squaredNorm() / r.squaredNorm();
+  test.projected_rms = made.norm() / std::sqrt(static_cast<double>(r.size()));
+}
+
+bool is_plausible(const Candidate& c) {
+  const Effect& effect = *c.term.effect;
+  const double first = c.test.beta[0];
+  if (effect.first_is_its_scale) {
+    const double scale = c.term.scales[0];
+    return first > 0.5 * scale && first < 2 * scale;
+  }
+  return !effect.first_is_positive || first > 0;
+}
+
 }  // namespace
 
 Candidate judge(const Evidence& evidence, Term term, Eigen::MatrixXd columns) {
   Candidate c{std::move(term), std::move(columns), {}, false};
   c.test = wald_test(evidence.basis, c.columns, evidence.corrected, evidence.starts);
-  c.plausible = !c.term.effect->first_is_positive || (c.test.beta.size() > 0 && c.test.beta[0] > 0);
+  const double law = c.term.effect->first_by_law;
+  if (law > 0 && c.test.beta[0] > law) {
+    hold_to(law, evidence, c.columns, c.test);
+  }
+  c.plausible = is_plausible(c);
   return c;
 }
 
@@ -113,8 +136,8 @@ Candidate Candidates::refined(const Evidence& evidence, const Candidate& candida
       candidate.term.effect->search == LineSearch::kTime ? context_.duration_s : stroke;
   const double reach =
       is_line ? std::log1p(0.5 / (span * candidate.term.scales[0])) : std::log(1.6);
-  const Scales best =
-      refine_scales(candidate.term.scales, reach, evidence.basis, evidence.corrected, with);
+  const Scales best = refine_scales(*candidate.term.effect, candidate.term.scales, reach,
+                                    evidence.basis, evidence.corrected, with);
   Candidate out = judge(evidence, {candidate.term.effect, best}, with(best));
   return out.plausible && out.test.explained >= candidate.test.explained ? out : candidate;
 }

@@ -19,6 +19,9 @@ Context make_context(const NominalModel& model, const Dataset& data) {
     c.stroke_max_m = std::max(c.stroke_max_m, s.position_m.maxCoeff());
     c.largest_input_N = std::max(c.largest_input_N, s.input_N.cwiseAbs().maxCoeff());
     c.resolution_m = std::max(c.resolution_m, member.run.resolution_m);
+    c.acceleration_noise_m_per_s2 =
+        std::max(c.acceleration_noise_m_per_s2,
+                 acceleration_noise_m_per_s2(member.run, data.conditioning.smoothing_Hz));
     c.period_s = std::max(c.period_s, s.period_s);
     c.duration_s = std::max(c.duration_s, s.time_s[s.size() - 1]);
   }

@@ -22,6 +22,7 @@ struct Context {
   double stroke_min_m = 0;
   double stroke_max_m = 0;
   double resolution_m = 0;
+  double acceleration_noise_m_per_s2 = 0;  // of the encoder's steps, in the signals
   double largest_input_N = 0;
   double period_s = 0;
   double cutoff_Hz = 0;
@@ -46,6 +47,8 @@ struct Effect {
   std::vector<std::string> coefficients = {};  // names with units, one a column
   std::vector<std::string> scales = {};        // names with units of what enters nonlinearly
   bool first_is_positive = false;              // otherwise the physics allows both signs
+  double first_by_law = 0;          // 1: a clip takes all that exceeds its level, and no more
+  bool first_is_its_scale = false;  // one quantity twice: they must agree within a factor of two
   bool differs_between_sessions = false;  // its phase hangs on where the encoder was switched on
   // The base column that the mean of its shape falls into, -1 for none: with the effect found, that
   // column's parameter is no longer comparable with the supplied one.

@@ -1,6 +1,7 @@
 #include "harness/diagnose/refine_scales.h"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 
 #include <ceres/ceres.h>
@@ -13,6 +14,7 @@ namespace {
 constexpr int kMostIterations = 8;
 
 struct Projection {
+  const Effect& effect;
   const Eigen::MatrixXd& basis;
   const Eigen::VectorXd& residual;
   const std::function<Eigen::MatrixXd(const Scales&)>& columns;
@@ -24,7 +26,10 @@ struct Projection {
       scales[i] = std::exp(log_scales[0][i]);
     }
     const Eigen::MatrixXd group = projected_off(basis, columns(scales));
-    const Eigen::VectorXd beta = group.colPivHouseholderQr().solve(residual);
+    Eigen::VectorXd beta = group.colPivHouseholderQr().solve(residual);
+    if (effect.first_by_law > 0) {
+      beta[0] = std::min(beta[0], effect.first_by_law);
+    }
     Eigen::Map<Eigen::VectorXd>(out, residual.size()) = residual - group * beta;
     return beta.allFinite();
   }
@@ -32,8 +37,8 @@ struct Projection {
 
 }  // namespace
 
-Scales refine_scales(const Scales& start, double reach, const Eigen::MatrixXd& basis,
-                     const Eigen::VectorXd& residual,
+Scales refine_scales(const Effect& effect, const Scales& start, double reach,
+                     const Eigen::MatrixXd& basis, const Eigen::VectorXd& residual,
                      const std::function<Eigen::MatrixXd(const Scales&)>& columns) {
   std::vector<double> logs;
   for (const double scale : start) {
@@ -43,7 +48,7 @@ Scales refine_scales(const Scales& start, double reach, const Eigen::MatrixXd& b
   ceres::NumericDiffOptions steps;
   steps.relative_step_size = 1e-3 * std::min(1.0, reach);
   auto cost = std::make_unique<ceres::DynamicNumericDiffCostFunction<Projection, ceres::CENTRAL>>(
-      new Projection{basis, residual, columns, start.size()}, ceres::TAKE_OWNERSHIP, steps);
+      new Projection{effect, basis, residual, columns, start.size()}, ceres::TAKE_OWNERSHIP, steps);
   cost->AddParameterBlock(count);
   cost->SetNumResiduals(static_cast<int>(residual.size()));
   ceres::Problem problem;

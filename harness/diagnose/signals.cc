@@ -18,12 +18,6 @@ double rms_about_mean(const Eigen::VectorXd& x) {
   return std::sqrt((x.array() - x.mean()).square().mean());
 }
 
-double quantisation_force_N(const Run& run, double mass_kg, double cutoff_Hz) {
-  const double omega = 2 * std::numbers::pi;
-  return mass_kg * run.resolution_m / std::sqrt(12.0) * std::sqrt(2 * run.period_s) * omega *
-         omega * std::sqrt(std::pow(cutoff_Hz, 5) / 5);
-}
-
 // The input acts from its sample to the next: at a sample it is the mean of the last two.
 Eigen::VectorXd held(const Eigen::VectorXd& u) {
   Eigen::VectorXd out = u;
@@ -44,12 +38,18 @@ Eigen::MatrixXd rigid_columns(const Signals& s) {
 
 }  // namespace
 
+double acceleration_noise_m_per_s2(const Run& run, double cutoff_Hz) {
+  const double omega = 2 * std::numbers::pi;
+  return run.resolution_m / std::sqrt(12.0) * std::sqrt(2 * run.period_s) * omega * omega *
+         std::sqrt(std::pow(cutoff_Hz, 5) / 5);
+}
+
 Conditioning choose_conditioning(const std::vector<Run>& runs, double mass_kg) {
   constexpr std::array<double, 9> kBands{40, 28, 20, 14, 10, 7, 5, 3.5, 2.5};
   Conditioning chosen{.cutoff_Hz = kBands.back(), .smoothing_Hz = 2.5 * kBands.back()};
   for (const double cutoff : kBands) {
     const bool good = std::all_of(runs.begin(), runs.end(), [&](const Run& run) {
-      return cutoff <= 0.2 / run.period_s && quantisation_force_N(run, mass_kg, cutoff) <=
+      return cutoff <= 0.2 / run.period_s && mass_kg * acceleration_noise_m_per_s2(run, cutoff) <=
                                                  kNoiseShare * rms_about_mean(run.input_N);
     });
     if (good) {

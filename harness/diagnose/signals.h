@@ -48,9 +48,12 @@ struct Conditioning {
   double smoothing_Hz = 100;  // of the position before it is differentiated
 };
 
+// Rms that an encoder's steps have in the acceleration, below a cut-off:
+//   (step / sqrt 12) sqrt(2 T) (2 pi)^2 sqrt(fc^5 / 5)
+[[nodiscard]] double acceleration_noise_m_per_s2(const Run& run, double cutoff_Hz);
+
 // The widest band (40 Hz at most, a fifth of the sampling rate at most) in which the encoder's
-// steps make at most 3 % of the input's rms look like force:
-//   M rms(a) = M (step / sqrt 12) sqrt(2 T) (2 pi)^2 sqrt(fc^5 / 5)
+// steps make at most 3 % of the input's rms look like force.
 [[nodiscard]] Conditioning choose_conditioning(const std::vector<Run>& runs, double mass_kg);
 
 [[nodiscard]] Signals make_signals(const Run& run, const Conditioning& conditioning,

@@ -13,6 +13,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // The force that acts now was commanded d ago: F(t) = u(t - d), so u(t) - F(t) = F(t + d) - F(t).
+// The difference is as wide as the delay itself: a wider one looks ahead, to where the controller
+// answers the encoder's steps, and beats a lag by that alone.
 MatrixXd transport_delay(const Signals& s, const Context& c, std::span<const double> scale) {
   const VectorXd force = c.model_force_N(s);
   const double samples = scale[0] / s.period_s;
@@ -28,11 +30,12 @@ MatrixXd transport_delay(const Signals& s, const Context& c, std::span<const dou
 }
 
 std::vector<Scales> delay_grid(const Context& c) {
-  return {{0.5 * c.period_s}, {2 * c.period_s}, {5 * c.period_s}, {0.1 / c.cutoff_Hz}};
+  return {{0.5 * c.period_s}, {c.period_s},     {2 * c.period_s},
+          {4 * c.period_s},   {8 * c.period_s}, {16 * c.period_s}};
 }
 
-// tau F' + F = u. The difference is as wide as the delay's, by a scale of its own: a narrow one is
-// mostly the encoder's steps, differentiated three times.
+// tau F' + F = u. The difference has a width of its own: a narrow one is mostly the encoder's
+// steps, differentiated three times.
 MatrixXd current_loop_lag(const Signals& s, const Context& c, std::span<const double> scale) {
   const VectorXd force = c.model_force_N(s);
   const auto reach = std::max<Index>(1, std::lround(0.5 * scale[0] / s.period_s));
@@ -43,6 +46,10 @@ MatrixXd current_loop_lag(const Signals& s, const Context& c, std::span<const do
     column[i] = (force[to] - force[from]) / (static_cast<double>(to - from) * s.period_s);
   }
   return column;
+}
+
+std::vector<Scales> width_grid(const Context& c) {
+  return {{0.5 * c.period_s}, {2 * c.period_s}, {5 * c.period_s}, {0.1 / c.cutoff_Hz}};
 }
 
 // (1 + g) u = F: everything scales by 1/(1+g); in the span of the refitted structure.
@@ -94,6 +101,7 @@ void add_drive_effects(Library& library) {
                      .coefficients = {"delay_s"},
                      .scales = {"spacing_s"},
                      .first_is_positive = true,
+                     .first_is_its_scale = true,
                      .needs = "fast accelerations",
                      .grid = delay_grid,
                      .columns = transport_delay});
@@ -103,7 +111,7 @@ void add_drive_effects(Library& library) {
                      .scales = {"spacing_s"},
                      .first_is_positive = true,
                      .needs = "fast accelerations",
-                     .grid = delay_grid,
+                     .grid = width_grid,
                      .columns = current_loop_lag});
   library.push_back({.name = "amplifier_gain",
                      .cause = "an amplifier gain other than stated",
@@ -123,6 +131,7 @@ void add_drive_effects(Library& library) {
                      .coefficients = {"clipped_share_ratio"},
                      .scales = {"level_ratio"},
                      .first_is_positive = true,
+                     .first_by_law = 1,
                      .needs = "commands up to the limit",
                      .grid = clip_grid,
                      .columns = command_saturation});
@@ -131,6 +140,7 @@ void add_drive_effects(Library& library) {
                      .coefficients = {"clipped_share_ratio"},
                      .scales = {"stall_ratio"},
                      .first_is_positive = true,
+                     .first_by_law = 1,
                      .needs = "large force at high speed",
                      .grid = stall_grid,
                      .columns = voltage_saturation});

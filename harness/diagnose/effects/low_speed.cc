@@ -42,10 +42,12 @@ MatrixXd low_speed_rolloff(const Signals& s, const Context& /*c*/, std::span<con
 }
 
 // Break-away level above Coulomb's, (3.23): felt while leaving standstill, not while coming to it.
-MatrixXd stiction(const Signals& s, const Context& /*c*/, std::span<const double> scale) {
+// Half of it where the encoder's steps hide which of the two it is: a creeping axis does both.
+MatrixXd stiction(const Signals& s, const Context& c, std::span<const double> scale) {
   const ArrayXd x = s.speed_m_per_s.array() / scale[0];
-  const ArrayXd leaving =
-      (s.speed_m_per_s.array() * s.acceleration_m_per_s2.array() > 0).cast<double>();
+  const ArrayXd faster = s.direction.array() * s.acceleration_m_per_s2.array();
+  const double unsure = std::max(1e-9, 2 * c.acceleration_noise_m_per_s2);
+  const ArrayXd leaving = 0.5 * (1 + (faster / unsure).tanh());
   return ((-x.square()).exp() * s.direction.array() * leaving).matrix();
 }
 
