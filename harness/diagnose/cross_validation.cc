@@ -1,6 +1,6 @@
 #include "harness/diagnose/cross_validation.h"
 
-#include <Eigen/QR>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <vector>
 
@@ -13,32 +13,65 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr Index kFewestStretches = 12;
 constexpr Index kMostStretches = 30;
 constexpr double kLengthsOfMemory = 3;  // of a stretch, as of the bootstrap's blocks (gain.cc)
-constexpr Index kFolds = 4;
 
-std::vector<Index> fold_of_each_row(const std::vector<Index>& starts, Index stretches) {
-  std::vector<Index> folds;
+struct Stretch {
+  Index from;
+  Index rows;
+};
+
+std::vector<Stretch> stretches_in(const std::vector<Index>& starts, Index stretches) {
+  std::vector<Stretch> out;
   for (std::size_t run = 0; run + 1 < starts.size(); ++run) {
     const Index rows = starts[run + 1] - starts[run];
-    for (Index row = 0; row < rows; ++row) {
-      folds.push_back((row * stretches / rows) % kFolds);
+    for (Index i = 0; i < stretches; ++i) {
+      const Index from = i * rows / stretches;
+      out.push_back({starts[run] + from, (i + 1) * rows / stretches - from});
     }
   }
-  return folds;
+  return out;
 }
 
-VectorXd fitted_without(const Evidence& e, const std::vector<Index>& folds, Index left_out) {
-  MatrixXd x(e.x.rows(), e.x.cols());
-  VectorXd y(e.y.size());
-  Index rows = 0;
-  for (Index i = 0; i < e.y.size(); ++i) {
-    if (folds[static_cast<std::size_t>(i)] != left_out) {
-      x.row(rows) = e.x.row(i);
-      y[rows++] = e.y[i];
-    }
+// Least squares by its normal equations on columns of unit length, so that a stretch can be taken
+// out of them.
+class Fits {
+ public:
+  Fits(const Evidence& e, const VectorXd& by_law)
+      : y_(e.y), scale_(e.x.colwise().norm().transpose().cwiseMax(1e-300)) {
+    x_ = e.x.array().rowwise() / scale_.transpose().array();
+    gram_ = x_.transpose() * x_;
+    moment_ = x_.transpose() * y_;
+    const Index causes = x_.cols() - kBaseColumns;
+    const double weight = 1 / static_cast<double>(x_.rows());
+    gram_.diagonal().tail(causes).array() += weight;
+    moment_ += weight * by_law.cwiseProduct(scale_);
   }
-  return x.topRows(rows).colPivHouseholderQr().solve(y.head(rows));
+
+  [[nodiscard]] VectorXd without(const Stretch& stretch) const {
+    const auto x = x_.middleRows(stretch.from, stretch.rows);
+    const MatrixXd gram = gram_ - x.transpose() * x;
+    const VectorXd moment = moment_ - x.transpose() * y_.segment(stretch.from, stretch.rows);
+    return gram.ldlt().solve(moment).cwiseQuotient(scale_);
+  }
+
+ private:
+  const VectorXd& y_;
+  VectorXd scale_;
+  MatrixXd x_;
+  MatrixXd gram_;
+  VectorXd moment_;
+};
+
+VectorXd said_by_law(const std::vector<Term>& terms, Index columns) {
+  VectorXd out = VectorXd::Zero(columns);
+  Index at = kBaseColumns;
+  for (const Term& term : terms) {
+    out[at] = term.effect->first_by_law;
+    at += static_cast<Index>(term.effect->coefficients.size());
+  }
+  return out;
 }
 
 }  // namespace
@@ -50,17 +83,13 @@ Index stretches_of(const Evidence& e) {
   return std::clamp(static_cast<Index>(rows / length), kFewestStretches, kMostStretches);
 }
 
-VectorXd cross_validated_residual(const Evidence& e, Index stretches) {
-  const std::vector<Index> folds = fold_of_each_row(e.starts, stretches);
-  const VectorXd twin_correction = e.coefficients - e.x.colPivHouseholderQr().solve(e.y);
+VectorXd cross_validated_residual(const Evidence& e, const std::vector<Term>& terms,
+                                  Index stretches) {
+  const Fits fits(e, said_by_law(terms, e.x.cols()));
   VectorXd residual(e.y.size());
-  for (Index fold = 0; fold < kFolds; ++fold) {
-    const VectorXd coefficients = fitted_without(e, folds, fold) + twin_correction;
-    for (Index i = 0; i < residual.size(); ++i) {
-      if (folds[static_cast<std::size_t>(i)] == fold) {
-        residual[i] = e.y[i] - e.x.row(i).dot(coefficients);
-      }
-    }
+  for (const Stretch& s : stretches_in(e.starts, stretches)) {
+    residual.segment(s.from, s.rows) =
+        e.y.segment(s.from, s.rows) - e.x.middleRows(s.from, s.rows) * fits.without(s);
   }
   return residual;
 }

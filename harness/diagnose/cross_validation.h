@@ -1,25 +1,32 @@
 // What a structure leaves of data that its coefficients were not fitted to, on every row in turn.
 //
-// Each run is cut into stretches, every fourth of which belongs to one fold: long enough to be
-// independent of their neighbours, short enough that no fold holds all of one kind of motion (of
-// thirty seconds, three may be fast; coefficients fitted without them would be extrapolated). A
-// fold's residual is taken with coefficients fitted to the other three, moved by the twin's
-// correction of the whole. So a cause can be asked whether it predicts, without setting data aside
-// for the question alone (Stone 1974; blocks against serial correlation: Racine 2000).
+// Each run is cut into stretches long enough to be independent of their neighbours. A stretch's
+// residual is taken with coefficients fitted to all the others, and not corrected by the twin:
+// through a column that is noisy itself the true coefficient predicts less well than the fitted
+// one. So a cause can be asked whether it predicts, without setting data aside for the question
+// alone (Stone 1974; blocks against serial correlation: Racine 2000).
+//
+// What shows in a few places only (clipped peaks, reversals) may be all but missing from the rest:
+// a plain fit would take any coefficient that the noise there likes. A cause's coefficients are
+// therefore drawn to what its law says of them, or to zero where it leaves them open, by a prior
+// worth one sample (Kass & Wasserman 1995): of what has not been seen the law predicts, or nothing
+// does; what has been seen is not held back.
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "harness/diagnose/evidence.h"
 
 namespace towbench::harness::diagnose {
 
-inline constexpr Eigen::Index kFewestStretches = 12;
+inline constexpr Eigen::Index kQuarters = 4;  // the longest stretches that are of use
 
 // Of a run, by how long the residual of the structure without causes remembers.
 [[nodiscard]] Eigen::Index stretches_of(const Evidence& without_causes);
 
 [[nodiscard]] Eigen::VectorXd cross_validated_residual(const Evidence& evidence,
+                                                       const std::vector<Term>& terms,
                                                        Eigen::Index stretches);
 
 }  // namespace towbench::harness::diagnose

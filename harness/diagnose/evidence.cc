@@ -102,7 +102,8 @@ Evidence weigh(const Dataset& data, const Context& context, const std::vector<Te
   e.y = data.stack([](const Signals& s) -> MatrixXd { return s.input_N; });
   e.x = design_matrix(data, context, terms);
   e.force_rms_N = rms(data.stack([](const Signals& s) -> MatrixXd { return s.force_N(); }));
-  const VectorXd plain = least_squares(e.x, e.y);
+  e.fitted = least_squares(e.x, e.y);
+  const VectorXd& plain = e.fitted;
   const double left = rms(e.y - e.x * plain);
   e.coefficients = plain;
   VectorXd twin_residual = VectorXd::Zero(e.y.size());

@@ -20,7 +20,8 @@ struct Term {
 struct Evidence {
   Eigen::VectorXd y;
   Eigen::MatrixXd x;             // base columns, then the terms' columns
-  Eigen::VectorXd coefficients;  // of x, twin-corrected
+  Eigen::VectorXd fitted;        // coefficients of x by least squares: what predicts best
+  Eigen::VectorXd coefficients;  // the same twin-corrected: nearest to the truth
   Eigen::MatrixXd covariance;    // HAC, of the coefficients
   Eigen::MatrixXd basis;         // orthonormal, of x
   Eigen::VectorXd residual;      // y - x coefficients

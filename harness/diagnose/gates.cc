@@ -8,9 +8,29 @@
 namespace towbench::harness::diagnose {
 namespace {
 
+constexpr double kLeastSurviving = 0.5;  // of a fitted contribution, see below
+
 std::ptrdiff_t lines_in_time(const Trial& trial) {
   return std::count_if(trial.terms.begin(), trial.terms.end(),
                        [](const Term& term) { return term.effect->search == LineSearch::kTime; });
+}
+
+// Processing and the loop alone can make a column predict (the controller answers the encoder's
+// steps, and the acceleration is full of them). How much of it they make the twin has shown: half
+// of the fitted contribution must be left.
+bool survives_the_twin(const Trial& trial) {
+  const Evidence& e = trial.evidence;
+  Eigen::Index at = kBaseColumns;
+  for (const Term& term : trial.terms) {
+    const auto count = static_cast<Eigen::Index>(term.effect->coefficients.size());
+    const Eigen::VectorXd fitted = e.x.middleCols(at, count) * e.fitted.segment(at, count);
+    const Eigen::VectorXd left = e.x.middleCols(at, count) * e.coefficients.segment(at, count);
+    if (left.dot(fitted) < kLeastSurviving * fitted.squaredNorm()) {
+      return false;
+    }
+    at += count;
+  }
+  return true;
 }
 
 }  // namespace
@@ -29,10 +49,10 @@ Gates::Gates(const Dataset& data, const HeldOut* abroad, const Context& context,
 
 Trial Gates::trial(const std::vector<Term>& terms, int rounds) const {
   Trial t{terms, weigh(data_, context_, terms, laws_, rounds, seed_), {}, {}, {}};
-  t.home = cross_validated_residual(t.evidence, stretches_);
-  t.far = cross_validated_residual(t.evidence, kFewestStretches);
+  t.home = cross_validated_residual(t.evidence, terms, stretches_);
+  t.far = cross_validated_residual(t.evidence, terms, kQuarters);
   if (abroad_ != nullptr) {
-    t.abroad = abroad_->residual({terms, t.evidence.coefficients});
+    t.abroad = abroad_->residual({terms, t.evidence.fitted});
   }
   return t;
 }
@@ -43,7 +63,7 @@ Gain Gates::gain_at_home(const Trial& before, const Trial& after) const {
 
 bool Gates::stands(const Gain& home, const Trial& before, const Trial& after,
                    bool with_the_rest) const {
-  if (!(home.ci99.low > 0 && home.ci99.value > kLeastGain)) {
+  if (!(home.ci99.low > 0 && home.ci99.value > kLeastGain) || !survives_the_twin(after)) {
     return false;
   }
   if (lines_in_time(after) > lines_in_time(before) &&

@@ -1,8 +1,8 @@
 // Models on trial: a set of terms fitted, and what it leaves where it was not fitted.
 //
 // A cause stands when its gain at home, cross-validated, is certain, and a gain abroad is likely. A
-// line in time must gain across long stretches too: a burst of ringing, cut into short ones, looks
-// like a line to its neighbours.
+// line in time must gain across quarters of the run too: a burst of ringing, cut into short
+// stretches, looks like a line to its neighbours.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct Trial {
   std::vector<Term> terms;
   Evidence evidence;
   Eigen::VectorXd home;    // residual, cross-validated
-  Eigen::VectorXd far;     // the same across the longest stretches
+  Eigen::VectorXd far;     // the same across quarters of each run
   Eigen::VectorXd abroad;  // residual on a part of another run; empty without one
 
   [[nodiscard]] double home_rms_N() const;

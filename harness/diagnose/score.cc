@@ -1,7 +1,12 @@
 #include "harness/diagnose/score.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace towbench::harness::diagnose {
 namespace {
+
+constexpr double kLeastOfPromise = 0.5;
 
 std::vector<ControlLaw> laws_of(const Dataset& data) {
   std::vector<ControlLaw> laws;
@@ -16,7 +21,17 @@ std::vector<Term> without(std::vector<Term> terms, std::size_t which) {
   return terms;
 }
 
-// What looked certain and does not gain where it was not looked for is no cause.
+// Whether data that decided nothing bears the causes out. Certain once more they need not be: the
+// few places where a clip or a reversal shows may all lie where it was looked for. But what they
+// take away there, d, would leave 1 - sqrt(1 - d'd / before'before) less if they were right, and of
+// that uncertain ones must gain half.
+bool borne_out(const Gain& gain, const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
+  const double taken = std::min(1.0, (before - after).squaredNorm() / before.squaredNorm());
+  const double promised = 1 - std::sqrt(1 - taken);
+  return gain.ci95.low > 0 || gain.ci95.value > kLeastOfPromise * promised;
+}
+
+// What looked certain where it was looked for and is not borne out is no cause.
 void withdraw(Selection& selection) {
   for (const Cause& cause : selection.causes) {
     selection.rejected.push_back({cause.term.effect->name, cause.p_value, cause.gain.ci99});
@@ -36,8 +51,8 @@ void refit_and_score(Selection& selection, const Dataset& fit, const HeldOut& he
   const std::vector<Term> terms = selection.terms();
   selection.before = fitted({});
   selection.after = terms.empty() ? selection.before : fitted(terms);
-  const Eigen::VectorXd before = heldout.residual({{}, selection.before.coefficients});
-  const Eigen::VectorXd after = heldout.residual({terms, selection.after.coefficients});
+  const Eigen::VectorXd before = heldout.residual({{}, selection.before.fitted});
+  const Eigen::VectorXd after = heldout.residual({terms, selection.after.fitted});
   selection.gain = heldout.gain(before, after, seed);
   Eigen::Index at = kBaseColumns;
   for (std::size_t i = 0; i < selection.causes.size(); ++i) {
@@ -48,10 +63,10 @@ void refit_and_score(Selection& selection, const Dataset& fit, const HeldOut& he
     at += count;
     const std::vector<Term> others = without(terms, i);
     const Eigen::VectorXd lacking =
-        others.empty() ? before : heldout.residual({others, fitted(others).coefficients});
+        others.empty() ? before : heldout.residual({others, fitted(others).fitted});
     cause.gain = heldout.gain(lacking, after, seed);
   }
-  if (!terms.empty() && selection.gain.ci95.low <= 0) {
+  if (!terms.empty() && !borne_out(selection.gain, before, after)) {
     withdraw(selection);
     selection.gain = heldout.gain(before, before, seed);
   }
