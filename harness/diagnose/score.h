@@ -1,8 +1,7 @@
 // The accepted causes fitted once more to all data but the held-out, and what they gain there: on
 // data that neither the fit nor the selection has seen, so that the figure promises nothing that
-// choosing among many effects has made. When the causes together do not gain there (lower 95 %
-// bound not above zero), all of them are withdrawn: the score may take a cause away, never give
-// one.
+// choosing among many effects has made. A cause that is not borne out there is withdrawn: it acts
+// and does not gain, or loses. The score may take a cause away, never give one.
 #pragma once
 
 #include <cstdint>
