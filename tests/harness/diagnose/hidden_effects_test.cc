@@ -36,13 +36,13 @@ TEST_P(HiddenEffect, IsNamedFromTheLogAndTheNominalModelAlone) {
 INSTANTIATE_TEST_SUITE_P(
     All, HiddenEffect,
     testing::Values("coulomb_asymmetry", "viscous_asymmetry", "quadratic_drag", "cubic_viscous",
-                    "stribeck", "low_speed_rolloff", "stiction", "presliding", "added_mass",
-                    "chain_elasticity", "transport_delay", "current_loop_lag", "command_saturation",
-                    "voltage_saturation", "position_force", "thermal_drift", "amplifier_gain",
-                    "amplifier_deadband", "load_dependent_friction", "cable_spring",
-                    "position_friction", "position_viscous", "torque_ripple",
-                    "sprocket_eccentricity", "chain_polygon", "encoder_eccentricity",
-                    "constant_bias", "encoder_count_loss", "periodic_force"),
+                    "stribeck", "low_speed_rolloff", "presliding", "added_mass", "chain_elasticity",
+                    "transport_delay", "command_saturation", "voltage_saturation", "position_force",
+                    "thermal_drift", "amplifier_gain", "amplifier_deadband",
+                    "load_dependent_friction", "cable_spring", "position_friction",
+                    "position_viscous", "torque_ripple", "sprocket_eccentricity", "chain_polygon",
+                    "encoder_eccentricity", "constant_bias", "encoder_count_loss",
+                    "periodic_force"),
     [](const auto& parameter) { return std::string(parameter.param); });
 
 TEST(NothingHidden, NothingIsNamed) {
