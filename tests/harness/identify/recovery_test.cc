@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <ostream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -80,6 +81,10 @@ struct Case {
   core::Axis axis;
   std::uint64_t seed;
 };
+void PrintTo(const Case& tested, std::ostream* out) {
+  *out << "machine " << tested.machine << ", " << core::name_of(tested.axis) << ", seed "
+       << tested.seed;
+}
 
 class WholeChain : public testing::TestWithParam<Case> {};
 
