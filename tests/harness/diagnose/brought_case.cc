@@ -1,16 +1,13 @@
 #include "tests/harness/diagnose/brought_case.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <functional>
 #include <vector>
 
 #include <fmt/format.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 namespace towbench::tests {
@@ -34,17 +31,6 @@ std::string plant_of(const HiddenAxis& axis) {
 }
 
 }  // namespace
-
-ProgramOutput output_of(const std::string& command) {
-  ProgramOutput output;
-  std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  std::array<char, 4096> bytes{};
-  for (std::size_t count = 0; (count = fread(bytes.data(), 1, bytes.size(), pipe)) > 0;) {
-    output.text.append(bytes.data(), count);
-  }
-  output.code = WEXITSTATUS(pclose(pipe));
-  return output;
-}
 
 std::string rows_where(const std::string& csv, const std::function<bool(std::size_t)>& keeps) {
   std::string kept;

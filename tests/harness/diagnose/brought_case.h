@@ -9,16 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/harness/diagnose/generator/hidden_axis.h"
+#include "tests/support/program_output.h"
 
 namespace towbench::tests {
-
-struct ProgramOutput {
-  int code = -1;
-  std::string text;  // stdout and stderr
-};
-
-// Of a shell command.
-[[nodiscard]] ProgramOutput output_of(const std::string& command);
 
 // The bench's columns as CSV: time_s, y_reference_m where there is one, y_count, y_duty_pct.
 [[nodiscard]] std::string csv_of(const HiddenAxis& axis, const HiddenLog& log);

@@ -1,11 +1,10 @@
 // The verbs as processes: exit codes and what they print.
-#include <array>
-#include <cstdio>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/harness/end_to_end/run_support.h"
+#include "tests/support/program_output.h"
 
 namespace towbench::harness {
 namespace {
@@ -13,28 +12,14 @@ namespace {
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
-struct Output {
-  int code = -1;
-  std::string text;  // stdout and stderr
-};
-
-Output shell(const std::string& command) {
-  Output output;
-  std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  std::array<char, 4096> bytes{};
-  for (std::size_t count = 0; (count = fread(bytes.data(), 1, bytes.size(), pipe)) > 0;) {
-    output.text.append(bytes.data(), count);
-  }
-  output.code = WEXITSTATUS(pclose(pipe));
-  return output;
-}
+using Output = tests::ProgramOutput;
 
 Output towbench(const std::string& arguments) {
-  return shell(std::string(TOWBENCH_PROGRAM) + " " + arguments);
+  return tests::output_of(std::string(TOWBENCH_PROGRAM) + " " + arguments);
 }
 
 Output bash(const std::string& script) {
-  return shell("bash -c '" + script + "'");
+  return tests::output_of("bash -c '" + script + "'");
 }
 
 TEST(CommandLine, EveryVerbHasHelpWithAnExample) {
