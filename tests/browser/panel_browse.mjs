@@ -75,7 +75,7 @@ export async function browseFolders({ checks, person, page, context, bench, root
     writeFileSync(join(runs, "broken", "diagnosis.json"), '{"schema":"towbench/diagnosis/1","verdict":["<img src=x onerror=alert(1)>"],"findings":[]');
     await page.getByRole("button", { name: "Look again" }).click();
     await page.getByRole("link", { name: "broken", exact: true }).click();
-    await page.locator(".diagnosis .missing").waitFor();
+    await page.getByText("This diagnosis cannot be shown").waitFor();
     mkdirSync(join(runs, "hostile"), { recursive: true });
     writeFileSync(join(runs, "hostile", "matrix.md"), "# <script>alert(1)</script>\n\n[out](../../etc/passwd) [js](javascript:alert(1))\n");
     writeFileSync(join(runs, "hostile", "results.jsonl"), '{"case":"a<b>","part":"p","kind":"k","moment":"m","verdict":"FAIL","faults":[]}\n{"case":');
@@ -83,6 +83,23 @@ export async function browseFolders({ checks, person, page, context, bench, root
     await page.getByRole("link", { name: "hostile", exact: true }).click();
     await page.getByRole("button", { name: /1 of 1 failed/ }).click();
     assert.equal(await page.locator("article a").count(), 0, "no link leads out");
+    await page.locator('nav a[href="#folders"]').click();
+  });
+
+  await checks.run("what was asked for last is shown alone, though an earlier answer comes later", async () => {
+    let letGo;
+    const held = new Promise((resolve) => { letGo = resolve; });
+    await page.route("**/runs/campaign/results.jsonl", async (route) => { await held; await route.continue(); });
+    const asked = page.waitForRequest("**/runs/campaign/results.jsonl");
+    await page.getByRole("link", { name: "campaign", exact: true }).click();
+    await asked;
+    await page.getByRole("link", { name: "diagnosis", exact: true }).click();
+    await page.getByRole("heading", { name: "Diagnosis diagnosis" }).waitFor();
+    const answered = page.waitForResponse("**/runs/campaign/results.jsonl");
+    letGo();
+    await (await answered).finished();
+    await page.unroute("**/runs/campaign/results.jsonl");
+    assert.equal(await page.locator("#view-folders article").count(), 1, "one page at a time");
     await page.locator('nav a[href="#folders"]').click();
   });
 }

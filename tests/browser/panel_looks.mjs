@@ -60,8 +60,9 @@ export async function lookAtIt({ checks, person, page, context, shots }) {
     for (const [width, height] of [[820, 1180], [1180, 820], [600, 960]]) {
       await page.setViewportSize({ width, height });
       await page.emulateMedia({ colorScheme: "dark" });
-      for (const view of ["run", "folders"]) {
-        await page.click(`nav a[href="#${view}"]`);
+      for (const view of ["run", "folders", "folders/campaign", "folders/diagnosis"]) {
+        await page.evaluate((hash) => { location.hash = hash; }, view);
+        if (view.includes("/")) await page.waitForSelector("#view-folders article table");
         assert.ok((await tooWide(page)) <= 0, `${view} at ${width}: ${await tooWide(page)} pixels too wide`);
       }
       await page.click('nav a[href="#run"]');

@@ -83,6 +83,7 @@ export class Person {
     await this.page.waitForFunction((before) => (document.getElementById("result").dataset.run ?? "") !== before, this.runBefore);
   }
   async choose(experiment, speed, options = {}) {
+    await this.page.click('nav a[href="#run"]');
     this.runsSeen = (await this.page.getAttribute("#result", "data-of")) ?? "";
     this.runBefore = (await this.page.getAttribute("#result", "data-run")) ?? "";
     await this.page.selectOption("#experiment", experiment);

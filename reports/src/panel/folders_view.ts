@@ -15,7 +15,7 @@ export class FoldersView {
 
   constructor(private readonly host: HTMLElement) {
     const row = element("div", "bar-row");
-    this.compareButton = button("Compare the two chosen", () => void compare(this.shown, this.chosen as [string, string]));
+    this.compareButton = button("Compare the two chosen", () => void compare(this.freshSheet(), this.chosen as [string, string]));
     this.compareButton.id = "compare";
     row.append(button("Look again", () => void this.refresh()), this.compareButton);
     this.host.append(row, this.shown, this.list);
@@ -23,12 +23,20 @@ export class FoldersView {
 
   // "" for the list, else a folder's name.
   async open(name: string): Promise<void> {
+    const sheet = this.freshSheet();
     await this.refresh();
-    this.shown.replaceChildren();
     if (name === "") return;
     const folder = this.folders.find((one) => one.name === name);
-    if (folder === undefined) this.shown.append(missingNote(`There is no folder ${name}.`));
-    else await this.show(folder);
+    if (folder === undefined) sheet.append(missingNote(`There is no folder ${name}.`));
+    else await this.show(folder, sheet);
+  }
+
+  // What is asked for is written on a sheet of its own: an answer that comes after the next
+  // question lands on one that is put away already.
+  private freshSheet(): HTMLElement {
+    const sheet = element("div");
+    this.shown.replaceChildren(sheet);
+    return sheet;
   }
 
   private async refresh(): Promise<void> {
@@ -76,12 +84,12 @@ export class FoldersView {
     this.compareButton.disabled = this.chosen.length !== 2;
   }
 
-  private async show(folder: Folder): Promise<void> {
-    if (folder.kind === "campaign") return showCampaign(this.shown, folder);
-    if (folder.kind === "diagnosis") return showDiagnosis(this.shown, folder);
+  private async show(folder: Folder, sheet: HTMLElement): Promise<void> {
+    if (folder.kind === "campaign") return showCampaign(sheet, folder);
+    if (folder.kind === "diagnosis") return showDiagnosis(sheet, folder);
     const viewer = element("iframe", "viewer");
     viewer.title = `Report of ${folder.name}`;
     viewer.src = `/runs/${folder.name}/report.html`;
-    this.shown.append(viewer);
+    sheet.append(viewer);
   }
 }
