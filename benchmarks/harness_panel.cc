@@ -19,6 +19,7 @@
 
 #include "harness/panel/live_hand.h"
 #include "harness/panel/panel_json.h"
+#include "harness/panel/turns.h"
 
 namespace {
 
@@ -41,11 +42,13 @@ double plain_s(const ExperimentFixture& fixture, const fs::path& out) {
 }
 
 double watched_s(Session& session, FrameMaker& frames, const char* experiment) {
+  look_on();
   session.start({.experiment = experiment, .pace = {.speed = 0, .paused = false}});
   while (session.state().phase != Session::Phase::kOver) {
     benchmark::DoNotOptimize(frames.next());
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
+  take_turns();
   std::ifstream stream(session.runs() / session.state().folder / "result.json");
   return nlohmann::json::parse(stream).at("wall_time_s").get<double>();
 }

@@ -12,6 +12,7 @@
 #include "harness/fixtures/canonical_hash.h"
 #include "harness/panel/live_hand.h"
 #include "harness/panel/realtime_hand.h"
+#include "harness/panel/turns.h"
 #include "harness/report/report.h"
 
 namespace towbench::harness {
@@ -147,6 +148,7 @@ RunResult Session::run_by_its_clock(std::uint64_t seed) {
 }
 
 void Session::run(std::uint64_t seed) {
+  take_turns();
   State over = state();
   over.phase = Phase::kOver;
   try {

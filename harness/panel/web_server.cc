@@ -12,6 +12,7 @@
 
 #include "harness/panel/panel_json.h"
 #include "harness/panel/steering.h"
+#include "harness/panel/turns.h"
 #include "harness/panel/web_client.h"
 #include "harness/panel/web_keys.h"
 #include "harness/panel/web_routes.h"
@@ -91,6 +92,7 @@ class WebServer::Implementation {
 
   void run(const std::atomic<bool>& stop) {
     stop_ = &stop;
+    look_on();
     tick();
     io_.run();
   }

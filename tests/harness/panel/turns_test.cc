@@ -1,0 +1,49 @@
+// Who looks on gives way, and what a looker-on starts does not.
+#include "harness/panel/turns.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <sched.h>
+
+#include "harness/panel/session.h"
+#include "tests/harness/fixtures/temporary_fixtures.h"
+
+namespace towbench::harness {
+namespace {
+
+int policy_of(const std::filesystem::path& task) {
+  return ::sched_getscheduler(std::stoi(task.filename().string()));
+}
+
+// How many threads of this process there are of each policy.
+std::map<int, int> threads_by_policy() {
+  std::map<int, int> count;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    ++count[policy_of(task.path())];
+  }
+  return count;
+}
+
+TEST(Turns, ARunThatALookerOnStartsTakesItsTurns) {
+  const TemporaryFixtures folder;
+  const auto session = std::make_unique<Session>(folder.folder());
+  const auto before = threads_by_policy();
+  look_on();
+  session->start({.experiment = "circle", .pace = {.speed = 0, .paused = true}});
+  while (session->tap().folder().empty()) {
+    std::this_thread::yield();  // it has begun once it has told where it writes
+  }
+  auto during = threads_by_policy();
+  take_turns();
+  EXPECT_EQ(during[SCHED_BATCH], 1) << "this thread alone gives way";
+  EXPECT_GE(during[SCHED_OTHER], before.at(SCHED_OTHER)) << "the run's does not";
+  EXPECT_EQ(::sched_getscheduler(0), SCHED_OTHER);
+}
+
+}  // namespace
+}  // namespace towbench::harness
