@@ -13,7 +13,11 @@ void schedule_as(int policy) noexcept {
 
 }  // namespace
 
-void look_on() noexcept { schedule_as(SCHED_BATCH); }
-void take_turns() noexcept { schedule_as(SCHED_OTHER); }
+void look_on() noexcept {
+  schedule_as(SCHED_BATCH);
+}
+void take_turns() noexcept {
+  schedule_as(SCHED_OTHER);
+}
 
 }  // namespace towbench::harness

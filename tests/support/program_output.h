@@ -1,11 +1,11 @@
 // What a program printed and how it ended, as a shell runs it.
 #pragma once
 
-#include <sys/wait.h>
-
 #include <array>
 #include <cstdio>
 #include <string>
+
+#include <sys/wait.h>
 
 namespace towbench::tests {
 
