@@ -13,11 +13,11 @@ AxisBody::AxisBody(const Baseline& baseline, const Theta& theta, const Motion& m
   }
 }
 
-void AxisBody::step(double force_N, double h_s) {
+void AxisBody::step(double on_motor_N, double on_load_N, double h_s) {
   if (bodies_) {
-    bodies_->step(motor_, load_, force_N, h_s);
+    bodies_->step(motor_, load_, on_motor_N, on_load_N, h_s);
   } else {
-    step_rigid(force_N, h_s);
+    step_rigid(on_motor_N + on_load_N, h_s);
   }
 }
 

@@ -16,8 +16,8 @@ class AxisBody {
   // `baseline` and `theta` outlive this. The load of a rigid axis is the motor.
   AxisBody(const Baseline& baseline, const Theta& theta, const Motion& motor, const Motion& load);
 
-  // `force_N` on the motor, `h_s` at most kLongestStep_s.
-  void step(double force_N, double h_s);
+  // A force on each, `h_s` at most kLongestStep_s. Of a rigid axis they add up.
+  void step(double on_motor_N, double on_load_N, double h_s);
   [[nodiscard]] const Motion& motor() const noexcept { return motor_; }
 
  private:

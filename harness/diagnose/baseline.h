@@ -14,9 +14,9 @@ struct Baseline {
   Theta at = Theta::Zero();
 };
 
-// Share of the force below which nothing is named of an elastic axis: the load's swing is known
-// from the motor's motion to about a degree, and that is felt as force.
-inline constexpr double kElasticFloor = 0.02;
+// Share of the force below which nothing is named of an elastic axis: the chain's force,
+// differentiated twice, leaves this much of a machine as stated.
+inline constexpr double kElasticFloor = 0.01;
 
 [[nodiscard]] inline Baseline stated_baseline(const NominalModel& model) {
   return {model, Theta(model.mass_kg, model.viscous_N_s_per_m, model.coulomb_N, model.bias_N)};

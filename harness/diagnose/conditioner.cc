@@ -6,6 +6,16 @@
 namespace towbench::harness::diagnose {
 namespace {
 
+// Where the load of an elastic axis stands its law is not known, and what is taken for it jumps: a
+// filter without ringing, and twice the distance. Its corner is lower for the same band.
+constexpr double kGentleCorner = 0.7;
+
+ZeroPhaseFilter filter_for(const Signals& signals, double cutoff_Hz) {
+  const double rate_Hz = 1 / signals.period_s;
+  return signals.load != nullptr ? ZeroPhaseFilter::smooth(kGentleCorner * cutoff_Hz, rate_Hz)
+                                 : ZeroPhaseFilter::sharp(cutoff_Hz, rate_Hz);
+}
+
 // 1 where a row's value is touched by something that is not to be judged: the filter reaches about
 // half a period of its cut-off to either side.
 std::vector<char> tainted(const Signals& signals, const std::vector<char>& missing,
@@ -14,8 +24,7 @@ std::vector<char> tainted(const Signals& signals, const std::vector<char>& missi
   std::vector<char> bad(static_cast<std::size_t>(n), 0);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    const bool lost = !signals.out_of_step.empty() && signals.out_of_step[at] != 0;
-    if (signals.standing[at] != 0 || missing[at] != 0 || lost) {
+    if (signals.standing[at] != 0 || missing[at] != 0) {
       const Eigen::Index from = std::max<Eigen::Index>(0, i - reach);
       const Eigen::Index to = std::min(n, i + reach + 1);
       std::fill(bad.begin() + from, bad.begin() + to, char{1});
@@ -28,11 +37,12 @@ std::vector<char> tainted(const Signals& signals, const std::vector<char>& missi
 
 Conditioner::Conditioner(const Signals& signals, const std::vector<char>& missing,
                          const Conditioning& conditioning, const Wanted& wanted)
-    : filter_(ZeroPhaseFilter::sharp(conditioning.cutoff_Hz, 1 / signals.period_s)) {
+    : filter_(filter_for(signals, conditioning.cutoff_Hz)) {
   const double rate_Hz = 1 / signals.period_s;
   const auto stride = std::max<Eigen::Index>(
       1, static_cast<Eigen::Index>(0.4 * rate_Hz / conditioning.cutoff_Hz + 1e-9));
-  const auto reach = static_cast<Eigen::Index>(0.5 * rate_Hz / conditioning.cutoff_Hz);
+  const auto reach = static_cast<Eigen::Index>((signals.load != nullptr ? 1.0 : 0.5) * rate_Hz /
+                                               conditioning.cutoff_Hz);
   const auto bad = tainted(signals, missing, reach);
   const Eigen::Index border = filter_.border();
   const Eigen::Index count = std::max<Eigen::Index>(0, (signals.size() - 2 * border) / stride);

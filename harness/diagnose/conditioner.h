@@ -13,8 +13,7 @@ namespace towbench::harness::diagnose {
 class Conditioner {
  public:
   // Rows: one in `stride` samples (0.8 of the thinned rate's half is the band), without the ends,
-  // without standstill, without missing samples, without a load out of step, and only where
-  // `wanted(row, rows)` holds.
+  // without standstill, without missing samples, and only where `wanted(row, rows)` holds.
   using Wanted = std::function<bool(Eigen::Index, Eigen::Index)>;
   Conditioner(const Signals& signals, const std::vector<char>& missing,
               const Conditioning& conditioning, const Wanted& wanted);

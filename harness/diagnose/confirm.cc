@@ -16,16 +16,15 @@ using Eigen::VectorXd;
 // A model in one run: its base parameters, and what its other terms take along the measured motion.
 struct InRun {
   Theta theta;
-  VectorXd extra_N;
+  ExtraForce extra;
 };
 
 InRun placed(const HeldOut& heldout, std::size_t i, const Context& context,
              const FittedModel& model) {
   const Dataset::Member& member = heldout.data().members[i];
   const VectorXd coefficients = heldout.coefficients_in(i, model);
-  const Eigen::MatrixXd raw = raw_columns(member.signals, context, model.terms);
-  const Index extra = raw.cols() - kBaseColumns;
-  return {coefficients.head<kBaseColumns>(), raw.rightCols(extra) * coefficients.tail(extra)};
+  return {coefficients.head<kBaseColumns>(),
+          extra_force(member.signals, context, model.terms, coefficients)};
 }
 
 // Samples at which the windows of a run begin: where its rows follow each other without a gap for
@@ -73,11 +72,10 @@ double off_after_window_m(const Dataset::Member& member, const Baseline& baselin
     const double slope = baseline.model.input_is_held ? 0.0 : run.input_N[k + 1] - run.input_N[k];
     for (int i = 0; i < steps; ++i) {
       const double w = (i + 0.5) / steps;
-      const double known = run.known_N.size() == run.size()
-                               ? (1 - w) * run.known_N[k] + w * run.known_N[k + 1]
-                               : 0.0;
-      const double extra = (1 - w) * model.extra_N[k] + w * model.extra_N[k + 1];
-      body.step(run.input_N[k] + w * slope - extra - known, h);
+      const auto between = [&](const VectorXd& x) { return (1 - w) * x[k] + w * x[k + 1]; };
+      const double known = run.known_N.size() == run.size() ? between(run.known_N) : 0.0;
+      body.step(run.input_N[k] + w * slope - between(model.extra.on_motor_N) - known,
+                -between(model.extra.on_load_N), h);
     }
   }
   return body.motor().position_m - s.position_m[end];
@@ -142,7 +140,7 @@ class Confirmer {
                        ControlLaw::Kind& law) const {
     const Dataset::Member& member = heldout_.data().members[i];
     const auto twin = [&](const InRun& model, const ControlLaw& under) {
-      return simulate_twin(member, model.theta, heldout_.data().baseline, model.extra_N, under,
+      return simulate_twin(member, model.theta, heldout_.data().baseline, model.extra, under,
                            seed_ + i);
     };
     const ControlLaw found = find_control_law(member.run);

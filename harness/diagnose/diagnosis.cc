@@ -50,7 +50,7 @@ Split split(const Request& request, const Baseline& baseline) {
   std::vector<Run> holdout = request.holdout;
   std::vector<Run> all = runs;
   all.insert(all.end(), holdout.begin(), holdout.end());
-  const Conditioning conditioning = choose_conditioning(all, std::max(request.model.mass_kg, 1e-9));
+  const Conditioning conditioning = choose_conditioning(all, request.model);
   take_off_known_terms(runs, baseline, conditioning);
   take_off_known_terms(holdout, baseline, conditioning);
   if (holdout.empty() && runs.size() > 1) {
@@ -139,9 +139,7 @@ void check_data(Request& request, Findings& findings) {
     }
   }
   if (!is_fatal(findings)) {
-    check_against_rigid(request,
-                        choose_conditioning(request.runs, std::max(request.model.mass_kg, 1e-9)),
-                        findings);
+    check_against_rigid(request, choose_conditioning(request.runs, request.model), findings);
   }
 }
 

@@ -6,8 +6,7 @@
 namespace towbench::harness::diagnose {
 namespace {
 
-constexpr double kStandingShare = 2e-3;  // of the largest speed
-constexpr double kDwell_s = 0.04;        // slower than that for this long is standing, not turning
+constexpr double kDwell_s = 0.04;  // slower than that for this long is standing, not turning
 
 std::vector<char> dwells(const Eigen::VectorXd& speed, double floor_m_per_s, double period_s) {
   std::vector<char> standing(static_cast<std::size_t>(speed.size()), 0);
@@ -52,8 +51,8 @@ void follow(Signals& s, double floor_m_per_s) {
 
 }  // namespace
 
-void find_direction(Signals& s, double resolution_m) {
-  const double floor = std::max(kStandingShare * s.speed_m_per_s.cwiseAbs().maxCoeff(),
+void find_direction(Signals& s, double resolution_m, double standing_share) {
+  const double floor = std::max(standing_share * s.speed_m_per_s.cwiseAbs().maxCoeff(),
                                 0.5 * resolution_m / kDwell_s);
   s.standing = dwells(s.speed_m_per_s, floor, s.period_s);
   follow(s, floor);

@@ -4,20 +4,34 @@
 
 namespace towbench::harness::diagnose {
 
+ActingColumns acting_columns(const Effect& effect, const Signals& signals, const Context& context,
+                             std::span<const double> scales) {
+  const auto at = [&](const Signals& s) { return effect.columns(s, context, scales); };
+  const auto none = [](const Eigen::MatrixXd& like) {
+    return Eigen::MatrixXd::Zero(like.rows(), like.cols());
+  };
+  if (signals.load != nullptr && effect.acts_on == ActsOn::kBoth) {
+    const double share = context.model.chain.load_share;
+    return {(1 - share) * at(signals), share * at(signals.load->motion)};
+  }
+  const bool on_motor = signals.load == nullptr || effect.acts_on == ActsOn::kMotor;
+  const Eigen::MatrixXd columns =
+      on_motor || effect.acts_on == ActsOn::kChain ? at(signals) : at(signals.load->motion);
+  return on_motor ? ActingColumns{columns, none(columns)} : ActingColumns{none(columns), columns};
+}
+
 Eigen::MatrixXd effect_columns(const Effect& effect, const Signals& signals, const Context& context,
                                std::span<const double> scales) {
-  if (signals.load == nullptr || effect.acts_on == ActsOn::kMotor) {
-    return effect.columns(signals, context, scales);
+  ActingColumns acting = acting_columns(effect, signals, context, scales);
+  if (signals.load == nullptr) {
+    return std::move(acting.on_motor);
   }
-  Eigen::MatrixXd out = effect.columns(signals.load->motion, context, scales);
-  for (Eigen::Index j = 0; j < out.cols(); ++j) {
-    out.col(j) = signals.load->through_chain(out.col(j));
+  for (Eigen::Index j = 0; j < acting.on_load.cols(); ++j) {
+    if (!acting.on_motor.col(j).isZero(0)) {
+      acting.on_load.col(j) += signals.load->of_motor_force(acting.on_motor.col(j));
+    }
   }
-  if (effect.acts_on == ActsOn::kBoth) {
-    const double share = context.model.chain.load_share;
-    out = share * out + (1 - share) * effect.columns(signals, context, scales);
-  }
-  return out;
+  return std::move(acting.on_load);
 }
 
 }  // namespace towbench::harness::diagnose

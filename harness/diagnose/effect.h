@@ -29,16 +29,14 @@ struct Context {
   double duration_s = 0;
 
   [[nodiscard]] Eigen::VectorXd model_force_N(const Signals& signals) const {
-    Eigen::VectorXd force = base_columns(signals) * theta;
-    if (signals.known_N.size() == signals.size()) {
-      force += signals.known_N;
-    }
-    return force;
+    // What a chain passes on is seen, not modelled: at the motor, and at the load.
+    return model.elastic() ? signals.force_N() : base_columns(signals) * theta;
   }
 };
 
 using Scales = std::vector<double>;
-enum class ActsOn { kMotor, kLoad, kBoth };
+// kChain: no force at all, but a term of the load's law (elastic_axis.h).
+enum class ActsOn { kMotor, kLoad, kBoth, kChain };
 enum class LineSearch { kNone, kPosition, kTime };
 
 struct Effect {
@@ -60,8 +58,15 @@ struct Effect {
   Eigen::MatrixXd (*columns)(const Signals&, const Context&, std::span<const double>) = nullptr;
 };
 
-// An effect's columns where it acts: as they are on a rigid axis and at the motor; what acts on the
-// load is computed from the load's motion and felt through the chain; friction is on both.
+// An effect's columns where they act: what acts on the load is computed from the load's motion,
+// friction is on both bodies. A rigid axis has a motor only.
+struct ActingColumns {
+  Eigen::MatrixXd on_motor;
+  Eigen::MatrixXd on_load;
+};
+[[nodiscard]] ActingColumns acting_columns(const Effect& effect, const Signals& signals,
+                                           const Context& context, std::span<const double> scales);
+// The same as the fit needs them: of the load's law, where there is a load.
 [[nodiscard]] Eigen::MatrixXd effect_columns(const Effect& effect, const Signals& signals,
                                              const Context& context,
                                              std::span<const double> scales);

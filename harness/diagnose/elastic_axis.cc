@@ -14,130 +14,147 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// A load is out of step where its force, were stiffness and mass wholly other, would be off by more
-// than this many times the force's own rms: then their last per mille is felt.
-constexpr double kOutOfStep = 15;
-constexpr double kEnvelope_s = 0.15;  // either side; a half swing and more
-constexpr double kNudge = 0.01;       // relative, of a derivative by differences
-constexpr double kSmallForce = 0.05;  // of dry friction, rms
+// Slower than this share of its top speed it is not known which way the load goes, or if at all:
+// its speed is the motor's less what the stretch changes by, and that is known to a few per cent.
+constexpr double kUndecidedSpeed = 0.01;
+// Below this share of its rms the chain's force does not say which flank of a play carries.
+constexpr double kUndecidedForce = 0.1;
 
-// F of the elastic axis along a motor's motion.
-VectorXd force_N(const Signals& s, const NominalModel& model, const Theta& theta,
-                 const VectorXd& chain_N) {
-  const TwoBodies bodies(model, theta);
-  VectorXd force = model.chain.motor_kg * s.acceleration_m_per_s2 + chain_N;
+// (k + d D)^-1 F, exact for a force that is linear between samples.
+VectorXd stretch_m(const ElasticChain& chain, const VectorXd& force_N, double period_s) {
+  const double k = chain.stiffness_N_per_m;
+  const double rho = period_s * k / std::max(chain.damping_N_s_per_m, 1e-12 * k);
+  const double keeps = std::exp(-rho);
+  const double ramp = (1 - keeps) / rho;
+  VectorXd s(force_N.size());
+  double before = force_N[0];
+  double last = before / k;
   for (Index i = 0; i < s.size(); ++i) {
-    force[i] += theta[kBias] + bodies.motor_friction_N(s.speed_m_per_s[i], s.direction[i]);
+    last = keeps * last + ((1 - ramp) * force_N[i] + (ramp - keeps) * before) / k;
+    before = force_N[i];
+    s[i] = last;
+  }
+  return s;
+}
+
+// The load's law for what is known of one run at one point of linearisation.
+class LoadLaw {
+ public:
+  LoadLaw(const Baseline& baseline, double period_s)
+      : baseline_(baseline), bodies_(baseline.model, baseline.at), period_s_(period_s) {}
+
+  // (M D^2 + share B D) of a way.
+  [[nodiscard]] VectorXd inertial_N(const VectorXd& way_m) const {
+    const VectorXd speed = central_difference(way_m, period_s_);
+    return bodies_.load_mass_kg() * central_difference(speed, period_s_) +
+           bodies_.load_viscous_N_s_per_m() * speed;
+  }
+  [[nodiscard]] VectorXd stretch_m(const VectorXd& force_N) const {
+    return diagnose::stretch_m(baseline_.model.chain, force_N, period_s_);
+  }
+  [[nodiscard]] VectorXd of_motor_force(const VectorXd& force_N) const {
+    return force_N + inertial_N(stretch_m(force_N));
+  }
+  [[nodiscard]] const TwoBodies& bodies() const noexcept { return bodies_; }
+
+ private:
+  const Baseline& baseline_;
+  TwoBodies bodies_;
+  double period_s_;
+};
+
+VectorXd motor_force_N(const Signals& s, const Baseline& baseline, const TwoBodies& bodies) {
+  VectorXd force = baseline.model.chain.motor_kg * s.acceleration_m_per_s2;
+  for (Index i = 0; i < s.size(); ++i) {
+    force[i] += baseline.at[kBias] + bodies.motor_friction_N(s.speed_m_per_s[i], s.direction[i]);
   }
   return force;
 }
 
-Signals load_signals(const Signals& motor, const Followed& followed) {
+// The flank that carries, +1 or -1; between them the gap is crossed at an even pace.
+VectorXd carrying_flank(const VectorXd& chain_N) {
+  const double least =
+      kUndecidedForce * chain_N.norm() / std::sqrt(static_cast<double>(chain_N.size()));
+  VectorXd side = VectorXd::Zero(chain_N.size());
+  Index last = -1;
+  for (Index i = 0; i < side.size(); ++i) {
+    if (std::abs(chain_N[i]) <= least) {
+      continue;
+    }
+    side[i] = chain_N[i] > 0 ? 1 : -1;
+    for (Index k = last + 1; k < i && last >= 0; ++k) {
+      const double w = static_cast<double>(k - last) / static_cast<double>(i - last);
+      side[k] = (1 - w) * side[last] + w * side[i];
+    }
+    last = i;
+  }
+  return side;
+}
+
+Signals load_signals(const Signals& motor, const VectorXd& load_m, const VectorXd& chain_N) {
   Signals s;
   s.period_s = motor.period_s;
   s.time_s = motor.time_s;
-  s.position_m = followed.load_m;
-  s.speed_m_per_s = followed.load_m_per_s;
-  s.acceleration_m_per_s2 = central_difference(followed.load_m_per_s, motor.period_s);
-  s.input_N = followed.chain_N;
+  s.position_m = load_m;
+  s.speed_m_per_s = central_difference(load_m, motor.period_s);
+  s.acceleration_m_per_s2 = central_difference(s.speed_m_per_s, motor.period_s);
+  s.input_N = chain_N;
   s.other_speed_m_per_s = motor.other_speed_m_per_s;
   s.other_acceleration_m_per_s2 = motor.other_acceleration_m_per_s2;
-  find_direction(s, 0);
+  find_direction(s, 0, kUndecidedSpeed);
   s.base.resize(s.size(), static_cast<Index>(kBaseColumns));
   s.base << s.acceleration_m_per_s2, s.speed_m_per_s, s.direction, VectorXd::Ones(s.size());
   return s;
 }
 
-std::vector<char> out_of_step(const VectorXd& sensitivity_N, const VectorXd& force_N,
-                              double period_s) {
-  const Index n = force_N.size();
-  const double most = kOutOfStep * force_N.norm() / std::sqrt(static_cast<double>(n));
-  const auto reach = static_cast<Index>(kEnvelope_s / period_s);
-  std::vector<char> out(static_cast<std::size_t>(n), 0);
-  for (Index i = 0; i < n; ++i) {
-    if (std::abs(sensitivity_N[i]) > most) {
-      const Index from = std::max<Index>(0, i - reach);
-      std::fill(out.begin() + from, out.begin() + std::min(n, i + reach + 1), char{1});
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
-Followed follow_motor(const NominalModel& model, const Theta& theta, const VectorXd& motor_m,
-                      const VectorXd& motor_m_per_s, double period_s, const VectorXd& extra_N) {
-  const TwoBodies bodies(model, theta);
-  const Index n = motor_m.size();
-  Followed out{VectorXd(n), VectorXd(n), VectorXd(n)};
-  Motion load{motor_m[0], motor_m_per_s[0]};
-  const auto steps = std::max(1, static_cast<int>(std::ceil(period_s / kLongestStep_s)));
-  const double h = period_s / steps;
-  for (Index k = 0; k < n; ++k) {
-    out.load_m[k] = load.position_m;
-    out.load_m_per_s[k] = load.speed_m_per_s;
-    out.chain_N[k] = bodies.chain_N({motor_m[k], motor_m_per_s[k]}, load);
-    const Index next = std::min(k + 1, n - 1);
-    for (int i = 0; i < steps; ++i) {
-      const double w = (i + 0.5) / steps;
-      const Motion motor{(1 - w) * motor_m[k] + w * motor_m[next],
-                         (1 - w) * motor_m_per_s[k] + w * motor_m_per_s[next]};
-      const double extra = extra_N.size() == n ? (1 - w) * extra_N[k] + w * extra_N[next] : 0.0;
-      bodies.step_load(load, motor, extra, h);
-    }
-  }
-  return out;
-}
-
-VectorXd LoadSide::through_chain(const VectorXd& extra_N) const {
-  const double n = static_cast<double>(std::max<Index>(1, extra_N.size()));
-  const double rms = extra_N.norm() / std::sqrt(n);
-  if (!(rms > 0)) {
-    return extra_N;
-  }
-  const double dry = std::max(baseline.at[kCoulomb], 1e-3 * motion.input_N.norm() / std::sqrt(n));
-  const double small = kSmallForce * std::max(dry, 1e-9) / rms;
-  const Followed with = follow_motor(baseline.model, baseline.at, motor_m, motor_m_per_s,
-                                     motion.period_s, small * extra_N);
-  return (with.chain_N - chain_N) / small;
+VectorXd LoadSide::of_motor_force(const VectorXd& force_N) const {
+  return LoadLaw(baseline, motion.period_s).of_motor_force(force_N);
 }
 
 void put_on_chain(Signals& s, const Baseline& baseline) {
-  const NominalModel& model = baseline.model;
-  const auto force_at = [&](const NominalModel& of, const Theta& theta) {
-    return force_N(
-        s, of, theta,
-        follow_motor(of, theta, s.position_m, s.speed_m_per_s, s.period_s, VectorXd{}).chain_N);
-  };
-  const Followed here =
-      follow_motor(model, baseline.at, s.position_m, s.speed_m_per_s, s.period_s, VectorXd{});
-  const VectorXd force = force_N(s, model, baseline.at, here.chain_N);
-  s.base.resize(s.size(), static_cast<Index>(kBaseColumns));
-  s.base.col(kBias).setOnes();
-  for (const auto j : {kMass, kViscous, kCoulomb}) {
-    Theta moved = baseline.at;
-    const double nudge = kNudge * std::max(std::abs(moved[j]), 1e-3);
-    moved[j] += nudge;
-    s.base.col(j) = (force_at(model, moved) - force) / nudge;
-  }
-  s.known_N = force - s.base * baseline.at;
+  const ElasticChain& chain = baseline.model.chain;
+  const LoadLaw law(baseline, s.period_s);
+  const VectorXd force = s.input_N;
+  const VectorXd chain_N = force - motor_force_N(s, baseline, law.bodies());
+  const VectorXd stretch = law.stretch_m(chain_N);
+  const VectorXd side = carrying_flank(chain_N);
   auto load = std::make_shared<LoadSide>();
-  load->motion = load_signals(s, here);
   load->baseline = baseline;
-  load->motor_m = s.position_m;
-  load->motor_m_per_s = s.speed_m_per_s;
-  load->chain_N = here.chain_N;
-  NominalModel stiffer = model;
-  stiffer.chain.stiffness_N_per_m *= 1 + kNudge;
-  NominalModel damped = model;
-  damped.chain.damping_N_s_per_m *= 1 + kNudge;
+  load->motion = load_signals(s, s.position_m - stretch - 0.5 * chain.play_m * side, chain_N);
+  const Signals& x = load->motion;
+  const double share = chain.load_share;
+  s.base.resize(s.size(), static_cast<Index>(kBaseColumns));
+  s.base.col(kMass) = x.acceleration_m_per_s2;
+  s.base.col(kViscous) =
+      share * x.speed_m_per_s + (1 - share) * law.of_motor_force(s.speed_m_per_s);
+  s.base.col(kCoulomb) = share * x.direction + (1 - share) * law.of_motor_force(s.direction);
+  s.base.col(kBias).setOnes();
+  VectorXd left = chain_N - law.inertial_N(x.position_m);
+  for (Index i = 0; i < s.size(); ++i) {
+    left[i] -= x.direction[i] * law.bodies().load_dry_N({x.position_m[i], x.speed_m_per_s[i]});
+    s.standing[static_cast<std::size_t>(i)] |= x.standing[static_cast<std::size_t>(i)];
+  }
+  const double k = chain.stiffness_N_per_m;
+  const VectorXd by_spring = law.stretch_m(k * stretch);
   load->by_chain.resize(s.size(), 2);
-  load->by_chain << (force_at(stiffer, baseline.at) - force) / kNudge,
-      (force_at(damped, baseline.at) - force) / kNudge;
-  const VectorXd sensitivity =
-      baseline.at[kMass] * s.base.col(kMass).cwiseAbs() + load->by_chain.col(0).cwiseAbs();
-  s.out_of_step = out_of_step(sensitivity, force, s.period_s);
+  load->by_chain << law.inertial_N(by_spring), law.inertial_N(stretch - by_spring);
+  load->by_play = -0.5 * law.inertial_N(side);
+  load->by_scale = law.inertial_N(s.position_m) +
+                   law.of_motor_force(chain.motor_kg * s.acceleration_m_per_s2 +
+                                      (1 - share) * baseline.at[kViscous] * s.speed_m_per_s);
+  load->by_gain = law.of_motor_force(force) - left;
+  s.input_N = left + s.base * baseline.at;
+  s.known_N = force - s.input_N;
   s.load = std::move(load);
+}
+
+VectorXd force_for_motion_N(const Signals& s, const Baseline& baseline) {
+  const TwoBodies bodies(baseline.model, baseline.at);
+  VectorXd force = motor_force_N(s, baseline, bodies);
+  return force +
+         follow_motor(baseline.model, baseline.at, s.position_m, s.speed_m_per_s, s.period_s);
 }
 
 }  // namespace towbench::harness::diagnose

@@ -1,10 +1,14 @@
-// The inverse of an axis with an elastic chain: from what the motor did to the force that it took.
+// An axis with an elastic chain, read from its motor.
 //
-// The chain is pulled by the measured motor; the load follows by its own law (two_bodies.h), which
-// is stable whatever the controller did. So
-//   F = m a + friction_m(v) + b + F_chain(load following q)
-// needs no twin in closed loop, and what the plant file states of chain, Stribeck friction and
-// places that run hard is in it.
+// What the motor is given beyond its own inertia and friction pulls the chain, so the log shows the
+// chain's force, its stretch, and with it where the load is, whatever the load did before:
+//   F_chain = F - m a - friction_m(v) - b,  s = F_chain / (k + d D),  x = q - s - play/2 sgn
+//   F_chain
+// and the load's law is linear in what is sought:
+//   F_chain = M x'' + share (B x' + C sgn x') + what the plant file states beyond
+// No state is simulated: a load that keeps itself swinging (stick-slip) is as well known as one at
+// rest. A force e on the motor appears in that law as L e, L = 1 + (M D^2 + share B D) / (k + d D);
+// one on the load as itself.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,34 +17,24 @@
 
 namespace towbench::harness::diagnose {
 
-struct Followed {
-  Eigen::VectorXd load_m;
-  Eigen::VectorXd load_m_per_s;
-  Eigen::VectorXd chain_N;
-};
-
-// The load of `model` with coefficients `theta` while the motor moves as given. It starts beside
-// the motor, at its speed. `extra_N` resists it, empty: none.
-[[nodiscard]] Followed follow_motor(const NominalModel& model, const Theta& theta,
-                                    const Eigen::VectorXd& motor_m,
-                                    const Eigen::VectorXd& motor_m_per_s, double period_s,
-                                    const Eigen::VectorXd& extra_N);
-
-// The load while the motor does what was measured, and what a force on it makes the chain do.
+// The load as the chain shows it.
 struct LoadSide {
-  Signals motion;            // of the load, its base columns those of a rigid body
-  Eigen::MatrixXd by_chain;  // d F / d ln stiffness, d F / d ln damping
+  Signals motion;            // base columns those of a rigid body
+  Eigen::MatrixXd by_chain;  // of the load's law: per ln stiffness, ln damping
+  Eigen::VectorXd by_play;   // of the load's law: per metre of play
+  Eigen::VectorXd by_gain;   // of the load's law: per share by which the amplifier gives less
+  Eigen::VectorXd by_scale;  // of the load's law: per share by which the encoder reads short
   Baseline baseline;
-  Eigen::VectorXd motor_m;
-  Eigen::VectorXd motor_m_per_s;
-  Eigen::VectorXd chain_N;
 
-  // Chain force that overcomes a force which resists the load, small against dry friction: the
-  // derivative of the load's law, sticking included.
-  [[nodiscard]] Eigen::VectorXd through_chain(const Eigen::VectorXd& force_N) const;
+  // A force on the motor, as the load's law has it.
+  [[nodiscard]] Eigen::VectorXd of_motor_force(const Eigen::VectorXd& force_N) const;
 };
 
-// Fills base, known_N and load. Position, speed, acceleration, direction are there.
+// Fills base, known_N and load, makes of the input what the base columns are to make, and takes the
+// load's standstill for the axis's. Position, speed, acceleration, direction are there.
 void put_on_chain(Signals& signals, const Baseline& baseline);
+
+// What the motor must be given for a motion, the load following by its own law (two_bodies.h).
+[[nodiscard]] Eigen::VectorXd force_for_motion_N(const Signals& motor, const Baseline& baseline);
 
 }  // namespace towbench::harness::diagnose

@@ -48,9 +48,7 @@ Processed process_twins(const Dataset& data, const Context& context, const std::
   Index at = 0;
   for (std::size_t i = 0; i < data.members.size(); ++i) {
     const Dataset::Member& member = data.members[i];
-    const MatrixXd raw = raw_columns(member.signals, context, terms);
-    const Index extra_columns = raw.cols() - kBaseColumns;
-    const VectorXd extra = raw.rightCols(extra_columns) * coefficients.tail(extra_columns);
+    const ExtraForce extra = extra_force(member.signals, context, terms, coefficients);
     const Theta theta = coefficients.head<kBaseColumns>();
     const Twin twin = simulate_twin(member, theta, data.baseline, extra, laws[i], seed + i);
     if (twin.law == ControlLaw::Kind::kTracking) {
@@ -88,6 +86,20 @@ MatrixXd raw_columns(const Signals& signals, const Context& context,
     at += count;
   }
   return raw;
+}
+
+ExtraForce extra_force(const Signals& signals, const Context& context,
+                       const std::vector<Term>& terms, const VectorXd& coefficients) {
+  ExtraForce extra{VectorXd::Zero(signals.size()), VectorXd::Zero(signals.size())};
+  Index at = kBaseColumns;
+  for (const Term& term : terms) {
+    const auto count = static_cast<Index>(term.effect->coefficients.size());
+    const ActingColumns columns = acting_columns(*term.effect, signals, context, term.scales);
+    extra.on_motor_N += columns.on_motor * coefficients.segment(at, count);
+    extra.on_load_N += columns.on_load * coefficients.segment(at, count);
+    at += count;
+  }
+  return extra;
 }
 
 MatrixXd design_matrix(const Dataset& data, const Context& context,

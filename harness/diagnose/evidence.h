@@ -38,6 +38,10 @@ struct Evidence {
                                             const std::vector<Term>& terms);
 [[nodiscard]] Eigen::MatrixXd raw_columns(const Signals& signals, const Context& context,
                                           const std::vector<Term>& terms);
+// What the terms take along a motion, where they act. `coefficients`: base columns first.
+[[nodiscard]] ExtraForce extra_force(const Signals& signals, const Context& context,
+                                     const std::vector<Term>& terms,
+                                     const Eigen::VectorXd& coefficients);
 
 // `rounds` = 0: plain least squares, no twin. Laws: one a member.
 [[nodiscard]] Evidence weigh(const Dataset& data, const Context& context,

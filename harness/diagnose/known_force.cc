@@ -4,18 +4,17 @@
 #include <cmath>
 
 #include "harness/diagnose/dataset.h"
-#include "harness/diagnose/elastic_axis.h"
 #include "harness/diagnose/known_terms.h"
 #include "harness/diagnose/wald.h"
 
 namespace towbench::harness::diagnose {
 namespace {
 
-// Force that the motor need not make while the push helps; through the chain where there is one.
+// Force that the motor, or the load's law, need not make while the push helps.
 Eigen::MatrixXd spared_N(const Signals& s, const KnownForce& push) {
   const auto on = (s.time_s.array() >= push.from_s && s.time_s.array() < push.to_s).cast<double>();
   const Eigen::VectorXd spared = -push.force_N * on;
-  return s.load == nullptr ? spared : s.load->through_chain(spared);
+  return spared;
 }
 
 }  // namespace
@@ -23,7 +22,7 @@ Eigen::MatrixXd spared_N(const Signals& s, const KnownForce& push) {
 Interval force_ratio(const NominalModel& model, const Run& run, const KnownForce& push) {
   const Baseline baseline = stated_baseline(model);
   std::vector<Run> runs{run};
-  const Conditioning conditioning = choose_conditioning(runs, std::max(model.mass_kg, 1e-9));
+  const Conditioning conditioning = choose_conditioning(runs, model);
   take_off_known_terms(runs, baseline, conditioning);
   const Dataset data =
       make_dataset(runs, conditioning, baseline, [](Eigen::Index, Eigen::Index) { return true; });

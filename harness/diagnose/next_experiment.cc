@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/diagnose/elastic_axis.h"
 #include "harness/diagnose/wald.h"
 
 namespace towbench::harness::diagnose {
@@ -45,7 +46,8 @@ Dataset virtual_data(const TrialMotion& motion, const Context& c, const Conditio
   run.input_N = VectorXd::Zero(run.size());
   run.missing.assign(static_cast<std::size_t>(run.size()), 0);
   const Signals moved = make_signals(run, conditioning, baseline);
-  run.input_N = c.model_force_N(moved);
+  run.input_N =
+      baseline.model.elastic() ? force_for_motion_N(moved, baseline) : c.model_force_N(moved);
   return make_dataset({run}, conditioning, baseline, [](Index, Index) { return true; });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "harness/diagnose/direction.h"
@@ -13,6 +14,8 @@ namespace towbench::harness::diagnose {
 namespace {
 
 constexpr double kNoiseShare = 0.03;
+// Of the load's swing against a held motor: beyond it its law sees noise, by the square of both.
+constexpr double kBandsOfMode = 3.5;
 
 double rms_about_mean(const Eigen::VectorXd& x) {
   return std::sqrt((x.array() - x.mean()).square().mean());
@@ -25,6 +28,13 @@ Eigen::VectorXd held(const Eigen::VectorXd& u) {
     out[i] = 0.5 * (u[i] + u[i - 1]);
   }
   return out;
+}
+
+double widest_band_Hz(const NominalModel& model) {
+  const double load_kg = model.mass_kg - model.chain.motor_kg;
+  return model.elastic() ? kBandsOfMode / (2 * std::numbers::pi) *
+                               std::sqrt(model.chain.stiffness_N_per_m / load_kg)
+                         : std::numeric_limits<double>::infinity();
 }
 
 Eigen::MatrixXd rigid_columns(const Signals& s) {
@@ -44,13 +54,16 @@ double acceleration_noise_m_per_s2(const Run& run, double cutoff_Hz) {
          std::sqrt(std::pow(cutoff_Hz, 5) / 5);
 }
 
-Conditioning choose_conditioning(const std::vector<Run>& runs, double mass_kg) {
+Conditioning choose_conditioning(const std::vector<Run>& runs, const NominalModel& model) {
+  const double mass_kg = std::max(model.mass_kg, 1e-9);
   constexpr std::array<double, 9> kBands{40, 28, 20, 14, 10, 7, 5, 3.5, 2.5};
+  const double widest = widest_band_Hz(model);
   Conditioning chosen{.cutoff_Hz = kBands.back(), .smoothing_Hz = 2.5 * kBands.back()};
   for (const double cutoff : kBands) {
     const bool good = std::all_of(runs.begin(), runs.end(), [&](const Run& run) {
-      return cutoff <= 0.2 / run.period_s && mass_kg * acceleration_noise_m_per_s2(run, cutoff) <=
-                                                 kNoiseShare * rms_about_mean(run.input_N);
+      return cutoff <= widest && cutoff <= 0.2 / run.period_s &&
+             mass_kg * acceleration_noise_m_per_s2(run, cutoff) <=
+                 kNoiseShare * rms_about_mean(run.input_N);
     });
     if (good) {
       chosen.cutoff_Hz = cutoff;
@@ -84,8 +97,8 @@ Signals make_signals(const Run& run, const Conditioning& conditioning, const Bas
   }
   find_direction(s, run.resolution_m);
   if (baseline.model.elastic()) {
+    s.input_N = smooth.apply(s.input_N);
     put_on_chain(s, baseline);
-    s.input_N -= s.known_N;
   } else {
     s.base = rigid_columns(s);
   }

@@ -24,15 +24,12 @@ struct Signals {
   Eigen::VectorXd since_reversal_s;
   Eigen::VectorXd other_speed_m_per_s;  // of the other axis; empty when unknown
   Eigen::VectorXd other_acceleration_m_per_s2;
-  // Of F = base theta + known: of a rigid axis a, v, sgn v, 1 and nothing; of an elastic one the
-  // derivatives at the point of linearisation and what they leave of its force there.
+  // Of input = base theta: of a rigid axis a, v, sgn v, 1; of an elastic one the derivatives of the
+  // load's law at the point of linearisation (elastic_axis.h).
   Eigen::MatrixXd base;
-  Eigen::VectorXd known_N;  // empty: none
+  Eigen::VectorXd known_N;  // of an elastic axis what the command made less `input_N`; else empty
   // What the load does while the motor does this; null for a rigid axis.
   std::shared_ptr<const LoadSide> load;
-  // 1 where the load's swing hangs on its whole past: it keeps itself going (stick-slip at low
-  // speed), and a percent of stiffness long ago decides where it is now. Rigid: empty.
-  std::vector<char> out_of_step;
   std::vector<char> standing;  // 1 while the axis dwells: friction is not determined there
 
   // What the command made, terms of the model that are not in the columns included.
@@ -54,7 +51,9 @@ struct Conditioning {
 
 // The widest band (40 Hz at most, a fifth of the sampling rate at most) in which the encoder's
 // steps make at most 3 % of the input's rms look like force.
-[[nodiscard]] Conditioning choose_conditioning(const std::vector<Run>& runs, double mass_kg);
+// Of an elastic axis the load's law is judged, and that is known up to a few times its mode only.
+[[nodiscard]] Conditioning choose_conditioning(const std::vector<Run>& runs,
+                                               const NominalModel& model);
 
 [[nodiscard]] Signals make_signals(const Run& run, const Conditioning& conditioning,
                                    const Baseline& baseline);

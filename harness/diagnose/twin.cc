@@ -10,6 +10,8 @@
 namespace towbench::harness::diagnose {
 namespace {
 
+using Eigen::VectorXd;
+
 constexpr double kTrackingBandwidth_Hz = 15;
 // A fitted law whose twin strays further than this from the log, relative to the stroke, is
 // dropped.
@@ -26,22 +28,22 @@ double rounded(double x, double step) {
 class Simulation {
  public:
   Simulation(const Dataset::Member& member, const Theta& theta, const Baseline& baseline,
-             const Eigen::VectorXd& extra_N, std::uint64_t seed)
+             ExtraForce extra, std::uint64_t seed)
       : log_(member.run),
         signals_(member.signals),
         theta_(theta),
         baseline_(baseline),
-        extra_(extra_N),
+        extra_(std::move(extra)),
         held_(baseline.model.input_is_held) {
     core::Random random(seed);
     phase_ = random.uniform();
     if (log_.known_N.size() == log_.size()) {
-      extra_ += log_.known_N;
+      extra_.on_motor_N += log_.known_N;
     }
-    feed_forward_ = base_columns(signals_) * theta_ + extra_;
-    if (signals_.known_N.size() == log_.size()) {
-      feed_forward_ += signals_.known_N;
-    }
+    // Of an elastic axis the force that it took; how the load made it so is its own past.
+    feed_forward_ = signals_.load != nullptr
+                        ? signals_.force_N()
+                        : VectorXd(base_columns(signals_) * theta_ + extra_.on_motor_N);
   }
 
   Run through(const ControlLaw& law) {
@@ -61,8 +63,9 @@ class Simulation {
       const Eigen::Index next = std::min(k + 1, log_.size() - 1);
       for (int i = 0; i < steps; ++i) {
         const double w = (i + 0.5) / steps;
-        const double extra = (1 - w) * extra_[k] + w * extra_[next];
-        body.step(twin.input_N[k] + w * slope - extra, h);
+        const auto between = [&](const VectorXd& x) { return (1 - w) * x[k] + w * x[next]; };
+        body.step(twin.input_N[k] + w * slope - between(extra_.on_motor_N),
+                  -between(extra_.on_load_N), h);
       }
     }
     return twin;
@@ -81,9 +84,9 @@ class Simulation {
   const Signals& signals_;
   const Theta& theta_;
   const Baseline& baseline_;
-  Eigen::VectorXd extra_;
+  ExtraForce extra_;
   bool held_;
-  Eigen::VectorXd feed_forward_;
+  VectorXd feed_forward_;
   double phase_ = 0;
 };
 
@@ -96,8 +99,8 @@ bool strays(const Run& twin, const Run& log) {
 }  // namespace
 
 Twin simulate_twin(const Dataset::Member& member, const Theta& theta, const Baseline& baseline,
-                   const Eigen::VectorXd& extra_N, const ControlLaw& law, std::uint64_t seed) {
-  Simulation simulation(member, theta, baseline, extra_N, seed);
+                   const ExtraForce& extra, const ControlLaw& law, std::uint64_t seed) {
+  Simulation simulation(member, theta, baseline, extra, seed);
   if (law.kind == ControlLaw::Kind::kFitted) {
     Twin twin{simulation.through(law), law.kind};
     if (!strays(twin.run, member.run)) {

@@ -20,11 +20,16 @@ struct Twin {
   ControlLaw::Kind law = ControlLaw::Kind::kTracking;  // the one that was used in the end
 };
 
-// `extra_N`: force that the accepted effects demand at each sample, taken along the measured
-// motion. An input that the baseline does not hold is continued along its last slope: no delay to
+// Force that accepted effects demand at each sample, taken along the measured motion.
+struct ExtraForce {
+  Eigen::VectorXd on_motor_N;
+  Eigen::VectorXd on_load_N;
+};
+
+// An input that the baseline does not hold is continued along its last slope: no delay to
 // first order. `seed` places the encoder's grating under the start.
 [[nodiscard]] Twin simulate_twin(const Dataset::Member& member, const Theta& theta,
-                                 const Baseline& baseline, const Eigen::VectorXd& extra_N,
+                                 const Baseline& baseline, const ExtraForce& extra,
                                  const ControlLaw& law, std::uint64_t seed);
 
 }  // namespace towbench::harness::diagnose

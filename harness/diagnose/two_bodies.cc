@@ -68,16 +68,20 @@ void TwoBodies::push(Motion& body, const Body& of, double force_N, double damper
   body.speed_m_per_s = std::copysign(std::max(std::abs(free) - loss, 0.0), free);
 }
 
-void TwoBodies::step_load(Motion& load, const Motion& motor, double extra_N, double h_s) const {
+double TwoBodies::load_dry_N(const Motion& load) const {
+  return dry_N(load_, load.speed_m_per_s) + position_friction_N(load.position_m);
+}
+
+void TwoBodies::step_load(Motion& load, const Motion& motor, double h_s) const {
   load.position_m += 0.5 * h_s * load.speed_m_per_s;
   const Flank f = flank(motor, load);
-  const double force = f.spring_N + f.damper_N_s_per_m * motor.speed_m_per_s - extra_N;
-  const double dry = dry_N(load_, load.speed_m_per_s) + position_friction_N(load.position_m);
-  push(load, load_, force, f.damper_N_s_per_m, dry, h_s);
+  const double force = f.spring_N + f.damper_N_s_per_m * motor.speed_m_per_s;
+  push(load, load_, force, f.damper_N_s_per_m, load_dry_N(load), h_s);
   load.position_m += 0.5 * h_s * load.speed_m_per_s;
 }
 
-void TwoBodies::step(Motion& motor, Motion& load, double force_N, double h_s) const {
+void TwoBodies::step(Motion& motor, Motion& load, double on_motor_N, double on_load_N,
+                     double h_s) const {
   motor.position_m += 0.5 * h_s * motor.speed_m_per_s;
   load.position_m += 0.5 * h_s * load.speed_m_per_s;
   const Motion motor_midway = motor;
@@ -85,12 +89,35 @@ void TwoBodies::step(Motion& motor, Motion& load, double force_N, double h_s) co
   const Flank f = flank(motor_midway, load_midway);
   const double spring = f.spring_N;
   const double damper = f.damper_N_s_per_m;
-  push(motor, motor_, force_N - bias_N_ - spring + damper * load_midway.speed_m_per_s, damper,
+  push(motor, motor_, on_motor_N - bias_N_ - spring + damper * load_midway.speed_m_per_s, damper,
        dry_N(motor_, motor.speed_m_per_s), h_s);
-  push(load, load_, spring + damper * motor_midway.speed_m_per_s, damper,
-       dry_N(load_, load.speed_m_per_s) + position_friction_N(load.position_m), h_s);
+  push(load, load_, on_load_N + spring + damper * motor_midway.speed_m_per_s, damper,
+       load_dry_N(load), h_s);
   motor.position_m += 0.5 * h_s * motor.speed_m_per_s;
   load.position_m += 0.5 * h_s * load.speed_m_per_s;
+}
+
+Eigen::VectorXd follow_motor(const NominalModel& model, const Theta& theta,
+                             const Eigen::VectorXd& motor_m, const Eigen::VectorXd& motor_m_per_s,
+                             double period_s) {
+  const TwoBodies bodies(model, theta);
+  const Eigen::Index n = motor_m.size();
+  Eigen::VectorXd chain_N(n);
+  Motion load{motor_m[0], motor_m_per_s[0]};
+  const auto steps = std::max(1, static_cast<int>(std::ceil(period_s / kLongestStep_s)));
+  const double h = period_s / steps;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    chain_N[k] = bodies.chain_N({motor_m[k], motor_m_per_s[k]}, load);
+    const Eigen::Index next = std::min(k + 1, n - 1);
+    for (int i = 0; i < steps; ++i) {
+      const double w = (i + 0.5) / steps;
+      bodies.step_load(load,
+                       {(1 - w) * motor_m[k] + w * motor_m[next],
+                        (1 - w) * motor_m_per_s[k] + w * motor_m_per_s[next]},
+                       h);
+    }
+  }
+  return chain_N;
 }
 
 }  // namespace towbench::harness::diagnose

@@ -26,13 +26,16 @@ class TwoBodies {
   TwoBodies(const NominalModel& model, const Theta& theta);
 
   [[nodiscard]] double chain_N(const Motion& motor, const Motion& load) const noexcept;
-  // One step of the load under a motor that is somewhere else; `extra_N` resists.
-  void step_load(Motion& load, const Motion& motor_midway, double extra_N, double h_s) const;
-  // One step of both under a force on the motor.
-  void step(Motion& motor, Motion& load, double force_N, double h_s) const;
+  // One step of the load under a motor that is somewhere else.
+  void step_load(Motion& load, const Motion& motor_midway, double h_s) const;
+  // One step of both under a force on each.
+  void step(Motion& motor, Motion& load, double on_motor_N, double on_load_N, double h_s) const;
   // Force that friction takes of the motor at a speed; `direction` is +1, -1 or 0.
   [[nodiscard]] double motor_friction_N(double speed_m_per_s, double direction) const;
-  [[nodiscard]] double load_coulomb_N() const noexcept { return load_.coulomb_N; }
+  // Dry friction of the load's law where it is, at its speed.
+  [[nodiscard]] double load_dry_N(const Motion& load) const;
+  [[nodiscard]] double load_mass_kg() const noexcept { return load_.mass_kg; }
+  [[nodiscard]] double load_viscous_N_s_per_m() const noexcept { return load_.viscous_N_s_per_m; }
 
  private:
   struct Body {
@@ -59,5 +62,11 @@ class TwoBodies {
 };
 
 inline constexpr double kLongestStep_s = 2.5e-4;
+
+// Chain force while the motor moves as given and the load follows by its own law, from beside the
+// motor and at its speed.
+[[nodiscard]] Eigen::VectorXd follow_motor(const NominalModel& model, const Theta& theta,
+                                           const Eigen::VectorXd& motor_m,
+                                           const Eigen::VectorXd& motor_m_per_s, double period_s);
 
 }  // namespace towbench::harness::diagnose

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "harness/diagnose/effect.h"
+#include "harness/diagnose/elastic_axis.h"
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -54,7 +55,7 @@ std::vector<Scales> width_grid(const Context& c) {
 
 // (1 + g) u = F: everything scales by 1/(1+g); in the span of the refitted structure.
 MatrixXd amplifier_gain(const Signals& s, const Context& c, std::span<const double>) {
-  return c.model_force_N(s);
+  return s.load != nullptr ? s.load->by_gain : c.model_force_N(s);
 }
 
 // Nothing happens until |u| > d: u = F + d sgn F.
@@ -116,6 +117,7 @@ void add_drive_effects(Library& library) {
   library.push_back({.name = "amplifier_gain",
                      .cause = "an amplifier gain other than stated",
                      .coefficients = {"relative_loss_ratio"},
+                     .acts_on = ActsOn::kChain,
                      .needs = "a known mass or force, or a force channel",
                      .grid = no_scale,
                      .columns = amplifier_gain});

@@ -5,6 +5,7 @@
 
 #include "harness/diagnose/effect.h"
 #include "harness/diagnose/elastic_axis.h"
+#include "harness/diagnose/two_bodies.h"
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -79,40 +80,38 @@ std::vector<Scales> mode_grid(const Context& c) {
 }
 
 // Play: a flank lets go where the load's own force changes sign, not where the motion does, and
-// until the other one touches the motor moves alone. The load is made to follow the measured motor
-// (elastic_axis.h); of a rigid model it is a guessed share, on flanks that are stiff in its band.
+// until the other one touches the motor moves alone. The load, a guessed share of a rigid model, is
+// made to follow the measured motor on flanks that are stiff in its band.
 MatrixXd backlash(const Signals& s, const Context& c, std::span<const double> scale) {
   constexpr double kFlank_Hz = 50;
   constexpr double kFlankDamping = 0.4;
   constexpr double kFrictionShare = 0.65;
-  const VectorXd none;
   NominalModel model = c.model;
-  if (!model.elastic()) {
-    const double load_kg = scale[1] * std::max(1e-9, c.theta[kMass]);
-    const double w = 2 * std::numbers::pi * kFlank_Hz;
-    model.chain = {.motor_kg = c.theta[kMass] - load_kg,
-                   .stiffness_N_per_m = load_kg * w * w,
-                   .damping_N_s_per_m = 2 * kFlankDamping * load_kg * w,
-                   .load_share = kFrictionShare};
-  }
+  const double load_kg = scale[1] * std::max(1e-9, c.theta[kMass]);
+  const double w = 2 * std::numbers::pi * kFlank_Hz;
+  model.chain = {.motor_kg = c.theta[kMass] - load_kg,
+                 .stiffness_N_per_m = load_kg * w * w,
+                 .damping_N_s_per_m = 2 * kFlankDamping * load_kg * w,
+                 .load_share = kFrictionShare};
   const auto chain_N = [&] {
-    return follow_motor(model, c.theta, s.position_m, s.speed_m_per_s, s.period_s, none).chain_N;
+    return follow_motor(model, c.theta, s.position_m, s.speed_m_per_s, s.period_s);
   };
   const VectorXd without = chain_N();
   model.chain.play_m += scale[0];
   return chain_N() - without;
 }
 
+// Play in a chain that the model states.
+MatrixXd stated_play(const Signals& s, const Context& /*c*/, std::span<const double>) {
+  return s.load == nullptr ? MatrixXd::Zero(s.size(), 1) : MatrixXd(s.load->by_play);
+}
+
 // Plays from what the encoder resolves to a twentieth of the stroke.
 std::vector<Scales> play_grid(const Context& c) {
   std::vector<Scales> grid;
   const double stroke = c.stroke_max_m - c.stroke_min_m;
-  for (double play = std::max({4 * c.resolution_m, 1e-4 * stroke, 1e-6}); play < stroke / 20;
-       play *= 2) {
-    if (c.model.elastic()) {
-      grid.push_back({play});
-      continue;
-    }
+  for (double play = std::max({4 * c.resolution_m, 1e-4 * stroke, 1e-6});
+       play < stroke / 20 && !c.model.elastic(); play *= 2) {
     grid.push_back({play, 0.5});
     grid.push_back({play, 0.8});
   }
@@ -137,6 +136,7 @@ void add_mechanical_effects(Library& library) {
   library.push_back({.name = "added_mass",
                      .cause = "mass that the model does not carry",
                      .coefficients = {"mass_kg"},
+                     .acts_on = ActsOn::kLoad,
                      .needs = "a known mass to compare with",
                      .grid = no_scale,
                      .columns = added_mass});
@@ -151,6 +151,7 @@ void add_mechanical_effects(Library& library) {
   library.push_back({.name = "chain_elasticity",
                      .cause = "a chain stiffer or softer, or damped otherwise, than stated",
                      .coefficients = {"relative_stiffness_ratio", "relative_damping_ratio"},
+                     .acts_on = ActsOn::kChain,
                      .needs = "accelerations fast enough to excite it, finely resolved",
                      .grid = where_stated,
                      .columns = stated_chain});
@@ -162,6 +163,14 @@ void add_mechanical_effects(Library& library) {
                      .needs = "reversals, or a sensor on the load",
                      .grid = play_grid,
                      .columns = backlash});
+  library.push_back({.name = "backlash",
+                     .cause = "play: after the load lets go of a flank the motor moves without it",
+                     .coefficients = {"play_m"},
+                     .first_is_positive = true,
+                     .acts_on = ActsOn::kChain,
+                     .needs = "reversals, or a sensor on the load",
+                     .grid = where_stated,
+                     .columns = stated_play});
   library.push_back({.name = "cross_axis_coupling",
                      .cause = "forces from the other axis's motion",
                      .coefficients = {"mass_kg", "viscous_N_s_per_m"},

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "harness/diagnose/effect.h"
+#include "harness/diagnose/elastic_axis.h"
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -22,6 +23,9 @@ std::vector<Scales> warming_grid(const Context& c) {
 
 // A constant share of the edges is lost: position, speed and acceleration read small alike.
 MatrixXd encoder_count_loss(const Signals& s, const Context& c, std::span<const double>) {
+  if (s.load != nullptr) {
+    return s.load->by_scale;
+  }
   return c.theta[kMass] * s.acceleration_m_per_s2 + c.theta[kViscous] * s.speed_m_per_s;
 }
 
@@ -40,6 +44,7 @@ void add_session_effects(Library& library) {
   library.push_back({.name = "encoder_count_loss",
                      .cause = "an encoder that loses a share of its counts",
                      .coefficients = {"lost_share_ratio"},
+                     .acts_on = ActsOn::kChain,
                      .needs = "a known distance, or the index pulse",
                      .grid = no_scale,
                      .columns = encoder_count_loss});

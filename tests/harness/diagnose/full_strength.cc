@@ -71,7 +71,7 @@ double times_detectable(const HiddenAxis& axis, const HiddenLog& log) {
   const Run run = run_of(axis, log);
   Run truth = run;
   truth.input_N = Eigen::Map<const VectorXd>(log.lacking_N.data(), run.size());
-  const Conditioning conditioning = choose_conditioning({run}, axis.mass_kg);
+  const Conditioning conditioning = choose_conditioning({run}, nominal_of(axis));
   const Baseline baseline = stated_baseline(nominal_of(axis));
   const Dataset data = make_dataset({run}, conditioning, baseline, everywhere);
   const VectorXd hidden = input_of(make_dataset({truth}, conditioning, baseline, everywhere));

@@ -1,0 +1,130 @@
+// The load as its chain shows it, against the closed forms of two masses that swing.
+#include "harness/diagnose/elastic_axis.h"
+
+#include <cmath>
+#include <complex>
+
+#include <gtest/gtest.h>
+
+namespace towbench::tests {
+namespace {
+
+using namespace harness::diagnose;
+using Eigen::Index;
+using Eigen::VectorXd;
+using Complex = std::complex<double>;
+
+constexpr double kTurn = 6.283185307179586;
+constexpr double kMotor_kg = 2;
+constexpr double kLoad_kg = 6;
+constexpr double kHeld_Hz = 4;
+constexpr double kViscous_N_s_per_m = 5;
+constexpr double kAmplitude_m = 0.02;
+constexpr Index kFrom = 1500;
+constexpr Index kRows = 3000;
+
+NominalModel swinging() {
+  NominalModel m;
+  const double w = kTurn * kHeld_Hz;
+  m.mass_kg = kMotor_kg + kLoad_kg;
+  m.viscous_N_s_per_m = kViscous_N_s_per_m;
+  m.chain = {.motor_kg = kMotor_kg,
+             .stiffness_N_per_m = kLoad_kg * w * w,
+             .damping_N_s_per_m = 2 * 0.05 * kLoad_kg * w,
+             .load_share = 1};
+  m.input_is_held = false;
+  return m;
+}
+
+// At a frequency: the chain's force on a load that is driven, and its stretch, per metre of motor.
+struct Response {
+  Complex chain_N;
+  Complex load;
+};
+
+Response response_at(const NominalModel& m, double frequency_Hz) {
+  const Complex p(0, kTurn * frequency_Hz);
+  const Complex chain = m.chain.stiffness_N_per_m + m.chain.damping_N_s_per_m * p;
+  const Complex resists = kLoad_kg * p * p + kViscous_N_s_per_m * p;
+  return {chain * resists / (chain + resists), chain / (chain + resists)};
+}
+
+VectorXd wave(Complex amplitude, double frequency_Hz) {
+  VectorXd out(6000);
+  for (Index i = 0; i < out.size(); ++i) {
+    out[i] =
+        (amplitude * std::polar(1.0, kTurn * frequency_Hz * 1e-3 * static_cast<double>(i))).real();
+  }
+  return out;
+}
+
+// A motor that is moved as a sine, and the force that this takes; `extra_N` more on the motor.
+Signals moved_at(const NominalModel& m, double frequency_Hz, double extra_N = 0) {
+  const Complex p(0, kTurn * frequency_Hz);
+  Run run;
+  run.period_s = 1e-3;
+  run.position_m = wave(kAmplitude_m, frequency_Hz);
+  run.input_N =
+      wave(kAmplitude_m * (kMotor_kg * p * p + response_at(m, frequency_Hz).chain_N) + extra_N,
+           frequency_Hz);
+  run.missing.assign(6000, 0);
+  return make_signals(run, {.cutoff_Hz = 14, .smoothing_Hz = 35}, stated_baseline(m));
+}
+
+VectorXd middle(const VectorXd& x) {
+  return x.segment(kFrom, kRows);
+}
+
+double worst(const VectorXd& x) {
+  return middle(x).cwiseAbs().maxCoeff();
+}
+
+VectorXd left_of(const NominalModel& m, const Signals& s) {
+  return s.input_N - s.base * stated_baseline(m).at;
+}
+
+class ElasticAxis : public testing::TestWithParam<double> {};
+
+TEST_P(ElasticAxis, SeesTheLoadWhereTheClosedFormHasIt) {
+  const NominalModel m = swinging();
+  const Signals s = moved_at(m, GetParam());
+  const VectorXd truth = wave(kAmplitude_m * response_at(m, GetParam()).load, GetParam());
+  EXPECT_LT(worst(s.load->motion.position_m - truth), 0.01 * worst(truth));
+}
+
+TEST_P(ElasticAxis, LeavesNothingOfAMachineAsStated) {
+  const NominalModel m = swinging();
+  const Signals s = moved_at(m, GetParam());
+  EXPECT_LT(worst(left_of(m, s)), 0.02 * worst(s.input_N));
+}
+
+// L e: what the load's law has of a force on the motor.
+TEST_P(ElasticAxis, HasAForceOnTheMotorInTheLoadsLawAsItsColumnSays) {
+  const NominalModel m = swinging();
+  const double extra_N = 1;
+  const VectorXd left =
+      left_of(m, moved_at(m, GetParam(), extra_N)) - left_of(m, moved_at(m, GetParam()));
+  const Complex p(0, kTurn * GetParam());
+  const Complex chain = m.chain.stiffness_N_per_m + m.chain.damping_N_s_per_m * p;
+  const Complex law = 1.0 + (kLoad_kg * p * p + kViscous_N_s_per_m * p) / chain;
+  EXPECT_LT(worst(left - wave(extra_N * law, GetParam())), 0.02 * std::abs(law) + 0.005);
+  const VectorXd column = moved_at(m, GetParam()).load->of_motor_force(wave(extra_N, GetParam()));
+  EXPECT_LT(worst(column - wave(extra_N * law, GetParam())), 0.02 * std::abs(law) + 0.005);
+}
+
+INSTANTIATE_TEST_SUITE_P(BelowAtAndAboveItsMode, ElasticAxis, testing::Values(0.5, 2.0, 4.0, 9.0));
+
+// Slow against the mode, the two bodies are one: F = M a (1 + (w / w0)^2), here 1.6 per cent more.
+TEST(ElasticAxisForce, SlowMotionNeedsTheRigidForce) {
+  NominalModel m = swinging();
+  m.viscous_N_s_per_m = 0;
+  const Signals s = moved_at(m, 0.5);
+  const VectorXd force = force_for_motion_N(s, stated_baseline(m));
+  const VectorXd rigid = m.mass_kg * s.acceleration_m_per_s2;
+  // By 4.5 s the swing from the start is down to 0.4 %.
+  const VectorXd error = (force - rigid).segment(4500, 1000);
+  EXPECT_LT(error.cwiseAbs().maxCoeff(), 0.025 * worst(rigid));
+}
+
+}  // namespace
+}  // namespace towbench::tests
