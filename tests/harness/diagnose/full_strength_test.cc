@@ -48,6 +48,15 @@ TEST(FullStrength, AConstantForceIsLackingWhereverTheAxisMoves) {
   EXPECT_LT(rms_about(lacking_N, sign * 0.8), 0.02);
 }
 
+TEST(FullStrength, NoPlayHidesNothing) {
+  HiddenAxis axis;
+  axis.effect = "backlash";
+  axis.size = 1e-9;
+  for (const std::uint64_t seed : {1U, 2U}) {
+    EXPECT_LT(times_detectable(axis, make_hidden_log(axis, seed)), 0.5) << "seed " << seed;
+  }
+}
+
 TEST(FullStrength, IsFiveTimesWhatTheLogCouldDetect) {
   for (const char* effect : {"stribeck", "command_saturation", "constant_bias"}) {
     HiddenAxis axis;
