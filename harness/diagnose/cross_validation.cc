@@ -34,31 +34,36 @@ std::vector<Stretch> stretches_in(const std::vector<Index>& starts, Index stretc
   return out;
 }
 
-// Least squares by its normal equations on columns of unit length, so that a stretch can be taken
-// out of them.
+// What the base columns leave of the input, fitted by what they leave of the causes: normal
+// equations on columns of unit length, so that a stretch can be taken out of them.
 class Fits {
  public:
-  Fits(const Evidence& e, const VectorXd& by_law)
-      : y_(e.y), scale_(e.x.colwise().norm().transpose().cwiseMax(1e-300)) {
-    x_ = e.x.array().rowwise() / scale_.transpose().array();
-    gram_ = x_.transpose() * x_;
-    moment_ = x_.transpose() * y_;
-    const Index causes = x_.cols() - kBaseColumns;
+  Fits(const Evidence& e, const VectorXd& by_law) {
+    const MatrixXd base = orthonormal(e.x.leftCols(kBaseColumns));
+    const MatrixXd causes = e.x.rightCols(by_law.size());
+    const VectorXd scale = causes.colwise().norm().transpose().cwiseMax(1e-300);
+    x_ = projected_off(base, causes.array().rowwise() / scale.transpose().array());
+    y_ = projected_off(base, e.y);
     const double weight = 1 / static_cast<double>(x_.rows());
-    gram_.diagonal().tail(causes).array() += weight;
-    moment_ += weight * by_law.cwiseProduct(scale_);
+    gram_ = x_.transpose() * x_;
+    gram_.diagonal().array() += weight;
+    moment_ = x_.transpose() * y_ + weight * by_law.cwiseProduct(scale);
   }
 
-  [[nodiscard]] VectorXd without(const Stretch& stretch) const {
+  // Of a stretch, by all the others.
+  [[nodiscard]] VectorXd residual(const Stretch& stretch) const {
+    const VectorXd y = y_.segment(stretch.from, stretch.rows);
+    if (x_.cols() == 0) {
+      return y;
+    }
     const auto x = x_.middleRows(stretch.from, stretch.rows);
     const MatrixXd gram = gram_ - x.transpose() * x;
-    const VectorXd moment = moment_ - x.transpose() * y_.segment(stretch.from, stretch.rows);
-    return gram.ldlt().solve(moment).cwiseQuotient(scale_);
+    const VectorXd moment = moment_ - x.transpose() * y;
+    return y - x * gram.ldlt().solve(moment);
   }
 
  private:
-  const VectorXd& y_;
-  VectorXd scale_;
+  VectorXd y_;
   MatrixXd x_;
   MatrixXd gram_;
   VectorXd moment_;
@@ -66,7 +71,7 @@ class Fits {
 
 VectorXd said_by_law(const std::vector<Term>& terms, Index columns) {
   VectorXd out = VectorXd::Zero(columns);
-  Index at = kBaseColumns;
+  Index at = 0;
   for (const Term& term : terms) {
     out[at] = term.effect->first_by_law;
     at += static_cast<Index>(term.effect->coefficients.size());
@@ -85,11 +90,10 @@ Index stretches_of(const Evidence& e) {
 
 VectorXd cross_validated_residual(const Evidence& e, const std::vector<Term>& terms,
                                   Index stretches) {
-  const Fits fits(e, said_by_law(terms, e.x.cols()));
+  const Fits fits(e, said_by_law(terms, e.x.cols() - kBaseColumns));
   VectorXd residual(e.y.size());
   for (const Stretch& s : stretches_in(e.starts, stretches)) {
-    residual.segment(s.from, s.rows) =
-        e.y.segment(s.from, s.rows) - e.x.middleRows(s.from, s.rows) * fits.without(s);
+    residual.segment(s.from, s.rows) = fits.residual(s);
   }
   return residual;
 }

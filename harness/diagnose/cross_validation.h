@@ -1,10 +1,15 @@
-// What a structure leaves of data that its coefficients were not fitted to, on every row in turn.
+// What a structure leaves of data that its causes were not fitted to, on every row in turn.
 //
 // Each run is cut into stretches long enough to be independent of their neighbours. A stretch's
-// residual is taken with coefficients fitted to all the others, and not corrected by the twin:
-// through a column that is noisy itself the true coefficient predicts less well than the fitted
-// one. So a cause can be asked whether it predicts, without setting data aside for the question
-// alone (Stone 1974; blocks against serial correlation: Racine 2000).
+// residual is taken with the causes' coefficients fitted to all the others, and not corrected by
+// the twin: through a column that is noisy itself the true coefficient predicts less well than the
+// fitted one. So a cause can be asked whether it predicts, without setting data aside for the
+// question alone (Stone 1974; blocks against serial correlation: Racine 2000).
+//
+// The nominal model is not on trial: with and without a cause it is fitted to everything, by taking
+// its columns off the input and the causes first (Frisch & Waugh 1933). Fitted without the fastest
+// stretch it would say of the viscous force there what it must guess, and that guess, not the
+// cause, would decide.
 //
 // What shows in a few places only (clipped peaks, reversals) may be all but missing from the rest:
 // a plain fit would take any coefficient that the noise there likes. A cause's coefficients are
