@@ -15,6 +15,38 @@ std::ptrdiff_t lines_in_time(const Trial& trial) {
                        [](const Term& term) { return term.effect->search == LineSearch::kTime; });
 }
 
+// A force that repeats in time, whatever the motion, is there all the time: with the phase that the
+// other quarters say it must gain in each. A burst of ringing gains where it is and loses
+// elsewhere.
+bool gains_in_every_quarter(const Trial& before, const Trial& after,
+                            const std::vector<Eigen::Index>& starts) {
+  for (std::size_t run = 0; run + 1 < starts.size(); ++run) {
+    const Eigen::Index rows = starts[run + 1] - starts[run];
+    for (Eigen::Index quarter = 0; quarter < kQuarters; ++quarter) {
+      const Eigen::Index from = starts[run] + quarter * rows / kQuarters;
+      const Eigen::Index count = starts[run] + (quarter + 1) * rows / kQuarters - from;
+      if (after.far.segment(from, count).squaredNorm() >=
+          before.far.segment(from, count).squaredNorm()) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+// What has been found of a sign that its law allows can turn in the fit with the others, and
+// predict by what it is not.
+bool signs_are_allowed(const Trial& trial) {
+  Eigen::Index at = kBaseColumns;
+  for (const Term& term : trial.terms) {
+    if (term.effect->first_is_positive && trial.evidence.fitted[at] <= 0) {
+      return false;
+    }
+    at += static_cast<Eigen::Index>(term.effect->coefficients.size());
+  }
+  return true;
+}
+
 // Processing and the loop alone can make a column predict (the controller answers the encoder's
 // steps, and the acceleration is full of them). How much of it they make the twin has shown: half
 // of the fitted contribution must be left.
@@ -63,11 +95,13 @@ Gain Gates::gain_at_home(const Trial& before, const Trial& after) const {
 
 bool Gates::stands(const Gain& home, const Trial& before, const Trial& after,
                    bool with_the_rest) const {
-  if (!(home.ci99.low > 0 && home.ci99.value > kLeastGain) || !survives_the_twin(after)) {
+  if (!(home.ci99.low > 0 && home.ci99.value > kLeastGain) || !signs_are_allowed(after) ||
+      !survives_the_twin(after)) {
     return false;
   }
   if (lines_in_time(after) > lines_in_time(before) &&
-      gain_of(before.far, after.far, data_.starts(), seed_).ci99.low <= 0) {
+      !(gains_in_every_quarter(before, after, data_.starts()) &&
+        gain_of(before.far, after.far, data_.starts(), seed_).ci99.low > 0)) {
     return false;
   }
   if (abroad_ == nullptr) {
