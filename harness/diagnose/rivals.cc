@@ -63,10 +63,10 @@ class Comparison {
     return other.test.explained / std::max(1e-12, cause_.test.explained);
   }
 
-  // One that can make the contribution but with a sign that physics forbids has been left out; one
-  // that fits worse is no rival whatever its span.
+  // One that can make the contribution but with a sign that physics forbids has been left out. Of
+  // two that are so alike the noise that both columns are made of decides which explains more.
   [[nodiscard]] bool is_rival(const Rival& rival) const {
-    if (rival.likeness > kLikeness && rival.explained_ratio > 0.9) {
+    if (rival.likeness > kLikeness) {
       return true;
     }
     if (rival.likeness < kRelated) {

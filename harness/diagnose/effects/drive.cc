@@ -31,8 +31,8 @@ MatrixXd transport_delay(const Signals& s, const Context& c, std::span<const dou
 }
 
 std::vector<Scales> delay_grid(const Context& c) {
-  return {{0.5 * c.period_s}, {c.period_s},     {2 * c.period_s},
-          {4 * c.period_s},   {8 * c.period_s}, {16 * c.period_s}};
+  return {{0.15 * c.period_s}, {0.5 * c.period_s}, {c.period_s},     {2 * c.period_s},
+          {4 * c.period_s},    {8 * c.period_s},   {16 * c.period_s}};
 }
 
 // tau F' + F = u. The difference has a width of its own: a narrow one is mostly the encoder's
