@@ -1,15 +1,10 @@
 #include "harness/diagnose/score.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace towbench::harness::diagnose {
 namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-constexpr double kLeastOfPromise = 0.5;
 
 std::vector<ControlLaw> laws_of(const Dataset& data) {
   std::vector<ControlLaw> laws;
@@ -19,14 +14,12 @@ std::vector<ControlLaw> laws_of(const Dataset& data) {
   return laws;
 }
 
-// Whether data that decided nothing bears the causes out. Certain once more they need not be: the
-// few places where a clip or a reversal shows may all lie where it was looked for. But what they
-// take away there, d, would leave 1 - sqrt(1 - d'd / before'before) less if they were right, and of
-// that uncertain ones must gain half.
-bool borne_out(const Gain& gain, const VectorXd& before, const VectorXd& after) {
-  const double taken = std::min(1.0, (before - after).squaredNorm() / before.squaredNorm());
-  const double promised = 1 - std::sqrt(1 - taken);
-  return gain.ci95.low > 0 || gain.ci95.value > kLeastOfPromise * promised;
+// Whether data that decided nothing bears a cause out. Certain once more it need not be there: the
+// few places where a clip or a reversal shows may all lie where it was looked for. But with d what
+// it takes away there, a cause that is right gains d'd and one that is nothing loses as much: of
+// two that were as likely the sign decides, and this one was certain where it was found.
+bool borne_out(const Gain& gain) {
+  return gain.ci99.value > 0;
 }
 
 // Scores the causes of `selection` as they stand, refitted together.
@@ -63,11 +56,10 @@ class Score {
   bool withdraw_one() {
     std::size_t worst = s_.causes.size();
     for (std::size_t i = 0; i < s_.causes.size(); ++i) {
-      const VectorXd lacking = without(i);
-      s_.causes[i].gain = heldout_.gain(lacking, after_, seed_);
+      s_.causes[i].gain = heldout_.gain(without(i), after_, seed_);
       const bool least = worst == s_.causes.size() ||
                          s_.causes[i].gain.ci99.value < s_.causes[worst].gain.ci99.value;
-      if (!borne_out(s_.causes[i].gain, lacking, after_) && least) {
+      if (!borne_out(s_.causes[i].gain) && least) {
         worst = i;
       }
     }

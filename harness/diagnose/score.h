@@ -1,7 +1,7 @@
 // The accepted causes fitted once more to all data but the held-out, and what they gain there: on
 // data that neither the fit nor the selection has seen, so that the figure promises nothing that
-// choosing among many effects has made. A cause that is not borne out there is withdrawn: it acts
-// and does not gain, or loses. The score may take a cause away, never give one.
+// choosing among many effects has made. A cause that loses there is withdrawn. The score may take a
+// cause away, never give one.
 #pragma once
 
 #include <cstdint>
