@@ -1,10 +1,15 @@
 #include "harness/diagnose/score.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace towbench::harness::diagnose {
 namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
+
+constexpr double kLeastOfPromise = 0.5;
 
 std::vector<ControlLaw> laws_of(const Dataset& data) {
   std::vector<ControlLaw> laws;
@@ -18,8 +23,14 @@ std::vector<ControlLaw> laws_of(const Dataset& data) {
 // few places where a clip or a reversal shows may all lie where it was looked for. But with d what
 // it takes away there, a cause that is right gains d'd and one that is nothing loses as much: of
 // two that were as likely the sign decides, and this one was certain where it was found.
-bool borne_out(const Gain& gain) {
-  return gain.ci99.value > 0;
+//
+// What an elastic axis leaves is no noise that could decide so: the load's swing is computed, and
+// an idle cause may gain where it is off. There it must be certain, or gain half of what d'd
+// promises.
+bool borne_out(const Gain& gain, const VectorXd& before, const VectorXd& after, bool elastic) {
+  const double taken = std::min(1.0, (before - after).squaredNorm() / before.squaredNorm());
+  const double promised = elastic ? 1 - std::sqrt(1 - taken) : 0;
+  return gain.ci95.low > 0 || gain.ci95.value > kLeastOfPromise * promised;
 }
 
 // Scores the causes of `selection` as they stand, refitted together.
@@ -56,10 +67,11 @@ class Score {
   bool withdraw_one() {
     std::size_t worst = s_.causes.size();
     for (std::size_t i = 0; i < s_.causes.size(); ++i) {
-      s_.causes[i].gain = heldout_.gain(without(i), after_, seed_);
+      const VectorXd lacking = without(i);
+      s_.causes[i].gain = heldout_.gain(lacking, after_, seed_);
       const bool least = worst == s_.causes.size() ||
                          s_.causes[i].gain.ci99.value < s_.causes[worst].gain.ci99.value;
-      if (!borne_out(s_.causes[i].gain) && least) {
+      if (!borne_out(s_.causes[i].gain, lacking, after_, context_.model.elastic()) && least) {
         worst = i;
       }
     }

@@ -1,7 +1,8 @@
 // The accepted causes fitted once more to all data but the held-out, and what they gain there: on
 // data that neither the fit nor the selection has seen, so that the figure promises nothing that
-// choosing among many effects has made. A cause that loses there is withdrawn. The score may take a
-// cause away, never give one.
+// choosing among many effects has made. A cause that loses there is withdrawn, and on an
+// elastic axis one that gains less than half of what it promises. The score may take a cause away,
+// never give one.
 #pragma once
 
 #include <cstdint>
