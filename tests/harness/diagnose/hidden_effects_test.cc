@@ -45,6 +45,39 @@ INSTANTIATE_TEST_SUITE_P(
                     "periodic_force"),
     [](const auto& parameter) { return std::string(parameter.param); });
 
+HiddenAxis hiding(const char* effect, double share, std::uint64_t seed) {
+  HiddenAxis axis;
+  axis.effect = effect;
+  return at_strength(axis, share, seed);
+}
+
+std::vector<std::string> all_names(const HiddenAxis& axis, std::uint64_t seed) {
+  std::vector<std::string> all;
+  for (const auto& names : named(diagnose_hidden(axis, seed))) {
+    all.insert(all.end(), names.begin(), names.end());
+  }
+  return all;
+}
+
+TEST(LagAndDelay, AreOneClassWhicheverOfThemIsHidden) {
+  for (const char* effect : {"transport_delay", "current_loop_lag"}) {
+    EXPECT_THAT(
+        named(diagnose_hidden(hiding(effect, 1, 1), 1)),
+        testing::ElementsAre(testing::UnorderedElementsAre("transport_delay", "current_loop_lag")))
+        << effect;
+  }
+}
+
+TEST(Stiction, RingingThatItLeavesIsNoForceInTime) {
+  EXPECT_THAT(all_names(hiding("stiction", 1, 2), 2),
+              testing::Not(testing::Contains("periodic_force")));
+}
+
+TEST(LostCounts, AreNotHelpedByAClipOfNegativeShare) {
+  EXPECT_THAT(all_names(hiding("encoder_count_loss", 0.3, 1), 1),
+              testing::Not(testing::Contains("voltage_saturation")));
+}
+
 TEST(NothingHidden, NothingIsNamed) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const auto d = diagnose_hidden(HiddenAxis{}, seed);
