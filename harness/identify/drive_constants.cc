@@ -1,8 +1,10 @@
 #include "harness/identify/drive_constants.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
-#include <utility>
+
+#include <boost/math/distributions/students_t.hpp>
 
 namespace towbench::harness::identify {
 namespace {
@@ -12,55 +14,75 @@ struct Slope {
   double deviation = 0;
 };
 
-// Runs over one stretch in one direction share their friction.
-using Group = std::pair<bool, int>;
+// Of one direction: y over x, a line for each stretch with a slope in common.
+struct Direction {
+  double slope = 0;
+  double xx = 0;       // squares of x
+  double left = 0;     // squares of y left
+  double given = 0;    // mean square by the deviations given
+  double freedom = 0;  // degrees of
+};
 
-Group group_of(const PushedRun& run) {
-  return {run.towards_max, run.stretch};
-}
-
-// y over x, one line for each group with a slope in common.
 template <typename X, typename Y>
-Slope common_slope(const std::vector<PushedRun>& runs, X x_of, Y y_of) {
-  constexpr std::size_t kEnough = 8;  // degrees of freedom to judge by
+Direction direction_of(const std::vector<PushedRun>& runs, bool towards_max, X x_of, Y y_of) {
   struct Sums {
     double n = 0;
     double x = 0;
     double y = 0;
   };
-  std::map<Group, Sums> groups;
+  std::map<int, Sums> stretches;
+  std::vector<const PushedRun*> own;
   for (const auto& run : runs) {
-    auto& sums = groups[group_of(run)];
-    sums.n += 1;
-    sums.x += x_of(run).value;
-    sums.y += y_of(run).value;
+    if (run.towards_max == towards_max) {
+      own.push_back(&run);
+      auto& sums = stretches[run.stretch];
+      sums.n += 1;
+      sums.x += x_of(run).value;
+      sums.y += y_of(run).value;
+    }
   }
-  const auto centred = [&](const PushedRun& run) {
-    const auto& sums = groups.at(group_of(run));
-    return std::pair(x_of(run).value - sums.x / sums.n, y_of(run).value - sums.y / sums.n);
-  };
-  double xx = 0;
+  Direction direction;
   double xy = 0;
-  for (const auto& run : runs) {
-    const auto [x, y] = centred(run);
-    xx += x * x;
+  double yy = 0;
+  for (const auto* run : own) {
+    const auto& sums = stretches.at(run->stretch);
+    const double x = x_of(*run).value - sums.x / sums.n;
+    const double y = y_of(*run).value - sums.y / sums.n;
+    direction.xx += x * x;
     xy += x * y;
+    yy += y * y;
   }
-  Slope slope;
-  slope.value = xx > 0 ? xy / xx : 0;
-  double left = 0;
-  double given = 0;
-  for (const auto& run : runs) {
-    const auto [x, y] = centred(run);
-    left += (y - slope.value * x) * (y - slope.value * x);
-    const double e = std::hypot(y_of(run).deviation, slope.value * x_of(run).deviation);
-    given += e * e / static_cast<double>(runs.size());
+  if (!(direction.xx > 0)) {
+    return direction;
   }
-  const std::size_t used = groups.size() + 1;
-  const bool enough = runs.size() >= used + kEnough;
-  const double noise = enough ? left / static_cast<double>(runs.size() - used) : given;
-  slope.deviation = xx > 0 ? std::sqrt(noise / xx) : 0;
-  return slope;
+  direction.slope = xy / direction.xx;
+  direction.left = std::max(0.0, yy - direction.slope * xy);
+  for (const auto* run : own) {
+    const double e = std::hypot(y_of(*run).deviation, direction.slope * x_of(*run).deviation);
+    direction.given += e * e / static_cast<double>(own.size());
+  }
+  direction.freedom = static_cast<double>(own.size()) - static_cast<double>(stretches.size()) - 1;
+  return direction;
+}
+
+// Both directions alike; 0 where one of them shows none.
+template <typename X, typename Y>
+Slope common_slope(const std::vector<PushedRun>& runs, X x_of, Y y_of) {
+  constexpr double kNormal95 = 1.959964;
+  const auto up = direction_of(runs, true, x_of, y_of);
+  const auto down = direction_of(runs, false, x_of, y_of);
+  if (up.slope == 0 || down.slope == 0) {
+    return {};
+  }
+  double square = 0.5 * (up.given + down.given);
+  const double freedom = up.freedom + down.freedom;
+  if (freedom >= 1) {
+    // As wide as Student's 95 %.
+    const double wider =
+        boost::math::quantile(boost::math::students_t(freedom), 0.975) / kNormal95;
+    square = wider * wider * (up.left + down.left) / freedom;
+  }
+  return {0.5 * (up.slope + down.slope), 0.5 * std::sqrt(square * (1 / up.xx + 1 / down.xx))};
 }
 
 }  // namespace
@@ -71,17 +93,22 @@ DriveConstants find_drive_constants(const std::vector<PushedRun>& runs, double m
   const auto force = [](const PushedRun& run) -> const Mean& { return run.force_N; };
   const auto command = [](const PushedRun& run) -> const Mean& { return run.command_V; };
   const auto per_newton = common_slope(runs, force, current);  // -r / K_T
+  const auto command_per_newton = common_slope(runs, force, command);
   const auto gain = common_slope(runs, command, current);
-  constants.found = per_newton.value < 0 && gain.value > 0 && std::isfinite(per_newton.deviation) &&
-                    std::isfinite(gain.deviation);
+  constants.found = per_newton.value < 0 && command_per_newton.value < 0 && gain.value > 0 &&
+                    std::isfinite(per_newton.deviation) && std::isfinite(gain.deviation) &&
+                    std::isfinite(command_per_newton.deviation);
   if (!constants.found) {
     return constants;
   }
   constants.torque_constant_Nm_per_A = -metres_per_rad / per_newton.value;
   constants.torque_constant_deviation =
       constants.torque_constant_Nm_per_A * std::fabs(per_newton.deviation / per_newton.value);
-  constants.amplifier_gain_A_per_V = gain.value;
+  // So that the product of both is what force and command say.
+  constants.amplifier_gain_A_per_V = per_newton.value / command_per_newton.value;
   constants.amplifier_gain_deviation = gain.deviation;
+  constants.torque_per_volt_deviation =
+      std::fabs(command_per_newton.deviation / command_per_newton.value);
   return constants;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace towbench::harness::identify {
 
@@ -26,6 +27,20 @@ Mean mean_of(const std::vector<double>& column, std::size_t from, std::size_t to
     square += each * each / kBlocks;
   }
   mean.deviation = std::sqrt(std::max(0.0, square - mean.value * mean.value) / (kBlocks - 1));
+  return mean;
+}
+
+Mean smooth_mean_of(const std::vector<double>& column, std::size_t from, std::size_t to) {
+  to = std::min(to, column.size());
+  Mean mean;
+  double weight = 0;
+  for (std::size_t k = from; k < to; ++k) {
+    const double share = (static_cast<double>(k - from) + 0.5) / static_cast<double>(to - from);
+    const double each = 1 - std::cos(2 * std::numbers::pi * share);
+    mean.value += each * column[k];
+    weight += each;
+  }
+  mean.value /= std::max(weight, std::numeric_limits<double>::min());
   return mean;
 }
 

@@ -102,12 +102,9 @@ TorqueScale torque_scale(const ProcedureContext& context) {
   TorqueScale scale;
   scale.torque_per_duty_Nm = axis.torque_constant_Nm_per_A * axis.amplifier_gain_A_per_V *
                              context.machine.nameplate(context.axis).pwm_amplitude_V / 100;
-  const auto* k = context.find("torque_constant_Nm_per_A");
-  const auto* gain = context.find("amplifier_gain_A_per_V");
-  if (k != nullptr && gain != nullptr) {
+  if (const auto* measured = context.find("torque_per_volt_Nm_per_V")) {
     scale.measured = true;
-    scale.relative_deviation =
-        std::hypot(k->half_width() / k->value, gain->half_width() / gain->value) / kNormal95;
+    scale.relative_deviation = measured->half_width() / measured->value / kNormal95;
   }
   return scale;
 }

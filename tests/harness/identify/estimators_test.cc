@@ -1,5 +1,6 @@
 // Estimators on data whose truth is known in closed form.
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -55,8 +56,66 @@ TEST(DriveConstants, AreAsSureAsStretchesOfTheSameWayAgree) {
   ASSERT_TRUE(found.found);
   // 1e-4 A over sqrt(40) x 0.715 A of current from the push.
   EXPECT_NEAR(found.torque_constant_deviation / 0.03, 1e-4 / std::sqrt(40.0) / 0.715, 1e-5);
+  EXPECT_NEAR(found.torque_per_volt_deviation, found.torque_constant_deviation / 0.03, 1e-9);
   EXPECT_NEAR(found.torque_constant_Nm_per_A, 0.03, 3 * found.torque_constant_deviation);
   EXPECT_LT(found.amplifier_gain_deviation, 1e-9);  // the current is the command's
+}
+
+// Of a push that moves the carriage to where friction is 2e-5 N m less or more, which one direction
+// gains and the other loses.
+TEST(DriveConstants, DoNotSeeWhereThePushMovesTheCarriage) {
+  constexpr double kRadius = 1.43e-3;
+  std::vector<PushedRun> runs;
+  for (int stretch = 0; stretch < 3; ++stretch) {
+    for (const double sign : {1.0, -1.0}) {
+      for (const double force : {15.0, -15.0}) {
+        const double friction = sign * (2e-3 + 2e-5 * force / 15);
+        const double current = (friction - kRadius * force) / 0.03;
+        runs.push_back({.towards_max = sign > 0,
+                        .stretch = stretch,
+                        .current_A = {current, 0},
+                        .force_N = {force, 0},
+                        .command_V = {current / 0.4, 0}});
+      }
+    }
+  }
+  const auto found = find_drive_constants(runs, kRadius);
+  ASSERT_TRUE(found.found);
+  EXPECT_NEAR(found.torque_constant_Nm_per_A, 0.03, 1e-9);
+  EXPECT_LT(found.torque_constant_deviation, 1e-9);
+}
+
+TEST(DriveConstants, KnowTheTorqueOfACommandPastANoisyCurrentMonitor) {
+  constexpr double kRadius = 1.43e-3;
+  core::Random random(8);
+  std::vector<PushedRun> runs;
+  for (int stretch = 0; stretch < 10; ++stretch) {
+    for (const bool up : {true, false}) {
+      for (const double force : {15.0, -15.0}) {
+        const double current = ((up ? 1 : -1) * 2e-3 - kRadius * force) / 0.03;
+        runs.push_back({.towards_max = up,
+                        .stretch = stretch,
+                        .current_A = {current + 0.01 * random.gaussian(), 0},
+                        .force_N = {force, 0},
+                        .command_V = {current / 0.4, 0}});
+      }
+    }
+  }
+  const auto found = find_drive_constants(runs, kRadius);
+  ASSERT_TRUE(found.found);
+  EXPECT_GT(found.torque_constant_deviation / 0.03, 1e-3);
+  EXPECT_NEAR(found.torque_constant_Nm_per_A * found.amplifier_gain_A_per_V, 0.03 * 0.4, 1e-9);
+  EXPECT_LT(found.torque_per_volt_deviation, 1e-9);
+}
+
+TEST(WindowMeans, OfASwingAreItsMiddle) {
+  // Two and a half periods of an amplitude of 1 about 3, which a plain mean is 0.13 off.
+  std::vector<double> column;
+  for (int k = 0; k < 1000; ++k) {
+    column.push_back(3 + std::sin(2 * std::numbers::pi * 2.5 * k / 1000));
+  }
+  EXPECT_NEAR(smooth_mean_of(column, 0, 1000).value, 3, 0.03);
+  EXPECT_GT(std::fabs(mean_of(column, 0, 1000).value - 3), 0.1);
 }
 
 TEST(DriveConstants, AreNotFoundWithoutAPush) {
