@@ -78,8 +78,7 @@ Slope common_slope(const std::vector<PushedRun>& runs, X x_of, Y y_of) {
   const double freedom = up.freedom + down.freedom;
   if (freedom >= 1) {
     // As wide as Student's 95 %.
-    const double wider =
-        boost::math::quantile(boost::math::students_t(freedom), 0.975) / kNormal95;
+    const double wider = boost::math::quantile(boost::math::students_t(freedom), 0.975) / kNormal95;
     square = wider * wider * (up.left + down.left) / freedom;
   }
   return {0.5 * (up.slope + down.slope), 0.5 * std::sqrt(square * (1 / up.xx + 1 / down.xx))};

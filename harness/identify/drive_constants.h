@@ -34,7 +34,7 @@ struct DriveConstants {
   double amplifier_gain_A_per_V = 0;
   double amplifier_gain_deviation = 0;
   double torque_per_volt_deviation = 0;  // of K_T K_amp, relative
-  bool found = false;  // false: pushes or currents do not differ
+  bool found = false;                    // false: pushes or currents do not differ
 };
 
 [[nodiscard]] DriveConstants find_drive_constants(const std::vector<PushedRun>& runs,
