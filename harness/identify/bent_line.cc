@@ -140,11 +140,11 @@ BentLine fit_bent_line(std::vector<LinePoint> points, int most_bends) {
   const auto solved = solve(points, knots, true);
   const double freedom =
       std::max(1.0, static_cast<double>(points.size()) - static_cast<double>(knots.size()));
-  const double inflation = std::max(1.0, solved.square / freedom);
+  const double unit = solved.square / freedom;
   line.x = knots;
   for (Eigen::Index i = 0; i < solved.values.size(); ++i) {
     line.y.push_back(solved.values[i]);
-    line.deviation.push_back(std::sqrt(inflation * solved.covariance(i, i)));
+    line.deviation.push_back(std::sqrt(unit * solved.covariance(i, i)));
   }
   double square = 0;
   for (const auto& point : points) {

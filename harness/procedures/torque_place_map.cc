@@ -146,22 +146,29 @@ class TorquePlaceMap final : public Procedure {
     // B from the bins that both runs saw.
     double weight = 0;
     double sum = 0;
+    double square = 0;
+    double n = 0;
     for (const auto& slow : levels[0]) {
       for (const auto& fast : levels[1]) {
         if (std::fabs(slow.place_m - fast.place_m) < 0.5 * settings.bin_m) {
           const double w =
               1 / (slow.deviation_Nm * slow.deviation_Nm + fast.deviation_Nm * fast.deviation_Nm);
-          sum += w * (fast.torque_Nm - slow.torque_Nm);
+          const double more = fast.torque_Nm - slow.torque_Nm;
+          sum += w * more;
+          square += w * more * more;
           weight += w;
+          n += 1;
         }
       }
     }
-    if (!(weight > 0)) {
-      return ProcedureOutcome::failed("the two runs have no steady place in common");
+    if (n < 2) {
+      return ProcedureOutcome::failed("the two runs have fewer than two steady places in common");
     }
     const double apart = (speeds[1] - speeds[0]) * rad_per_m;
     const double viscous = sum / weight / apart;
-    const double viscous_deviation = 1 / std::sqrt(weight) / apart;
+    // By how far the places are from telling the same.
+    const double scatter = std::max(0.0, square - sum * sum / weight) / (n - 1);
+    const double viscous_deviation = std::sqrt(scatter / weight) / apart;
     std::vector<identify::LinePoint> points;
     for (std::size_t i = 0; i < speeds.size(); ++i) {
       for (const auto& each : levels.at(i)) {

@@ -41,6 +41,19 @@ TEST(BentLine, BendsNotWhereThePointsAreStraight) {
   }
 }
 
+// What is said of the points is their weight; how sure the line is they show themselves.
+TEST(BentLine, IsAsSureAsItsPointsAgree) {
+  auto points = points_of([](double x) { return 3 - 0.2 * x; }, 1e-2);
+  const auto right = fit_bent_line(points, 0);
+  for (auto& point : points) {
+    point.deviation *= 5;
+  }
+  const auto doubted = fit_bent_line(points, 0);
+  EXPECT_NEAR(doubted.deviation[0], right.deviation[0], 1e-9);
+  // Of the value at the end of a line: 2 sigma / sqrt(n).
+  EXPECT_NEAR(right.deviation[0], 2 * 1e-2 / std::sqrt(3.0 * 60), 3e-4);
+}
+
 TEST(BentLine, FollowsACurveWithSeveralBends) {
   const auto curve = [](double x) { return std::sin(2 * x); };
   const auto line = fit_bent_line(points_of(curve, 1e-3), 8);
