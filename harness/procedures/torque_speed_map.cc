@@ -5,8 +5,8 @@
 //
 // Below the Stribeck speed the carriage can stick and slip on its chain while the motor runs
 // evenly: the mean torque is then below the friction at that speed, the law's fall looks too steep
-// and its line too flat. The same experiment on the identified plant says by how much, and the law
-// is corrected.
+// and its line too flat. The identified plant does the same in the same experiment, so the law is
+// that plant's and what the differences of both say (identify/paired_law.h).
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -16,6 +16,7 @@
 #include "harness/fixtures/rig_fixture.h"
 #include "harness/identify/bent_line.h"
 #include "harness/identify/friction_law.h"
+#include "harness/identify/paired_law.h"
 #include "harness/identify/window_means.h"
 #include "harness/procedures/believed_model.h"
 #include "harness/procedures/identified_plant.h"
@@ -114,11 +115,11 @@ class TorqueSpeedMap final : public Procedure {
     return known == nullptr ? std::nullopt : std::optional(known->value);
   }
 
-  // By what a law that is seen is to be multiplied; 0: not known.
-  struct Correction {
-    double stribeck = 0;
-    double coulomb = 0;
-    double viscous = 0;
+  // The law of the machine by its twin's.
+  struct Corrected {
+    identify::FrictionLaw shown_by_twin;  // what the twin's runs look like
+    identify::FrictionLaw of_twin;        // what they are
+    identify::LawShift shift;
   };
 
   // C and what belongs to the place.
@@ -130,15 +131,16 @@ class TorqueSpeedMap final : public Procedure {
     return axis.coulomb_friction_Nm + of_place.at(place_m);
   }
 
-  // The same experiment on the identified plant, whose law is known: what it shows of that law is
-  // what such an experiment shows, stick-slip of the carriage included. Nothing when there is no
-  // such plant.
-  static std::optional<Correction> shown_by_twin(const ProcedureContext& context,
-                                                 const Settings& settings,
-                                                 const std::vector<double>& speeds,
-                                                 double middle_m) {
-    const auto* known = context.find("stribeck_speed_rad_per_s");
-    if (known == nullptr || context.find("inertia_kg_m2") == nullptr) {
+  // The same experiment on the identified plant, whose law is known. Nothing when there is no such
+  // plant.
+  static std::optional<Corrected> beside_twin(const ProcedureContext& context,
+                                              const Settings& settings,
+                                              const std::vector<double>& speeds, double middle_m,
+                                              const std::vector<SteadyRun>& runs) {
+    constexpr double kNormal95 = 1.959964;
+    const auto* stribeck = context.find("stribeck_speed_rad_per_s");
+    const auto* excess = context.find("stiction_excess_Nm");
+    if (stribeck == nullptr || excess == nullptr || context.find("inertia_kg_m2") == nullptr) {
       return std::nullopt;
     }
     const auto plant = read_plant(FixtureFile::parse(
@@ -147,14 +149,19 @@ class TorqueSpeedMap final : public Procedure {
     const auto twin = context.machine.twin(context.axis, of_twin);
     const auto seen = collect({.machine = twin, .axis = context.axis, .known = context.known},
                               settings, speeds, middle_m, 0);
-    const auto law = identify::fit_friction_law(seen.runs, known->value, excess_of(context));
-    if (!seen.trouble.empty() || !law.found || !(law.excess_Nm > 0) ||
-        !(law.viscous_Nm_s_per_rad > 0)) {
+    Corrected corrected;
+    corrected.shown_by_twin =
+        identify::fit_friction_law(seen.runs, stribeck->value, excess_of(context));
+    corrected.of_twin.coulomb_Nm = friction_at(of_twin, middle_m);
+    corrected.of_twin.excess_Nm = of_twin.friction.breakaway_Nm - of_twin.coulomb_friction_Nm;
+    corrected.of_twin.stribeck_rad_per_s = of_twin.friction.stribeck_speed_rad_per_s;
+    corrected.of_twin.viscous_Nm_s_per_rad = of_twin.viscous_friction_Nm_s_per_rad;
+    corrected.shift = identify::find_law_shift(corrected.of_twin, excess->half_width() / kNormal95,
+                                               runs, seen.runs);
+    if (!seen.trouble.empty() || !corrected.shown_by_twin.found || !corrected.shift.found) {
       return std::nullopt;
     }
-    return Correction{.stribeck = known->value / law.stribeck_rad_per_s,
-                      .coulomb = friction_at(of_twin, middle_m) / law.coulomb_Nm,
-                      .viscous = of_twin.viscous_friction_Nm_s_per_rad / law.viscous_Nm_s_per_rad};
+    return corrected;
   }
 
   static identify::Recording play(const ProcedureContext& context, double speed, double whole,
@@ -240,28 +247,24 @@ class TorqueSpeedMap final : public Procedure {
           std::hypot(deviation, scales ? value * scale.relative_deviation : 0.0)));
     };
     add("map_excess_Nm", law.excess_Nm, law.excess_deviation_Nm, "N m", true);
-    const auto correction = shown_by_twin(context, settings, speeds, middle_m);
+    const auto corrected = beside_twin(context, settings, speeds, middle_m, runs);
     context.tell(1);
-    if (correction) {
-      // Twice: the twin's own reading has the same spread.
-      const auto add_corrected = [&](const char* quantity, double seen, double deviation,
-                                     double factor, const char* unit, bool scales) {
-        add(quantity, seen * factor, std::sqrt(2.0) * deviation * factor, unit, scales);
-      };
-      add_corrected("map_stribeck_rad_per_s", law.stribeck_rad_per_s, law.stribeck_deviation,
-                    correction->stribeck, "rad/s", false);
-      add_corrected("map_viscous_Nm_s_per_rad", law.viscous_Nm_s_per_rad, law.viscous_deviation,
-                    correction->viscous, "N m s/rad", true);
-      add_corrected("map_coulomb_Nm", law.coulomb_Nm, law.coulomb_deviation_Nm, correction->coulomb,
-                    "N m", true);
+    if (corrected) {
+      const auto& [shown, twin, shift] = *corrected;
+      add("map_stribeck_rad_per_s", twin.stribeck_rad_per_s + shift.stribeck_rad_per_s,
+          shift.stribeck_deviation, "rad/s", false);
+      add("map_viscous_Nm_s_per_rad", twin.viscous_Nm_s_per_rad + shift.viscous_Nm_s_per_rad,
+          shift.viscous_deviation, "N m s/rad", true);
+      add("map_coulomb_Nm", twin.coulomb_Nm + shift.coulomb_Nm, shift.coulomb_deviation_Nm, "N m",
+          true);
       outcome.estimates.back().at = middle_m;
     }
-    add_pictures(runs, law, stalled, correction, outcome);
+    add_pictures(runs, law, stalled, corrected, outcome);
     return outcome;
   }
 
   static void add_pictures(const std::vector<SteadyRun>& runs, const identify::FrictionLaw& law,
-                           std::size_t stalled, const std::optional<Correction>& correction,
+                           std::size_t stalled, const std::optional<Corrected>& corrected,
                            ProcedureOutcome& outcome) {
     Curve measured{.name = "steady runs, 95 %", .mark = Mark::kDots};
     Curve fitted{.name = "law"};
@@ -286,20 +289,22 @@ class TorqueSpeedMap final : public Procedure {
                                .y_label = "torque, mN m",
                                .curves = {std::move(measured), std::move(fitted)},
                                .caption = "Compare Figs 7.10 to 7.12."});
-    ResultTable corrected{
-        .title = "The law, seen and corrected",
-        .head = {"", "seen", "a twin whose law is known shows it by a factor of", "corrected"}};
-    const auto row = [&](const char* name, double seen, double Correction::*factor) {
-      corrected.rows.push_back(
-          {name, fmt::format("{:.4g}", seen),
-           correction ? fmt::format("{:.3f}", 1 / ((*correction).*factor))
-                      : "no twin: no model yet",
-           correction ? fmt::format("{:.4g}", seen * ((*correction).*factor)) : "withheld"});
+    ResultTable beside{.title = "The law, seen and corrected",
+                       .head = {"", "seen", "shown by a twin", "the twin's own", "corrected"}};
+    const auto row = [&](const char* name, double identify::FrictionLaw::*of,
+                         double identify::LawShift::*by) {
+      const auto told = [](double value) { return fmt::format("{:.4g}", value); };
+      beside.rows.push_back(
+          {name, told(law.*of), corrected ? told(corrected->shown_by_twin.*of) : "no model yet",
+           corrected ? told(corrected->of_twin.*of) : "",
+           corrected ? told(corrected->of_twin.*of + corrected->shift.*by) : "withheld"});
     };
-    row("Stribeck speed, rad/s", law.stribeck_rad_per_s, &Correction::stribeck);
-    row("C at the place, N m", law.coulomb_Nm, &Correction::coulomb);
-    row("B, N m s/rad", law.viscous_Nm_s_per_rad, &Correction::viscous);
-    outcome.tables.push_back(std::move(corrected));
+    row("Stribeck speed, rad/s", &identify::FrictionLaw::stribeck_rad_per_s,
+        &identify::LawShift::stribeck_rad_per_s);
+    row("C at the place, N m", &identify::FrictionLaw::coulomb_Nm, &identify::LawShift::coulomb_Nm);
+    row("B, N m s/rad", &identify::FrictionLaw::viscous_Nm_s_per_rad,
+        &identify::LawShift::viscous_Nm_s_per_rad);
+    outcome.tables.push_back(std::move(beside));
     outcome.figures.push_back({.title = "Torque against position",
                                .x_label = "position, m",
                                .y_label = "torque, mN m",
