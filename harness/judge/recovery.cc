@@ -90,7 +90,7 @@ double ten_counts_pct(const RigAxisParameters& axis) {
 
 struct Demand {
   std::string_view quantity;
-  double tolerance_pct;  // 0: ten counts
+  double tolerance_pct;  // 0: absolute, see tolerance_pct()
   double (*truth)(const emulator::RigParameters&, const RigAxisParameters&, const Estimate&);
 };
 
@@ -129,7 +129,7 @@ const std::array<Demand, 20> kDemands{{
      [](const auto&, const auto& a, const auto&) { return a.plant.chain.resonance_Hz; }},
     {"chain_damping_ratio", 20,
      [](const auto&, const auto& a, const auto&) { return a.plant.chain.damping_ratio; }},
-    {"smallest_command_pct", 5, smallest_command_pct},
+    {"smallest_command_pct", 0, smallest_command_pct},
     {"hall_distance_m", 0,
      [](const auto&, const auto& a, const auto&) {
        return a.hall_max.position_m - a.hall_min.position_m;
@@ -149,6 +149,17 @@ const std::array<Demand, 20> kDemands{{
        return a.plant.friction.stribeck_speed_rad_per_s;
      }},
 }};
+
+// EXP-P-4: "bracketed to 0.5 % duty", so the bracket's middle is half of that off at most.
+constexpr double kBracket_pct_duty = 0.5;
+
+double tolerance_pct(const Demand& demand, const RigAxisParameters& axis, double truth) {
+  if (demand.tolerance_pct > 0) {
+    return demand.tolerance_pct;
+  }
+  return demand.truth == smallest_command_pct ? 100 * 0.5 * kBracket_pct_duty / truth
+                                              : ten_counts_pct(axis);
+}
 
 const Demand* demand_on(const Estimate& estimate) {
   const auto* found = std::find_if(kDemands.begin(), kDemands.end(), [&](const Demand& each) {
@@ -178,11 +189,8 @@ std::vector<Recovery> judge_recovery(const emulator::RigParameters& rig,
     }
     Recovery recovery{.estimate = estimate, .truth = *truth};
     const double percent = 100 / std::fabs(*truth);
-    recovery.tolerance_pct = demand_on(estimate)->tolerance_pct;
-    if (recovery.tolerance_pct == 0) {
-      const auto which = estimate.axis == "x" ? core::Axis::kX : core::Axis::kY;
-      recovery.tolerance_pct = ten_counts_pct(rig.axes[which]);
-    }
+    const auto which = estimate.axis == "x" ? core::Axis::kX : core::Axis::kY;
+    recovery.tolerance_pct = tolerance_pct(*demand_on(estimate), rig.axes[which], *truth);
     recovery.error_pct = (estimate.value - *truth) * percent;
     recovery.width_pct = (estimate.high - estimate.low) * percent;
     recovery.agrees = std::fabs(recovery.error_pct) <= recovery.tolerance_pct;
