@@ -21,6 +21,7 @@ enum Index : int {
   kShare,  // plain, 0 .. 1
   kDelay,  // in units of 10 us
   kPlace,  // share of the lowest friction that belongs to the place, not to the machine
+  kRotor,  // logarithm
   kKnots,  // logarithm of the friction at each knot, then the inner knots' places in cm
 };
 
@@ -59,6 +60,7 @@ class Problem {
     p[kShare] = a.friction.carriage_share;
     p[kDelay] = start_.path.delay_s / 1e-5;
     p[kPlace] = first_place_share();
+    p[kRotor] = std::log(a.rotor_inertia_kg_m2);
     for (int i = 0; i < knots(); ++i) {
       const auto knot = static_cast<std::size_t>(i);
       p[kKnots + i] =
@@ -84,6 +86,7 @@ class Problem {
   [[nodiscard]] emulator::AxisParameters axis_of(const double* p) const {
     auto a = start_.axis;
     a.inertia_kg_m2 = std::exp(p[kInertia]);
+    a.rotor_inertia_kg_m2 = std::exp(p[kRotor]);
     a.viscous_friction_Nm_s_per_rad = std::exp(p[kViscous]);
     a.friction.stribeck_speed_rad_per_s = std::exp(p[kStribeck]);
     a.chain.resonance_Hz = std::exp(p[kResonance]);
@@ -150,6 +153,8 @@ class Problem {
     out[2] = pull(kShare, start_.share_known);
     out[3] = pull(kDelay, 3.0);
     out[4] = pull(kPlace, 0.2);
+    // No guess but a measurement: as loud as one row.
+    out[5] = pull(kRotor, std::max(start_.rotor_known, kHeld)) / kPriorWeight;
     for (int i = 0; i < moving(); ++i) {
       out[kFixedPriors + i] = pull(first_place() + i, start_.knots_known_m / kPlaceUnit_m);
     }
@@ -163,11 +168,10 @@ class Problem {
   // While inertia, friction and swing are still wrong, what shows in small things only would make
   // up for them, and be stuck at the end of its range.
   [[nodiscard]] Bounds swing_only(const Eigen::VectorXd& p) const {
-    constexpr double kHeld = 1e-6;
     auto bounds = bounds_around(p);
     for (int i = 0; i < p.size(); ++i) {
       if (i == kExcess || i == kStribeck || i == kShare || i == kDelay || i == kPlace ||
-          i >= first_place()) {
+          i == kRotor || i >= first_place()) {
         bounds.low[i] = std::max(bounds.low[i], p[i] - kHeld);
         bounds.high[i] = std::min(bounds.high[i], p[i] + kHeld);
       }
@@ -188,6 +192,9 @@ class Problem {
     bound(kShare, 0.02, 0.98);
     bound(kDelay, 0.0, 9.9);
     bound(kPlace, 0.0, 0.7);
+    const double rotor = std::log(start_.axis.rotor_inertia_kg_m2);
+    const double room = std::max(kHeld, kRotorRoom * start_.rotor_known);
+    bound(kRotor, rotor - room, rotor + room);
     // No knot passes another one, whatever its neighbour does.
     for (int i = 0; i < moving(); ++i) {
       const auto knot = static_cast<std::size_t>(i) + 1;
@@ -200,7 +207,9 @@ class Problem {
 
  private:
   static constexpr double kPriorWeight = 10;
-  static constexpr int kFixedPriors = 5;
+  static constexpr double kHeld = 1e-6;
+  static constexpr double kRotorRoom = 5;  // deviations
+  static constexpr int kFixedPriors = 6;
   static constexpr double kPlaceUnit_m = 0.01;
   static constexpr double kNearer = 0.4;  // of the way to a neighbour
   const TwoMassStart& start_;
@@ -256,6 +265,7 @@ TwoMassFit fit_from(const TwoMassStart& start, const Recording& data, core::Axis
   fit.resonance_deviation_Hz = fit.axis.chain.resonance_Hz * deviation(kResonance);
   fit.damping_deviation = fit.axis.chain.damping_ratio * deviation(kDamping);
   fit.share_deviation = deviation(kShare);
+  fit.rotor_deviation = fit.axis.rotor_inertia_kg_m2 * deviation(kRotor);
   fit.common_deviation_Nm = fit.axis.coulomb_friction_Nm / (1 - p[kPlace]) * deviation(kPlace);
   fit.excess_Nm = std::exp(p[kExcess]);
   fit.excess_deviation_Nm = fit.excess_Nm * deviation(kExcess);

@@ -9,7 +9,7 @@
 // Friction is C + tau_P(x), tau_P piecewise linear between `knots_m`; what is estimated is its
 // value at each knot and, on request, where the inner ones stand: the motor remembers for J/B, so a
 // bend that is 3 mm off is seen a metre later. Torques scale with K_T K_amp, which encoder and duty
-// cannot show.
+// cannot show; so does the rotor's inertia, which therefore is no number of its data sheet alone.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,7 +30,9 @@ struct TwoMassStart {
   double stribeck_known = 0;
   double excess_known = 0;
   double share_known = 0.25;  // of the carriage's share, absolute
-  double rotor_known = 0;     // 0: exactly, from its data sheet
+  // Of the rotor's inertia, which its data sheet gives, in units of the torques that are known by
+  // K_T K_amp: as well as those. A swing of the chain tells it to 1e-4.
+  double rotor_known = 0;
 };
 
 struct TwoMassFit {
@@ -44,6 +46,7 @@ struct TwoMassFit {
   double resonance_deviation_Hz = 0;
   double damping_deviation = 0;
   double share_deviation = 0;
+  double rotor_deviation = 0;
   double common_deviation_Nm = 0;  // of axis.coulomb_friction_Nm: what is not the place's
   double excess_Nm = 0;            // break-away above sliding friction
   double excess_deviation_Nm = 0;

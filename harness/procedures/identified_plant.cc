@@ -24,7 +24,7 @@ class AxisWriter {
     const auto& model = belief_.feed_forward;
     head("");
     estimated("inertia_kg_m2", "inertia_kg_m2", model.inertia_kg_m2);
-    documented("rotor_inertia_kg_m2", plate_.rotor_inertia_kg_m2);
+    rotor();
     estimated("viscous_friction_Nm_s_per_rad", "viscous_friction_Nm_s_per_rad",
               model.viscous_friction_Nm_s_per_rad);
     const double lowest = write_coulomb(model.coulomb_friction_Nm);
@@ -77,6 +77,14 @@ class AxisWriter {
            fmt::format("{}, 95 %: {:.5g} .. {:.5g}", found->procedure, found->low, found->high));
     } else {
       believed(key, belief);
+    }
+  }
+  // In units of the torques found, where a swing has told it.
+  void rotor() {
+    if (identify::find(estimates_, "rotor_inertia_kg_m2", axis_) != nullptr) {
+      estimated("rotor_inertia_kg_m2", "rotor_inertia_kg_m2", plate_.rotor_inertia_kg_m2);
+    } else {
+      documented("rotor_inertia_kg_m2", plate_.rotor_inertia_kg_m2);
     }
   }
   [[nodiscard]] std::vector<Estimate> map_of(std::string_view quantity) const {

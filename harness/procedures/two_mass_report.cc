@@ -12,10 +12,8 @@
 namespace towbench::harness::procedures {
 namespace {
 
-// What a right model was still seen to be off by on eleven machines, beyond torque scale and noise.
-constexpr double kModelError = 2e-4;
-// Of the damping ratio, which the twin's tick of 0.1 ms shifts: up to 0.06 % on ten machines.
-constexpr double kDampingError = 4e-4;
+// The origin of a log is where a hand put the axis: evenly spread over 1 mm to each side.
+constexpr double kOrigin_m = 0.58e-3;  // 1 mm / sqrt(3)
 // What quantisation leaves is 1/sqrt(12) of a count (a right model was seen to leave 0.285). A fit
 // that leaves more has bent its parameters round something that it does not know, and its
 // intervals, which suppose the model, say nothing.
@@ -32,8 +30,7 @@ void add_estimates(const TwoMassReport& report, ProcedureOutcome& outcome) {
       scale.measured ? "EXP-P-1" : "the believed K_T K_amp, whose error is not in the interval");
   const auto add = [&](const char* quantity, double value, double deviation, const char* unit,
                        bool scales) {
-    const double whole = std::hypot(
-        deviation, value * std::hypot(kModelError, scales ? scale.relative_deviation : 0.0));
+    const double whole = std::hypot(deviation, scales ? value * scale.relative_deviation : 0.0);
     outcome.estimates.push_back(
         identify::with_deviation({.quantity = quantity,
                                   .axis = std::string(core::name_of(context.axis)),
@@ -46,22 +43,27 @@ void add_estimates(const TwoMassReport& report, ProcedureOutcome& outcome) {
   add("inertia_kg_m2", fit.axis.inertia_kg_m2, fit.inertia_deviation, "kg m2", true);
   add("viscous_friction_Nm_s_per_rad", fit.axis.viscous_friction_Nm_s_per_rad,
       fit.viscous_deviation, "N m s/rad", true);
+  add("rotor_inertia_kg_m2", fit.axis.rotor_inertia_kg_m2, fit.rotor_deviation, "kg m2", false);
   add("chain_resonance_Hz", fit.axis.chain.resonance_Hz, fit.resonance_deviation_Hz, "Hz", false);
-  add("chain_damping_ratio", fit.axis.chain.damping_ratio,
-      std::hypot(fit.damping_deviation, kDampingError * fit.axis.chain.damping_ratio), "1", false);
+  add("chain_damping_ratio", fit.axis.chain.damping_ratio, fit.damping_deviation, "1", false);
   add("friction_common_Nm", fit.axis.coulomb_friction_Nm, fit.common_deviation_Nm, "N m", true);
   add("friction_carriage_share", fit.axis.friction.carriage_share, fit.share_deviation, "1", false);
   add("stribeck_speed_rad_per_s", fit.axis.friction.stribeck_speed_rad_per_s,
       fit.stribeck_deviation, "rad/s", false);
   add("stiction_excess_Nm", fit.excess_Nm, fit.excess_deviation_Nm, "N m", true);
+  const auto slope = [&](std::size_t i) {
+    return (fit.coulomb_Nm[i + 1] - fit.coulomb_Nm[i]) / (knots[i + 1] - knots[i]);
+  };
   for (std::size_t i = 0; i < knots.size(); ++i) {
+    const double steepest = std::max(i > 0 ? std::fabs(slope(i - 1)) : 0.0,
+                                     i + 1 < knots.size() ? std::fabs(slope(i)) : 0.0);
     // Between knots the map may bend where no knot is.
     double bend = 0;
     if (!report.knots_are_bends && i > 0 && i + 1 < knots.size()) {
       bend = std::fabs(fit.coulomb_Nm[i - 1] - 2 * fit.coulomb_Nm[i] + fit.coulomb_Nm[i + 1]) / 8;
     }
-    add("coulomb_friction_Nm", fit.coulomb_Nm[i], std::hypot(fit.coulomb_deviation_Nm[i], bend),
-        "N m", true);
+    add("coulomb_friction_Nm", fit.coulomb_Nm[i],
+        std::hypot(fit.coulomb_deviation_Nm[i], bend, steepest * kOrigin_m), "N m", true);
     outcome.estimates.back().at = knots[i];
   }
 }
