@@ -34,6 +34,7 @@ struct Settings {
 
 constexpr int kRepeatsATalk = 40;
 constexpr double kNormal95 = 1.959964;
+constexpr double kSwingHelps = 0.1;  // of a step, as was seen
 
 class BreakAwayMap final : public Procedure {
  public:
@@ -133,11 +134,12 @@ class BreakAwayMap final : public Procedure {
       if (n < 4) {
         continue;
       }
-      const double value = sum / n;
-      const double spread = std::sqrt(std::max(0.0, square / n - value * value) / (n - 1));
-      // Anywhere between two levels, or up to a tenth of a step above them (the chain's swing
-      // helps), and every ramp of a stretch misses it alike: the middle 95 % of an even spread.
-      const double resolution = 0.95 * (0.5 + 0.1) * step / kNormal95;
+      const double spread = std::sqrt(std::max(0.0, square / n - sum / n * sum / n) / (n - 1));
+      // Anywhere between two levels, or up to a tenth of a step above them, for the chain's swing
+      // helps; and every ramp of a stretch misses it alike: the middle 95 % of an even spread.
+      const double bracket = (1 + kSwingHelps) * step;
+      const double value = sum / n + 0.5 * kSwingHelps * step;
+      const double resolution = 0.5 * 0.95 * bracket / kNormal95;
       outcome.estimates.push_back(identify::with_deviation(
           {.quantity = "breakaway_Nm",
            .axis = std::string(core::name_of(context.axis)),

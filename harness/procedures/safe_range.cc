@@ -116,7 +116,12 @@ class SafeRange final : public Procedure {
         200));
     talk.steps.push_back(move(fmt::format("poscalib {} --end max", name), 200));
     talk.limit_s = 600;
-    return context.machine.play(talk, studied_configuration(context));
+    // Each from further back than the one before, so that a carriage that sticks and slips meets a
+    // switch in another moment of its slip.
+    auto configuration = studied_configuration(context);
+    auto& back_off_m = configuration.axes[context.axis].homing.back_off_m;
+    back_off_m *= 1 + kFurther * number;
+    return context.machine.play(talk, configuration);
   }
 
   static ProcedureOutcome judged(const ProcedureContext& context,
@@ -131,9 +136,8 @@ class SafeRange final : public Procedure {
     }
     double square = kEdge_counts * kEdge_counts;
     for (const auto& each : all) {
-      // What a slip hides is alike in all repeats, for they come from the same place.
       square += (each.counts - mean) * (each.counts - mean) / (n - 1) / n +
-                each.alike_counts * each.alike_counts / n;
+                each.alike_counts * each.alike_counts / (n * n);
     }
     for (const double each : doubted) {
       square += each * each;
@@ -161,6 +165,7 @@ class SafeRange final : public Procedure {
     return outcome;
   }
 
+  static constexpr double kFurther = 0.073;  // of the way back, no part of a slip's length
   static constexpr std::size_t kSeek_rows = 100;
   // A switch's own delay, the row in which it closed, the encoder's phase: of both edges.
   static constexpr double kEdge_counts = 2;
