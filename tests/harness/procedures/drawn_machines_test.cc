@@ -39,7 +39,9 @@ Estimate within(const char* quantity, Axis axis, double value, double share) {
 Estimates drive_of(const RigFixture& rig, Axis axis) {
   const auto& plant = rig.parameters.axes[axis].plant;
   return {within("torque_constant_Nm_per_A", axis, plant.torque_constant_Nm_per_A, 3e-4),
-          within("amplifier_gain_A_per_V", axis, plant.amplifier_gain_A_per_V, 3e-4)};
+          within("amplifier_gain_A_per_V", axis, plant.amplifier_gain_A_per_V, 3e-4),
+          within("torque_per_volt_Nm_per_V", axis,
+                 plant.torque_constant_Nm_per_A * plant.amplifier_gain_A_per_V, 3e-4)};
 }
 
 // What EXP-OL-2 finds.
