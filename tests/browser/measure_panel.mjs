@@ -1,16 +1,17 @@
 // node measure_panel.mjs BENCH ROOT WORK_FOLDER [BLOCKS]
 //
-// Whether an open panel makes a run by the wall clock late: blocks in alternation, each a run of
-// wall-clock-window (1.5 s at 10 kHz and 1 kHz), judged by what realtime.json says of both loops:
+// What an open page does to a run: blocks in alternation, each a run of its own:
 //
-//   first    `towbench run --clock real`, nobody looks on
-//   panel    started from the panel's page in Chromium, which draws all the while
+//   first    `towbench run`, nobody looks on
+//   panel    started from the panel's page in Chromium, on the same processors
 //   second   as the first again
 //
-// The panel is compared with all blocks without it; second against first is what the host's noise
-// alone makes of such a ratio. Nothing is judged here: the ratios are printed.
+// By the wall clock (wall-clock-window, 1.5 s at 10 kHz and 1 kHz) judged by what realtime.json says
+// of the lateness of both loops; in lockstep at full speed (wall-clock-60s, a minute of machine time)
+// by how long the run took. The panel is compared with all blocks without it; second against first
+// is what the host's noise alone makes of such a ratio. Nothing is judged here: ratios are printed.
 import { execFileSync } from "node:child_process";
-import { mkdirSync, readFileSync, rmSync } from "node:fs";
+import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { join } from "node:path";
 
 import { withBrowser } from "./browser.mjs";
@@ -22,44 +23,61 @@ if (!work) {
   process.exit(2);
 }
 rmSync(work, { recursive: true, force: true });
-mkdirSync(work, { recursive: true });
 const runs = join(work, "runs");
-const kinds = { first: [], panel: [], second: [] };
+mkdirSync(runs, { recursive: true });
 
-function lateness(folder) {
-  const both = JSON.parse(readFileSync(join(runs, folder, "realtime.json"), "utf8"));
+// What FILE says of a run, whose folder is then gone.
+function taken(folder, file) {
+  const said = JSON.parse(readFileSync(join(runs, folder, file), "utf8"));
   rmSync(join(runs, folder), { recursive: true });
-  return both;
+  return said;
 }
 
-function runPlain() {
+function runPlain({ experiment, file, options }) {
   let said = "";
   try {
-    said = execFileSync(bench, ["run", "wall-clock-window", "--clock", "real", "--out", runs, "--quiet", "--no-report"], { cwd: root, encoding: "utf8" });
+    said = execFileSync(bench, ["run", experiment, ...options, "--out", runs, "--quiet", "--no-report"], { cwd: root, encoding: "utf8" });
   } catch (error) {
     said = error.stdout; // FAIL or INVALID: it kept time as it kept it
   }
-  return lateness(said.trimEnd().split("\n").pop().split("/").pop());
+  return taken(said.trimEnd().split("\n").pop().split("/").pop(), file);
 }
 
-async function runFromPanel(person) {
-  await person.start("wall-clock-window", "1", { clock: "real" });
+async function runFromPanel(person, { experiment, file, speed, clock }) {
+  await person.choose(experiment, speed, { clock });
+  await person.page.waitForSelector("#start:enabled");
+  await person.page.evaluate(() => document.getElementById("start").click());
+  // Until the report is there nothing is asked of the page: each question costs processor time.
+  while (!readdirSync(runs).some((name) => existsSync(join(runs, name, "report.html")))) {
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
   await person.over();
-  return lateness(await person.folder());
+  return taken(await person.folder(), file);
 }
+
+async function alternate(person, of) {
+  const kinds = { first: [], panel: [], second: [] };
+  for (let block = 0; block < Number(count); ++block) {
+    kinds.first.push(runPlain(of));
+    kinds.panel.push(await runFromPanel(person, of));
+    kinds.second.push(runPlain(of));
+  }
+  return kinds;
+}
+
+const byTheClock = { experiment: "wall-clock-window", file: "realtime.json", options: ["--clock", "real"], speed: "1", clock: "real" };
+const inLockstep = { experiment: "wall-clock-60s", file: "result.json", options: [], speed: "0" };
 
 const panel = startPanel(bench, root, runs);
+let lateness, lockstep;
 await withBrowser(async (context) => {
   const page = await context.newPage();
   page.setDefaultTimeout(90_000);
   await page.goto(await panel.address());
   await page.waitForFunction(() => document.documentElement.dataset.panel === "ready");
   const person = new Person(page);
-  for (let block = 0; block < Number(count); ++block) {
-    kinds.first.push(runPlain());
-    kinds.panel.push(await runFromPanel(person));
-    kinds.second.push(runPlain());
-  }
+  lockstep = await alternate(person, inLockstep);
+  lateness = await alternate(person, byTheClock);
 });
 panel.child.kill("SIGINT");
 
@@ -67,20 +85,25 @@ const sorted = (values) => [...values].sort((a, b) => a - b);
 const median = (values) => sorted(values)[Math.floor(values.length / 2)];
 const spread = (values) => {
   const all = sorted(values);
-  return `${(all[Math.floor(all.length / 4)] / 1e3).toFixed(1)} to ${(all[Math.floor((3 * all.length) / 4)] / 1e3).toFixed(1)}`;
+  return `${all[Math.floor(all.length / 4)].toFixed(1)} to ${all[Math.floor((3 * all.length) / 4)].toFixed(1)}`;
 };
-console.log(`lateness, medians over ${count} alternating blocks of each kind (middle half of the blocks), us`);
+function tell(name, kinds, value) {
+  const of = (kind) => kinds[kind].map(value);
+  const plain = [...of("first"), ...of("second")];
+  const shown = (values) => `${median(values).toFixed(1)} (${spread(values)})`;
+  console.log(
+    `${name}  without ${shown(plain)}  with panel ${shown(of("panel"))}` +
+      `  ratio ${(median(of("panel")) / median(plain)).toFixed(3)}  noise (second over first) ${(median(of("second")) / median(of("first"))).toFixed(3)}`,
+  );
+}
+
+console.log(`medians over ${count} alternating blocks of each kind (middle half of the blocks)`);
+tell("a minute in lockstep, ms", lockstep, (result) => result.wall_time_s * 1e3);
 for (const side of ["emulator", "controller"]) {
   for (const what of ["p50_ns", "p99_ns", "p999_ns"]) {
-    const of = (kind) => kinds[kind].map((both) => both[side].lateness[what]);
-    const plain = [...of("first"), ...of("second")];
-    const shown = (values) => `${(median(values) / 1e3).toFixed(1)} (${spread(values)})`;
-    console.log(
-      `${side.padEnd(10)} ${what.replace("_ns", "").padEnd(4)}  without ${shown(plain)}  with panel ${shown(of("panel"))}` +
-        `  ratio ${(median(of("panel")) / median(plain)).toFixed(3)}  noise (second over first) ${(median(of("second")) / median(of("first"))).toFixed(3)}`,
-    );
+    tell(`${side.padEnd(10)} lateness ${what.replace("_ns", "").padEnd(4)}, us`, lateness, (both) => both[side].lateness[what] / 1e3);
   }
-  const sum = (kind, what) => kinds[kind].reduce((total, both) => total + both[side][what], 0);
+  const sum = (kind, what) => lateness[kind].reduce((total, both) => total + both[side][what], 0);
   console.log(`${side.padEnd(10)} overruns per block: ${["first", "panel", "second"].map((kind) => `${kind} ${(sum(kind, "overruns") / Number(count)).toFixed(1)}`).join(", ")}`);
 }
 process.exit(0);

@@ -133,4 +133,21 @@ export async function driveRuns({ checks, person, page, bench, root, runs, shots
     assert.match(await person.over(), /^circle: PASS/);
     execFileSync(bench, ["run", "circle", "--out", runs, "--quiet"], { cwd: root });
   });
+
+  await checks.run("a run at full speed is drawn twice a second at most, and at once when it is over", async () => {
+    await page.evaluate(() => {
+      window.drawn = [];
+      const lamps = document.querySelector(".lamps");
+      window.drawings = new MutationObserver(() => window.drawn.push([performance.now(), lamps.textContent]));
+      window.drawings.observe(lamps, { childList: true, characterData: true, subtree: true });
+    });
+    await person.start("wall-clock-60s", "0");
+    await person.over();
+    const running = await page.evaluate(() => {
+      window.drawings.disconnect();
+      return window.drawn.filter(([, words]) => /^Runrunning/.test(words)).map(([at]) => at);
+    });
+    for (let i = 1; i < running.length; ++i) assert.ok(running[i] - running[i - 1] > 400, `drawn at ${running} ms`);
+    assert.ok((await person.time()) > 50, "the end is shown");
+  });
 }

@@ -4,6 +4,9 @@ import { createHash } from "node:crypto";
 import { request } from "node:http";
 import { connect } from "node:net";
 
+// How waiting for a page asks: with each picture it would keep the page drawing.
+const seldom = { polling: 100 };
+
 export class Checks {
   failures = 0;
   passed = 0;
@@ -80,7 +83,7 @@ export class Person {
   }
   // What is shown is the run's that was started last, no longer the one's before.
   async begun() {
-    await this.page.waitForFunction((before) => (document.getElementById("result").dataset.run ?? "") !== before, this.runBefore);
+    await this.page.waitForFunction((before) => (document.getElementById("result").dataset.run ?? "") !== before, this.runBefore, seldom);
   }
   async choose(experiment, speed, options = {}) {
     await this.page.click('nav a[href="#run"]');
@@ -96,7 +99,7 @@ export class Person {
     await this.page.waitForFunction((before) => {
       const result = document.getElementById("result");
       return (result.dataset.of ?? "") !== before && /PASS|FAIL|INVALID|no verdict/.test(result.textContent);
-    }, this.runsSeen);
+    }, this.runsSeen, seldom);
     return this.page.textContent("#result");
   }
   async folder() {

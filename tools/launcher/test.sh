@@ -6,7 +6,7 @@
 
 all_stages=(lint tests carriers step_cost armhf board tidy sanitize_address sanitize_thread fuzz fresh_start)
 quick_stages=(lint tests)
-on_request_stages=(carrier_table panel_lateness tidy_everything campaign mutants slurm)
+on_request_stages=(carrier_table panel_cost tidy_everything campaign mutants slurm)
 
 test_usage() {
   cat <<'TEXT'
@@ -35,7 +35,7 @@ stages: lint              format, shellcheck, include rules
 
 on request only (--only):
         carrier_table     the table of docs/carriers.md, measured here: fidelity, bandwidth, load, round trip
-        panel_lateness    what an open panel does to a run by the wall clock: lateness in alternating blocks, printed
+        panel_cost    what an open panel does to a run by the wall clock: lateness in alternating blocks, printed
         tidy_everything   clang-tidy of the harness and carriers too; about half an hour
         campaign          the standard fault campaign, some 3,000 cases, from scratch
         mutants           controllers with one reaction removed: the campaign must catch each
@@ -189,8 +189,8 @@ stage_carrier_table() {
 }
 
 # The ratios are printed, not judged: they are this host's, at this hour.
-stage_panel_lateness() {
-  local here=$root/tests/browser work=$root/build/panel_lateness browser
+stage_panel_cost() {
+  local here=$root/tests/browser work=$root/build/panel_cost browser
   build_preset release release towbench-bench towbench-panel
   browser=$(sh "$here/find_browser.sh") || { failed=$((failed + 1)); return 1; }
   sh "$here/install.sh" "$work/packages"

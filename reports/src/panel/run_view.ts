@@ -2,6 +2,7 @@
 import { element } from "../dom";
 import { loadCatalogue } from "./catalogue";
 import { ConsoleBox } from "./console_box";
+import { DrawPace } from "./draw_pace";
 import { EventList } from "./event_list";
 import { labelled, select } from "./form";
 import { Histogram } from "./histogram";
@@ -46,7 +47,7 @@ export class RunView {
   private number = 0;
   private missed = 0;
   private state: State | null = null;
-  private drawing = false;
+  private readonly pace = new DrawPace(() => this.draw());
 
   constructor(host: HTMLElement, send: (message: Record<string, unknown>) => void, onRefused: (why: string) => void) {
     this.start = new StartForm((message) => {
@@ -100,10 +101,7 @@ export class RunView {
     this.console.add(frame.console);
     this.events.add(frame.events);
     if (frame.state.trouble) this.tell(frame.state.trouble);
-    if (!this.drawing) {
-      this.drawing = true;
-      requestAnimationFrame(() => this.draw());
-    }
+    this.pace.ask(frame.state.phase === "running" && frame.state.speed === 0 && !frame.state.paused);
   }
 
   private beginRun(number: number): void {
@@ -117,7 +115,6 @@ export class RunView {
   }
 
   private draw(): void {
-    this.drawing = false;
     const state = this.state;
     if (state === null) return;
     const row = this.log.last;
