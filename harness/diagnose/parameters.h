@@ -21,7 +21,7 @@ struct ParameterShift {
   std::vector<std::string> indistinguishable_from;
 };
 
-// Of an elastic axis it must have moved by 2 % too (kElasticFloor).
+// Of an elastic axis it must have moved by kElasticFloor of itself too.
 // A parameter has moved when it lies more than 4 standard errors (HAC) and 1 % of the model's
 // whole force rms from what was supplied, and no accepted cause shares its mean with it.
 // Classes: {inertia, added_mass}; all by one ratio: {amplifier_gain}; inertia and viscous by one
