@@ -62,7 +62,7 @@ std::vector<Term> one_term_an_effect(const Context& context) {
 Eigen::Index sparse_regression(const Request& request) {
   constexpr double kThreshold = 0.02;
   const Dataset data =
-      make_dataset(request.runs, choose_conditioning(request.runs, request.model.mass_kg),
+      make_dataset(request.runs, choose_conditioning(request.runs, request.model),
                    stated_baseline(request.model), [](auto, auto) { return true; });
   const Context context = make_context(request.model, data);
   const Eigen::MatrixXd all = design_matrix(data, context, one_term_an_effect(context));
