@@ -43,13 +43,16 @@ function runPlain({ experiment, file, options }) {
   return taken(said.trimEnd().split("\n").pop().split("/").pop(), file);
 }
 
+const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+
 async function runFromPanel(person, { experiment, file, speed, clock }) {
   await person.choose(experiment, speed, { clock });
   await person.page.waitForSelector("#start:enabled");
+  await pause(500); // what was just chosen is drawn by then
   await person.page.evaluate(() => document.getElementById("start").click());
   // Until the report is there nothing is asked of the page: each question costs processor time.
   while (!readdirSync(runs).some((name) => existsSync(join(runs, name, "report.html")))) {
-    await new Promise((resolve) => setTimeout(resolve, 100));
+    await pause(100);
   }
   await person.over();
   return taken(await person.folder(), file);
