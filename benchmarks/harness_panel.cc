@@ -17,8 +17,8 @@
 #include <nlohmann/json.hpp>
 #include <time.h>
 
+#include "harness/panel/frames.h"
 #include "harness/panel/live_hand.h"
-#include "harness/panel/panel_json.h"
 #include "harness/panel/turns.h"
 
 namespace {

@@ -1,13 +1,16 @@
+#include "harness/panel/frames.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "harness/judge/judge.h"
-#include "harness/panel/panel_json.h"
 
 namespace towbench::harness {
 namespace {
@@ -46,6 +49,27 @@ void add_whole(std::string& text, Integer value) {
   text.append(digits.data(), digits.size());
 }
 
+// By the time that the youngest is drawn the page has forgotten what is older.
+template <typename Row, typename Time>
+void forget_what_is_not_shown(std::vector<Row>& rows, Time time_ns) {
+  const auto shown = std::find_if(rows.begin(), rows.end(), [&](const Row& row) {
+    return time_ns(row) >= time_ns(rows.back()) - FrameMaker::kShown_ns;
+  });
+  rows.erase(rows.begin(), shown);
+}
+
+// An event's line is JSON of its own.
+std::string list_of(std::string_view lines) {
+  std::string list;
+  for (std::size_t from = 0; from < lines.size();) {
+    const auto end = std::min(lines.find('\n', from), lines.size());
+    list += list.empty() ? "" : ",";
+    list += lines.substr(from, end - from);
+    from = end + 1;
+  }
+  return list;
+}
+
 void begin_row(std::string& text, core::Nanoseconds time_ns) {
   text += text.empty() ? "[" : ",[";
   add(text, core::seconds(time_ns), 1e6, "e-6");
@@ -66,30 +90,30 @@ double FrameMaker::worst_error_m(const LiveTruth& row) {
 }
 
 template <typename Row>
-std::vector<Row> FrameMaker::thinned(const std::vector<Row>& rows) {
+void FrameMaker::add_thinned(std::vector<Row>& to, const std::vector<Row>& rows) {
   if (rows.size() <= kMostRows) {
-    return rows;
+    to.insert(to.end(), rows.begin(), rows.end());
+    return;
   }
-  std::vector<Row> kept;
   const std::size_t buckets = kMostRows / 2;
   for (std::size_t i = 0; i < buckets; ++i) {
     const std::size_t from = i * rows.size() / buckets;
-    const std::size_t to = (i + 1) * rows.size() / buckets;
+    const std::size_t end = (i + 1) * rows.size() / buckets;
     std::size_t worst = from;
-    for (std::size_t row = from; row < to; ++row) {
+    for (std::size_t row = from; row < end; ++row) {
       worst = worst_error_m(rows[row]) > worst_error_m(rows[worst]) ? row : worst;
     }
-    if (worst + 1 < to) {
-      kept.push_back(rows[worst]);
+    if (worst + 1 < end) {
+      to.push_back(rows[worst]);
     }
-    kept.push_back(rows[to - 1]);
+    to.push_back(rows[end - 1]);
   }
-  return kept;
 }
 
 // The first frame of a run; its fixture is there, its folder may not be yet.
 void FrameMaker::begin(std::uint64_t number) {
   number_ = number;
+  untold_.clear();
   tail_.reset();
   estimators_.reset();
   if (const auto* const fixture = session_.fixture()) {
@@ -100,9 +124,7 @@ void FrameMaker::begin(std::uint64_t number) {
   }
 }
 
-// [t, then for y and x: reference, position, reference velocity, velocity, duty, mode, and velocity
-// by frequency, by period and by the hybrid; then fault, and the force sensor's y and x]
-std::string FrameMaker::rows_text() {
+void FrameMaker::take_rows() {
   seen_.clear();
   for (SeenRow seen; session_.tap().next(seen.live);) {
     if (estimators_) {
@@ -114,8 +136,51 @@ std::string FrameMaker::rows_text() {
     }
     seen_.push_back(seen);
   }
+  add_thinned(untold_.rows, seen_);
+  forget_what_is_not_shown(untold_.rows, [](const SeenRow& row) { return row.live.time_ns; });
+}
+
+void FrameMaker::take_truths() {
+  truths_.clear();
+  if (session_.state().clock == RunClock::kReal) {
+    if (tail_) {
+      truths_ = tail_->rows();
+    }
+  } else {
+    for (LiveTruth row; session_.tap().next(row);) {
+      truths_.push_back(row);
+    }
+  }
+  add_thinned(untold_.truths, truths_);
+  forget_what_is_not_shown(untold_.truths, [](const LiveTruth& row) { return row.time_ns; });
+}
+
+void FrameMaker::take() {
+  if (const auto number = session_.state().number; number != number_) {
+    begin(number);
+  }
+  if (const auto folder = session_.tap().folder(); !tail_ && !folder.empty()) {
+    tail_.emplace(folder);
+  }
+  take_rows();
+  take_truths();
+  untold_.events += session_.tap().take_events();
+  if (tail_ && session_.state().clock == RunClock::kReal) {
+    untold_.events += tail_->events();
+  }
+  untold_.console += session_.tap().take_console();
+  if (auto* const hand = session_.hand_if_running()) {
+    if (auto trouble = hand->take_trouble(); !trouble.empty()) {
+      untold_.trouble = std::move(trouble);
+    }
+  }
+}
+
+// [t, then for y and x: reference, position, reference velocity, velocity, duty, mode, and velocity
+// by frequency, by period and by the hybrid; then fault, and the force sensor's y and x]
+std::string FrameMaker::rows_text() const {
   std::string text;
-  for (const auto& [live, position_m, speeds] : thinned(seen_)) {
+  for (const auto& [live, position_m, speeds] : untold_.rows) {
     begin_row(text, live.time_ns);
     for (const auto axis : core::kAxes) {
       add(text, live.reference_m[axis]);
@@ -137,24 +202,10 @@ std::string FrameMaker::rows_text() {
   return text;
 }
 
-void FrameMaker::take_truths() {
-  truths_.clear();
-  if (session_.state().clock == RunClock::kReal) {
-    if (tail_) {
-      truths_ = tail_->rows();
-    }
-    return;
-  }
-  for (LiveTruth row; session_.tap().next(row);) {
-    truths_.push_back(row);
-  }
-}
-
 // [t, then for y and x: carriage, carriage speed, current, chain force; then input lines]
-std::string FrameMaker::truths_text() {
-  take_truths();
+std::string FrameMaker::truths_text() const {
   std::string text;
-  for (const auto& row : thinned(truths_)) {
+  for (const auto& row : untold_.truths) {
     begin_row(text, row.time_ns);
     for (const auto axis : core::kAxes) {
       add(text, row.carriage_m[axis]);
@@ -180,14 +231,14 @@ std::string FrameMaker::state_text() {
                  {"folder", state.folder},
                  {"verdict", state.verdict},
                  {"reason", state.reason},
-                 {"dropped", session_.tap().dropped()}};
+                 {"dropped", session_.tap().dropped()},
+                 {"trouble", untold_.trouble}};
   if (auto* const hand = session_.hand_if_running()) {
     const auto pace = hand->pace();
     object["speed"] = pace.speed;
     object["paused"] = pace.paused;
     object["holds"] = hand->holds();
     object["broken"] = hand->broken();
-    object["trouble"] = hand->take_trouble();
   }
   if (const auto* const fixture = session_.fixture()) {
     auto& limits = object["limits"];
@@ -214,35 +265,36 @@ std::string FrameMaker::state_text() {
   return object.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
+// What begins, pauses or ends is told at once.
+bool FrameMaker::holds_back() {
+  const auto state = session_.state();
+  auto* const hand = session_.hand_if_running();
+  const bool at_full_speed = hand != nullptr && state.clock == RunClock::kLockstep &&
+                             hand->pace().speed == 0 && !hand->pace().paused;
+  if (at_full_speed && told_at_full_speed_ == state.number && ++held_back_ < kHeldBack) {
+    return true;
+  }
+  told_at_full_speed_ = at_full_speed ? std::optional(state.number) : std::nullopt;
+  held_back_ = 0;
+  return false;
+}
+
 std::string FrameMaker::next() {
-  if (const auto number = session_.state().number; number != number_) {
-    begin(number);
-  }
-  if (const auto folder = session_.tap().folder(); !tail_ && !folder.empty()) {
-    tail_.emplace(folder);
-  }
-  const auto rows = rows_text();
-  const auto truths = truths_text();
-  auto events = session_.tap().take_events();
-  if (tail_ && session_.state().clock == RunClock::kReal) {
-    events += tail_->events();
-  }
-  const auto console = session_.tap().take_console();
-  const auto state = state_text();
-  if (rows.empty() && truths.empty() && events.empty() && console.empty() && state == last_state_) {
+  take();
+  if (holds_back()) {
     return {};
   }
-  last_state_ = state;
-  // An event's line is JSON of its own.
-  std::string lines;
-  for (std::size_t from = 0; from < events.size();) {
-    const auto end = std::min(events.find('\n', from), events.size());
-    lines += (lines.empty() ? "" : ",") + events.substr(from, end - from);
-    from = end + 1;
+  auto state = state_text();
+  if (untold_.is_empty() && state == last_state_) {
+    return {};
   }
-  return fmt::format(
+  auto frame = fmt::format(
       R"({{"kind":"frame","state":{},"rows":[{}],"truth":[{}],"events":[{}],"console":{}}})", state,
-      rows, truths, lines, json(console).dump(-1, ' ', true, json::error_handler_t::replace));
+      rows_text(), truths_text(), list_of(untold_.events),
+      json(untold_.console).dump(-1, ' ', true, json::error_handler_t::replace));
+  last_state_ = std::move(state);
+  untold_.clear();
+  return frame;
 }
 
 std::string FrameMaker::greeting() {

@@ -9,8 +9,12 @@ namespace towbench::harness {
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 
-WebClient::WebClient(beast::tcp_stream stream, OnMessage on_message, OnEnd on_end)
-    : socket_(std::move(stream)), on_message_(std::move(on_message)), on_end_(std::move(on_end)) {}
+WebClient::WebClient(beast::tcp_stream stream, OnMessage on_message, OnCaughtUp on_caught_up,
+                     OnEnd on_end)
+    : socket_(std::move(stream)),
+      on_message_(std::move(on_message)),
+      on_caught_up_(std::move(on_caught_up)),
+      on_end_(std::move(on_end)) {}
 
 void WebClient::open(const Request& request, std::string greeting) {
   // The socket has a patience of its own.
@@ -76,10 +80,14 @@ void WebClient::show(const std::shared_ptr<const std::string>& frame) {
     return;
   }
   if (missed_ > 0) {
-    queue(std::make_shared<const std::string>(
-        fmt::format(R"({{"kind":"missed","frames":{}}})", std::exchange(missed_, 0))));
+    tell_missed();
   }
   queue(frame);
+}
+
+void WebClient::tell_missed() {
+  queue(std::make_shared<const std::string>(
+      fmt::format(R"({{"kind":"missed","frames":{}}})", std::exchange(missed_, 0))));
 }
 
 void WebClient::queue(std::shared_ptr<const std::string> message) {
@@ -104,6 +112,9 @@ void WebClient::write() {
                         self->waiting_.pop_front();
                         if (!self->waiting_.empty()) {
                           self->write();
+                        } else if (self->missed_ > 0) {
+                          self->tell_missed();
+                          self->queue(std::make_shared<const std::string>(self->on_caught_up_()));
                         }
                       });
 }

@@ -24,8 +24,12 @@ class WebClient : public std::enable_shared_from_this<WebClient> {
   // Takes a message, returns the refusal or nothing.
   using OnMessage = std::function<std::string(std::string_view)>;
   using OnEnd = std::function<void(WebClient*)>;
+  // How things stand, for a page that has missed frames: the last of them may have been among
+  // these.
+  using OnCaughtUp = std::function<std::string()>;
 
-  WebClient(boost::beast::tcp_stream stream, OnMessage on_message, OnEnd on_end);
+  WebClient(boost::beast::tcp_stream stream, OnMessage on_message, OnCaughtUp on_caught_up,
+            OnEnd on_end);
 
   // `greeting` is the first message.
   void open(const Request& request, std::string greeting);
@@ -39,6 +43,7 @@ class WebClient : public std::enable_shared_from_this<WebClient> {
   [[nodiscard]] bool too_fast();
   void queue(std::shared_ptr<const std::string> message);
   void write();
+  void tell_missed();
   void end();
 
   // As WebServer's own bounds.
@@ -49,6 +54,7 @@ class WebClient : public std::enable_shared_from_this<WebClient> {
 
   Socket socket_;
   OnMessage on_message_;
+  OnCaughtUp on_caught_up_;
   OnEnd on_end_;
   boost::beast::flat_buffer buffer_;
   std::deque<std::shared_ptr<const std::string>> waiting_;

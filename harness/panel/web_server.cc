@@ -10,7 +10,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
-#include "harness/panel/panel_json.h"
+#include "harness/panel/frames.h"
 #include "harness/panel/steering.h"
 #include "harness/panel/turns.h"
 #include "harness/panel/web_client.h"
@@ -129,6 +129,7 @@ class WebServer::Implementation {
   void welcome(beast::tcp_stream stream, const WebClient::Request& request) {
     auto page = std::make_shared<WebClient>(
         std::move(stream), [this](std::string_view message) { return steer(session_, message); },
+        [this] { return frames_.greeting(); },
         [this](WebClient* gone) {
           std::erase_if(pages_, [gone](const auto& one) { return one.get() == gone; });
         });

@@ -23,7 +23,14 @@ export const widths: Record<LineRole, number> = { reference: 1.25, measured: 1.5
 
 export const axisFont = '12px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif';
 
+// Asked for with every line that is drawn; read from the style sheet once.
+let known: Theme | null = null;
+
 export function currentTheme(): Theme {
+  return (known ??= readTheme());
+}
+
+function readTheme(): Theme {
   const style = getComputedStyle(document.documentElement);
   const colour = (name: string) => style.getPropertyValue(name).trim();
   return {
@@ -41,6 +48,9 @@ export function currentTheme(): Theme {
     },
   };
 }
+
+// Before all others that react: these draw.
+onThemeChange(() => (known = null));
 
 // Also before and after printing, since paper has its own colours.
 export function onThemeChange(react: () => void): void {

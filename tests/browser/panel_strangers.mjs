@@ -73,6 +73,14 @@ export async function behaveBadly({ checks, person, page, context, origin, hostn
     assert.equal(await page.textContent("#connection"), "connected");
   });
 
+  await checks.run("one that could not keep up is told how many frames it missed, and how things stand", async () => {
+    const slow = await sleepAtIt({ context, hostname, port, origin });
+    await person.start("wall-clock-60s", "10");
+    await person.over();
+    const impatience = new Promise((_, fail) => setTimeout(() => fail(new Error("it was not told")), 20_000));
+    await Promise.race([slow.hear(/"kind":"missed".*"phase":"over"/s), impatience]);
+  });
+
   await checks.run("a flood, broken frames and half requests harm nobody", async () => {
     await page.evaluate(
       () =>

@@ -19,7 +19,7 @@ export class Checks {
       console.log(`ok   ${name} (${((Date.now() - began) / 1000).toFixed(1)} s)`);
     } catch (error) {
       ++this.failures;
-      const where = /panel_\w+\.mjs:\d+/.exec(error.stack ?? "")?.[0] ?? "";
+      const where = (error.stack ?? "").match(/panel_\w+\.mjs:\d+/g)?.join(" < ") ?? "";
       console.log(`FAIL ${name}\n     ${where} ${String(error.message ?? error).replace(/\n/g, "\n     ")}`);
     }
   }
@@ -75,7 +75,7 @@ export class Person {
   async printed(words) {
     await this.page.waitForFunction((text) => document.querySelector(".terminal").textContent.includes(text), words);
   }
-  // speed: as the page's choices have it; options: hold, clock, limit_s.
+  // speed: as the page's choices have it; options: hold, clock, limit_s, faults.
   async start(experiment, speed, options = {}) {
     await this.choose(experiment, speed, options);
     await this.page.click("#start");
@@ -93,7 +93,9 @@ export class Person {
     await this.page.selectOption("#start-clock", options.clock ?? "lockstep");
     if (options.clock !== "real") await this.page.selectOption("#start-speed", speed);
     await this.page.getByLabel("go on after the script").setChecked(options.hold ?? false);
-    await this.page.getByLabel("Faults, separated").evaluate((field, words) => (field.value = words), options.faults ?? "");
+    const set = (label, value) => this.page.getByLabel(label).evaluate((field, words) => (field.value = words), String(value));
+    await set("Faults, separated", options.faults ?? "");
+    if (options.limit_s) await set("Time limit", options.limit_s);
   }
   async over() {
     await this.page.waitForFunction((before) => {
@@ -173,6 +175,19 @@ export function sleepingClient({ hostname, port, origin, cookie }) {
   );
   return {
     since: Date.now(),
+    // Reads on; resolves with what it heard once that matches.
+    hear(pattern) {
+      socket.resume();
+      return new Promise((done) => {
+        const look = () => {
+          if (!pattern.test(text)) return;
+          socket.off("data", look);
+          socket.destroy();
+          done(text);
+        };
+        socket.on("data", look);
+      });
+    },
     wake() {
       socket.resume();
       return ended;

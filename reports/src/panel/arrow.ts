@@ -1,4 +1,6 @@
 // A force in the plane, from where it acts.
+import { setText } from "../dom";
+
 const svgNs = "http://www.w3.org/2000/svg";
 const pixelsPerNewton = 4;
 const longest = 150;
@@ -34,6 +36,6 @@ export class Arrow {
     this.path.setAttribute("d", `M${startX.toFixed(1)} ${startY.toFixed(1)}L${tipX.toFixed(1)} ${tipY.toFixed(1)}${barb(1)}${barb(-1)}`);
     this.text.setAttribute("x", (x + 18).toFixed(1));
     this.text.setAttribute("y", (y - 10 + this.below).toFixed(1));
-    this.text.textContent = `${size_N.toFixed(1)} N`;
+    setText(this.text, `${size_N.toFixed(1)} N`);
   }
 }

@@ -21,9 +21,9 @@ export class History {
   }
 
   add(rows: (number | null)[][]): void {
-    for (const row of rows) {
-      this.columns.forEach((column, i) => column.push(row[i] ?? null));
-    }
+    this.columns.forEach((column, i) => {
+      for (const row of rows) column.push(row[i] ?? null);
+    });
     const time = this.time;
     const newest = time[time.length - 1];
     if (newest === undefined) return;

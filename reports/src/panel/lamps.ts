@@ -1,5 +1,5 @@
 // How things stand, in words.
-import { element } from "../dom";
+import { element, setText } from "../dom";
 import { readable } from "../units";
 import { faultColumn, linesColumn, logColumns, type State } from "./wire";
 
@@ -51,7 +51,7 @@ export class Lamps {
 
   private set(name: string, text: string, on: boolean): void {
     const { box, value } = this.values.get(name)!;
-    if (value.textContent !== text) value.textContent = text;
+    setText(value, text);
     box.classList.toggle("on", on);
   }
 }

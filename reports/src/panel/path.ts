@@ -1,6 +1,6 @@
 // The path in the plane: reference and motor side, equal scales.
 import { element } from "../dom";
-import { currentTheme, dashes, type LineRole } from "../theme";
+import { currentTheme, dashes, type LineRole, onThemeChange } from "../theme";
 
 const height = 220;
 
@@ -9,13 +9,26 @@ export class Path {
   private readonly canvas = element("canvas");
 
   private again = () => {};
+  private width = 0; // of the canvas; asking the page for it each time would have it laid out each time
 
   constructor() {
     const caption = element("figcaption");
     caption.append(element("strong", "", "X-Y path: reference dashed, motor side solid"));
     this.box.append(caption, this.canvas);
     this.canvas.style.maxWidth = "100%";
-    new ResizeObserver(() => this.again()).observe(this.box);
+    new ResizeObserver(() => {
+      this.fit();
+      this.again();
+    }).observe(this.box);
+    onThemeChange(() => this.again());
+  }
+
+  private fit(): void {
+    this.width = this.box.clientWidth || 320;
+    this.canvas.width = this.width * devicePixelRatio;
+    this.canvas.height = height * devicePixelRatio;
+    this.canvas.style.width = `${this.width}px`;
+    this.canvas.style.height = `${height}px`;
   }
 
   show(columns: (number | null)[][], yReference: number, yPosition: number, xReference: number, xPosition: number): void {
@@ -24,15 +37,12 @@ export class Path {
   }
 
   private draw(columns: (number | null)[][], yReference: number, yPosition: number, xReference: number, xPosition: number): void {
-    const width = this.box.clientWidth || 320;
-    const density = devicePixelRatio || 1;
-    this.canvas.width = width * density;
-    this.canvas.height = height * density;
-    this.canvas.style.width = `${width}px`;
-    this.canvas.style.height = `${height}px`;
+    if (this.width === 0) this.fit();
+    const width = this.width;
     const pen = this.canvas.getContext("2d");
     if (pen === null) return;
-    pen.scale(density, density);
+    pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
+    pen.clearRect(0, 0, width, height);
     const pairs: [number, number, LineRole][] = [
       [yReference, xReference, "reference"],
       [yPosition, xPosition, "measured"],

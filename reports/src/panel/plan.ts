@@ -1,6 +1,6 @@
 // The tank from above: carriage and end-effector where they truly are, the reference as a ring, the
 // chains' force and the force sensor's as arrows, end-stops and hard ends.
-import { element } from "../dom";
+import { element, setText } from "../dom";
 import { Arrow } from "./arrow";
 import type { AxisLimits } from "./wire";
 
@@ -120,12 +120,14 @@ export class Plan {
     this.aim.setAttribute("cy", String(this.down(pose.xReference_m)));
     this.chain.show(x, y, pose.yForce_N, pose.xForce_N);
     this.sensor.show(x, y, pose.sensor_N?.y ?? 0, pose.sensor_N?.x ?? 0);
-    this.caption.textContent =
+    setText(
+      this.caption,
       "Y right, X up; bar, dot: carriage, end-effector " +
-      (pose.isTruth ? "(truth)" : "(as the controller has it)") +
-      "; ring: reference; arrow: chains' force" +
-      (pose.sensor_N === null ? "" : "; dotted: sensor's") +
-      "; dashed: end-stops; shaded: soft limits";
+        (pose.isTruth ? "(truth)" : "(as the controller has it)") +
+        "; ring: reference; arrow: chains' force" +
+        (pose.sensor_N === null ? "" : "; dotted: sensor's") +
+        "; dashed: end-stops; shaded: soft limits",
+    );
     this.halls.forEach((hall, bit) =>
       hall.setAttribute("class", (pose.lines >> bit) & 1 ? "hall tripped" : "hall"),
     );

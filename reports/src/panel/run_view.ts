@@ -2,7 +2,6 @@
 import { element } from "../dom";
 import { loadCatalogue } from "./catalogue";
 import { ConsoleBox } from "./console_box";
-import { DrawPace } from "./draw_pace";
 import { EventList } from "./event_list";
 import { labelled, select } from "./form";
 import { Histogram } from "./histogram";
@@ -16,7 +15,7 @@ import { StartForm } from "./start_form";
 import { SteeringBar } from "./steering_bar";
 import { type AxisName, type Frame, linesColumn, logColumns, rowWidth, type State, truthColumns, truthWidth } from "./wire";
 
-const shown_s = 20;
+const shown_s = 20; // harness/panel/frames.h sends no more
 const stale_s = 0.1; // truth that is older than this does not say where the carriage is now
 const y = logColumns("y");
 const x = logColumns("x");
@@ -47,7 +46,7 @@ export class RunView {
   private number = 0;
   private missed = 0;
   private state: State | null = null;
-  private readonly pace = new DrawPace(() => this.draw());
+  private drawing = false; // with the screen's next picture
 
   constructor(host: HTMLElement, send: (message: Record<string, unknown>) => void, onRefused: (why: string) => void) {
     this.start = new StartForm((message) => {
@@ -101,12 +100,16 @@ export class RunView {
     this.console.add(frame.console);
     this.events.add(frame.events);
     if (frame.state.trouble) this.tell(frame.state.trouble);
-    this.pace.ask(frame.state.phase === "running" && frame.state.speed === 0 && !frame.state.paused);
+    if (this.drawing) return;
+    this.drawing = true;
+    requestAnimationFrame(() => {
+      this.drawing = false;
+      this.draw();
+    });
   }
 
   private beginRun(number: number): void {
     this.number = number;
-    this.result.dataset.run = `${number}`;
     this.missed = 0;
     this.log.clear();
     this.truth.clear();
@@ -119,6 +122,7 @@ export class RunView {
     if (state === null) return;
     const row = this.log.last;
     const truth = this.truth.last;
+    this.result.dataset.run = `${this.number}`; // the run that is shown
     this.bar.show(state);
     this.lamps.show(state, row, truth, this.missed);
     if (state.limits !== undefined) this.plan.setLimits(state.limits);

@@ -1,7 +1,7 @@
 // One plot over the last seconds.
 import uPlot from "uplot";
 
-import { element } from "../dom";
+import { element, setText } from "../dom";
 import { axisFont, currentTheme, dashes, fitWidth, lineSample, type LineRole, onThemeChange, widths } from "../theme";
 import { readable, tickText } from "../units";
 
@@ -49,7 +49,7 @@ export class Scope {
     this.plot.setData([columns[0], ...drawn] as uPlot.AlignedData);
     drawn.forEach((values, i) => {
       const last = values[values.length - 1];
-      this.outputs[i]!.textContent = last == null ? "" : readable(last);
+      setText(this.outputs[i]!, last == null ? "" : readable(last));
     });
   }
 

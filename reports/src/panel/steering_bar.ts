@@ -1,5 +1,5 @@
 // The hand on the run: its pace, the kill switch, the end-stops, any fault, its end.
-import { element } from "../dom";
+import { element, setText } from "../dom";
 import type { Catalogue, FaultKind } from "./catalogue";
 import { button, labelled, select, setOptions, textField } from "./form";
 import { speedSelect } from "./start_form";
@@ -88,14 +88,14 @@ export class SteeringBar {
     for (const field of this.all) field.disabled = !running || !lockstep;
     for (const field of this.always) field.disabled = !running;
     this.box.title = running && !lockstep ? "by the wall clock: only the console, Finish and Cut short" : "";
-    this.pauseButton.textContent = state.paused ? "Go on (space)" : "Pause (space)";
+    setText(this.pauseButton, state.paused ? "Go on (space)" : "Pause (space)");
     const pressed = this.isBroken(killFault);
     this.kill.setAttribute("aria-pressed", String(pressed));
-    this.kill.textContent = pressed ? "Release kill (K)" : "KILL (K)";
+    setText(this.kill, pressed ? "Release kill (K)" : "KILL (K)");
     this.stops.forEach((one, i) => {
       const held = this.isBroken(stopFault(endStops[i]!));
       one.setAttribute("aria-pressed", String(held));
-      one.textContent = `${held ? "Release" : "Trip"} ${endStops[i]!.replace("_", " ")}`;
+      setText(one, `${held ? "Release" : "Trip"} ${endStops[i]!.replace("_", " ")}`);
     });
     if (running && state.speed !== undefined && document.activeElement !== this.speed) {
       this.speed.value = String(state.speed);

@@ -1,0 +1,101 @@
+#include "harness/panel/frames.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/time.h"
+
+namespace towbench::harness {
+namespace {
+
+using nlohmann::json;
+
+std::vector<double> times_s(const json& rows) {
+  std::vector<double> times;
+  for (const auto& row : rows) {
+    times.push_back(row.at(0).get<double>());
+  }
+  return times;
+}
+
+class Frames : public ::testing::Test {
+ protected:
+  ~Frames() override {
+    session_->cut_short();
+    std::filesystem::remove_all(out_);
+  }
+
+  std::filesystem::path out_ = [] {
+    auto pattern = (std::filesystem::temp_directory_path() / "towbench-frames-XXXXXX").string();
+    return std::filesystem::path(mkdtemp(pattern.data()));
+  }();
+  std::unique_ptr<Session> session_ = std::make_unique<Session>(out_);
+  FrameMaker frames_{*session_};
+};
+
+TEST_F(Frames, AtFullSpeedOneQuestionInTenIsAnsweredAndTheEndAtOnce) {
+  session_->start({.experiment = "circle", .pace = {.speed = 0, .paused = false}});
+  std::vector<double> told_s;
+  int answers = 0;
+  int since_answer = FrameMaker::kHeldBack;
+  for (bool over = false; !over;) {
+    over = session_->state().phase == Session::Phase::kOver;
+    const auto frame = frames_.next();
+    ++since_answer;
+    if (frame.empty()) {
+      std::this_thread::yield();
+      continue;
+    }
+    const auto said = json::parse(frame);
+    if (said.at("state").at("phase") == "running") {
+      EXPECT_GE(since_answer, FrameMaker::kHeldBack);
+      since_answer = 0;
+      ++answers;
+    }
+    const auto times = times_s(said.at("rows"));
+    told_s.insert(told_s.end(), times.begin(), times.end());
+  }
+  EXPECT_GT(answers, 0);
+  EXPECT_TRUE(std::is_sorted(told_s.begin(), told_s.end()));
+  ASSERT_FALSE(told_s.empty());
+  EXPECT_GT(told_s.back(), 15.0) << "the circle's last second";
+}
+
+TEST_F(Frames, BelowFullSpeedWhatIsNewIsToldWithTheNextQuestion) {
+  session_->start({.experiment = "circle", .pace = {.speed = 0.001, .paused = true}});
+  EXPECT_FALSE(frames_.next().empty());
+  for (const double speed : {0.002, 0.003, 0.004}) {
+    session_->hand().set_speed(speed);
+    EXPECT_FALSE(frames_.next().empty()) << speed;
+  }
+}
+
+TEST_F(Frames, WhatThePageNoLongerShowsIsNotTold) {
+  bbmc::TelemetryRow row;
+  emulator::TruthRow truth;
+  constexpr int kRows = 10'000;
+  constexpr core::Nanoseconds kPeriod_ns = 4 * core::kNanosecondsPerMillisecond;  // 40 s in all
+  for (int i = 0; i < kRows; ++i) {
+    row.time_ns = truth.time_ns = i * kPeriod_ns;
+    session_->tap().row(row);
+    session_->tap().truth(truth);
+  }
+  const auto said = json::parse(frames_.next());
+  for (const char* const kind : {"rows", "truth"}) {
+    const auto times = times_s(said.at(kind));
+    ASSERT_GT(times.size(), 100U) << kind;
+    EXPECT_LE(times.size(), FrameMaker::kMostRows) << kind;
+    EXPECT_NEAR(times.front(), 20.0, 0.5) << kind;
+    EXPECT_DOUBLE_EQ(times.back(), core::seconds((kRows - 1) * kPeriod_ns)) << kind;
+  }
+}
+
+}  // namespace
+}  // namespace towbench::harness
