@@ -4,10 +4,12 @@
 //   diagnose_campaign pairs [SEEDS [STRENGTH]]              two of different families; one a seed
 //   diagnose_campaign bench [SEEDS [STRENGTH [EFFECT...]]]  in the emulator, under BBMC
 //
+// SEEDS is how many, from 1, or which: 7-8.
 // STRENGTH is a share of full strength (full_strength.h); on the bench, of the sizes in
 // bench_case.cc.
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <map>
 #include <string>
 #include <vector>
@@ -35,6 +37,18 @@ const std::vector<std::vector<std::string>> kFamilies{
     {"torque_ripple", "sprocket_eccentricity", "chain_polygon", "encoder_eccentricity",
      "periodic_force"},
     {"thermal_drift", "encoder_count_loss"}};
+
+struct Seeds {
+  int first = 1;
+  int last = 3;
+
+  [[nodiscard]] int count() const { return last - first + 1; }
+};
+
+Seeds seeds_in(const char* text) {
+  const char* dash = std::strchr(text, '-');
+  return dash == nullptr ? Seeds{1, std::atoi(text)} : Seeds{std::atoi(text), std::atoi(dash + 1)};
+}
 
 std::vector<std::string> all_effects() {
   std::vector<std::string> all{""};
@@ -93,14 +107,15 @@ Diagnosis hidden(const std::string& effect, double strength, std::uint64_t seed,
   return diagnose_hidden(at_strength(axis, strength, seed), seed);
 }
 
-void singles(const std::vector<std::string>& effects, int seeds, double strength, bool on_bench) {
+void singles(const std::vector<std::string>& effects, const Seeds& seeds, double strength,
+             bool on_bench) {
   fmt::print(
       "| hidden | right and alone | other names | unexplained | named |\n|---|---|---|---|---|\n");
   int hits = 0;
   int runs = 0;
   for (const auto& effect : effects) {
     Tally tally;
-    for (int seed = 1; seed <= seeds; ++seed) {
+    for (int seed = seeds.first; seed <= seeds.last; ++seed) {
       tally.add(hidden(effect, strength, static_cast<std::uint64_t>(seed), on_bench), effect);
     }
     tally.print(effect);
@@ -115,11 +130,12 @@ std::string drawn_from(const std::vector<std::string>& family, towbench::core::R
   return family[static_cast<std::size_t>(random.uniform() * static_cast<double>(family.size()))];
 }
 
-void pairs(int seeds, double strength) {
+void pairs(const Seeds& seeds, double strength) {
   int both = 0;
+  int any = 0;
   int alone = 0;
   fmt::print("| hidden | both named | nothing else | named |\n|---|---|---|---|\n");
-  for (int seed = 1; seed <= seeds; ++seed) {
+  for (int seed = seeds.first; seed <= seeds.last; ++seed) {
     const auto drawn = static_cast<std::uint64_t>(seed);
     towbench::core::Random random(drawn);
     const auto count = static_cast<double>(kFamilies.size());
@@ -142,12 +158,14 @@ void pairs(int seeds, double strength) {
       list += joined(names) + "; ";
     }
     both += one && other ? 1 : 0;
+    any += one || other ? 1 : 0;
     alone += one && other && !wrong ? 1 : 0;
     fmt::print("| {} + {} | {} | {} | {} |\n", axis.effect, axis.second_effect,
                one && other ? "yes" : "no", wrong ? "no" : "yes", list);
     std::fflush(stdout);
   }
-  fmt::print("\nboth named: {} of {}; and nothing else: {}\n", both, seeds, alone);
+  fmt::print("\nboth named: {} of {}; at least one: {}; both and nothing else: {}\n", both,
+             seeds.count(), any, alone);
 }
 
 }  // namespace
@@ -158,7 +176,7 @@ int main(int argc, char** argv) {
     --argc;
     ++argv;
   }
-  const int seeds = argc > 1 ? std::atoi(argv[1]) : 3;
+  const Seeds seeds = argc > 1 ? seeds_in(argv[1]) : Seeds{};
   const double strength = argc > 2 ? std::atof(argv[2]) : 1.0;
   if (kind == "pairs") {
     pairs(seeds, strength);
