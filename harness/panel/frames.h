@@ -12,11 +12,11 @@
 
 namespace towbench::harness {
 
-// Asked twenty times a second, it takes all that has come and tells it at once. A run at full speed,
-// which nobody can follow, is told of twice a second, and of the stretch that the page shows alone:
-// whoever looks on takes the processors that such a run would use. The rows of one question are
-// thinned to `kMostRows`, by buckets of time: each bucket's last row and the one with the largest
-// tracking error.
+// Asked twenty times a second, it takes all that has come and tells it at once. A run at full
+// speed, which nobody can follow, is told of twice a second, and of the stretch that the page shows
+// alone: whoever looks on takes the processors that such a run would use. The rows of one question
+// are thinned to `kMostRows`, by buckets of time: each bucket's last row and the one with the
+// largest tracking error.
 class FrameMaker {
  public:
   static constexpr std::size_t kMostRows = 240;
@@ -45,8 +45,7 @@ class FrameMaker {
     std::string trouble{};  // why the last command came to nothing
 
     [[nodiscard]] bool is_empty() const noexcept {
-      return rows.empty() && truths.empty() && events.empty() && console.empty() &&
-             trouble.empty();
+      return rows.empty() && truths.empty() && events.empty() && console.empty() && trouble.empty();
     }
     void clear() noexcept {
       rows.clear();

@@ -7,7 +7,7 @@
 //   second   as the first again
 //
 // By the wall clock (wall-clock-window, 1.5 s at 10 kHz and 1 kHz) judged by what realtime.json says
-// of the lateness of both loops; in lockstep at full speed (wall-clock-60s, a minute of machine time)
+// of the lateness of both loops; in lockstep at full speed (circles-5min)
 // by how long the run took. The panel is compared with all blocks without it; second against first
 // is what the host's noise alone makes of such a ratio. Nothing is judged here: ratios are printed.
 import { execFileSync } from "node:child_process";
@@ -69,7 +69,7 @@ async function alternate(person, of) {
 }
 
 const byTheClock = { experiment: "wall-clock-window", file: "realtime.json", options: ["--clock", "real"], speed: "1", clock: "real" };
-const inLockstep = { experiment: "wall-clock-60s", file: "result.json", options: [], speed: "0" };
+const inLockstep = { experiment: "circles-5min", file: "result.json", options: [], speed: "0" };
 
 const panel = startPanel(bench, root, runs);
 let lateness, lockstep;
@@ -101,7 +101,7 @@ function tell(name, kinds, value) {
 }
 
 console.log(`medians over ${count} alternating blocks of each kind (middle half of the blocks)`);
-tell("a minute in lockstep, ms", lockstep, (result) => result.wall_time_s * 1e3);
+tell("five minutes in lockstep, ms", lockstep, (result) => result.wall_time_s * 1e3);
 for (const side of ["emulator", "controller"]) {
   for (const what of ["p50_ns", "p99_ns", "p999_ns"]) {
     tell(`${side.padEnd(10)} lateness ${what.replace("_ns", "").padEnd(4)}, us`, lateness, (both) => both[side].lateness[what] / 1e3);
