@@ -59,7 +59,7 @@ Machine::Machine(RigFixture rig, ControllerFixture controller, std::uint64_t see
 Machine Machine::twin(core::Axis axis, const emulator::AxisParameters& known) const {
   auto rig = rig_;
   rig.parameters.axes[axis].plant = known;
-  return {std::move(rig), controller_, seed_, watchers_};
+  return {std::move(rig), controller_, seed_of(seed_, "twin"), watchers_};
 }
 
 identify::Recording Machine::play(const Conversation& conversation) const {

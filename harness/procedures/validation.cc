@@ -7,6 +7,7 @@
 //                takes against the logged one. The gain is by how much less of the duty stays
 //                unexplained than with the machine as the controller believed it.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -41,6 +42,18 @@ struct Settings {
     v.value("span_s", span_s, core::between(0.02, 2), "over which motion is compared");
   }
 };
+
+// Each begins at rest, the chain slack: how a motion leaves a carriage that sticks depends on
+// hundredths of a millimetre, and the next one would begin differently on a machine of equal bits.
+struct Motion {
+  const char* name;   // of the conversation
+  const char* title;  // in tables
+  double starts_at;   // share of the distance
+  double sign;        // of the way; 0: a sinusoid
+};
+constexpr std::array<Motion, 3> kMotions{{{"out", "trapezoid out", 0, 1},
+                                          {"back", "trapezoid back", 1, -1},
+                                          {"sinus", "sinusoid", 0, 0}}};
 
 struct Left {
   double rms_counts = 0;
@@ -124,14 +137,14 @@ class Validation final : public Procedure {
     double duty_square = 0;
     double belief_square = 0;
     double model_square = 0;
-    for (const bool sinus : {false, true}) {
-      const auto data = play(context, context.machine, settings, start_m, sinus);
+    for (const auto& motion : kMotions) {
+      const auto data = play(context, context.machine, settings, start_m, motion);
       if (!data.trouble.empty()) {
         return ProcedureOutcome::failed(data.trouble);
       }
       const auto left = left_by(identified, path, data, context.axis, settings.span_s);
-      const auto now = play(context, identified_twin, settings, start_m, sinus);
-      const auto old = play(context, believed_twin, settings, start_m, sinus);
+      const auto now = play(context, identified_twin, settings, start_m, motion);
+      const auto old = play(context, believed_twin, settings, start_m, motion);
       if (!left.simulated || !now.trouble.empty()) {
         return ProcedureOutcome::failed("the identified plant cannot do the motion: " +
                                         now.trouble);
@@ -142,14 +155,14 @@ class Validation final : public Procedure {
       belief_square += by_belief * by_belief;
       duty_square += std::pow(duty_rms_pct(data, context.axis), 2);
       model_square += by_model * by_model;
-      table.rows.push_back({sinus ? "sinusoid" : "trapezoids",
+      table.rows.push_back({motion.title,
                             fmt::format("{:.1f} ({:.0f})", left.rms_counts, left.peak_counts),
                             fmt::format("{:.3f}", by_model), fmt::format("{:.3f}", by_belief),
                             fmt::format("{:.1f}", by_belief / by_model)});
       outcome.figures.push_back(
-          speed_figure(data, context.axis, sinus ? "Fresh sinusoid" : "Fresh trapezoids"));
-      outcome.figures.push_back(duty_figure(data, now, old, context.axis, sinus));
-      context.tell(sinus ? 1.0 : 0.5);
+          speed_figure(data, context.axis, fmt::format("Speed, fresh {}", motion.title)));
+      outcome.figures.push_back(duty_figure(data, now, old, context.axis, motion));
+      context.tell(static_cast<double>(&motion - kMotions.data() + 1) / kMotions.size());
     }
     const double gain = std::sqrt(belief_square / model_square);
     const double unexplained = std::sqrt(model_square / duty_square);
@@ -172,7 +185,7 @@ class Validation final : public Procedure {
                "the plant fixture that is handed out",
            .procedure = "validation"});
     };
-    add("validation_left_counts", std::sqrt(counts_square / 2), "counts RMS");
+    add("validation_left_counts", std::sqrt(counts_square / kMotions.size()), "counts RMS");
     add("validation_unexplained_pct", 100 * unexplained, "% of the duty's RMS");
     add("validation_gain", gain, "1");
     outcome.tables.push_back(std::move(table));
@@ -181,9 +194,10 @@ class Validation final : public Procedure {
 
  private:
   static Figure duty_figure(const identify::Recording& data, const identify::Recording& now,
-                            const identify::Recording& old, core::Axis which, bool sinus) {
+                            const identify::Recording& old, core::Axis which,
+                            const Motion& motion) {
     constexpr std::size_t kPoints = 1500;
-    Figure figure{.title = sinus ? "Duty of the sinusoid" : "Duty of the trapezoids",
+    Figure figure{.title = fmt::format("Duty, fresh {}", motion.title),
                   .x_label = "time, s",
                   .y_label = "duty, %"};
     for (const auto& [name, log] : {std::pair{"measured", &data}, std::pair{"identified", &now},
@@ -200,22 +214,18 @@ class Validation final : public Procedure {
   }
 
   static identify::Recording play(const ProcedureContext& context, const Machine& machine,
-                                  const Settings& settings, double start_m, bool sinus) {
+                                  const Settings& settings, double start_m, const Motion& motion) {
     const auto name = core::name_of(context.axis);
-    Conversation talk{.name = fmt::format("validation-{}-{}", name, sinus ? "sinus" : "trapez")};
+    Conversation talk{.name = fmt::format("validation-{}-{}", name, motion.name)};
     talk.start_m = middle_of_tracks(context.machine);
-    talk.start_m[context.axis] = start_m;
+    talk.start_m[context.axis] = start_m + motion.starts_at * settings.distance_m;
     talk.steps = declare_position(talk, context.machine);
-    if (sinus) {
-      talk.steps.push_back(
-          move(fmt::format("run -sinus {} --amplitude {}m --frequency {}Hz --turns 3 --entry 2s",
-                           name, settings.amplitude_m, settings.frequency_Hz)));
-    } else {
-      for (const double sign : {1.0, -1.0}) {
-        talk.steps.push_back(move(fmt::format("run -trapez {} --distance {}m --speed {}m/s", name,
-                                              sign * settings.distance_m, settings.speed_m_per_s)));
-      }
-    }
+    talk.steps.push_back(move(
+        motion.sign == 0
+            ? fmt::format("run -sinus {} --amplitude {}m --frequency {}Hz --turns 3 --entry 2s",
+                          name, settings.amplitude_m, settings.frequency_Hz)
+            : fmt::format("run -trapez {} --distance {}m --speed {}m/s", name,
+                          motion.sign * settings.distance_m, settings.speed_m_per_s)));
     talk.limit_s = 120;
     return machine.play(talk, studied_configuration(context));
   }
