@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/diagnose/elastic_axis.h"
+
 namespace towbench::harness::diagnose {
 namespace {
 
 // Where the load of an elastic axis stands its law is not known, and what is taken for it jumps: a
 // filter without ringing, and twice the distance. Its corner is lower for the same band.
 constexpr double kGentleCorner = 0.7;
+constexpr double kLeastKnown = 0.3;
 
 ZeroPhaseFilter filter_for(const Signals& signals, double cutoff_Hz) {
   const double rate_Hz = 1 / signals.period_s;
@@ -24,7 +27,7 @@ std::vector<char> tainted(const Signals& signals, const std::vector<char>& missi
   std::vector<char> bad(static_cast<std::size_t>(n), 0);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    if (signals.standing[at] != 0 || missing[at] != 0) {
+    if ((signals.load == nullptr && signals.standing[at] != 0) || missing[at] != 0) {
       const Eigen::Index from = std::max<Eigen::Index>(0, i - reach);
       const Eigen::Index to = std::min(n, i + reach + 1);
       std::fill(bad.begin() + from, bad.begin() + to, char{1});
@@ -43,7 +46,13 @@ Conditioner::Conditioner(const Signals& signals, const std::vector<char>& missin
       1, static_cast<Eigen::Index>(0.4 * rate_Hz / conditioning.cutoff_Hz + 1e-9));
   const auto reach = static_cast<Eigen::Index>((signals.load != nullptr ? 1.0 : 0.5) * rate_Hz /
                                                conditioning.cutoff_Hz);
-  const auto bad = tainted(signals, missing, reach);
+  auto bad = tainted(signals, missing, reach);
+  if (signals.load != nullptr) {
+    const Eigen::VectorXd known = filter_.apply(signals.load->known);
+    for (Eigen::Index i = 0; i < known.size(); ++i) {
+      bad[static_cast<std::size_t>(i)] |= static_cast<char>(known[i] < kLeastKnown);
+    }
+  }
   const Eigen::Index border = filter_.border();
   const Eigen::Index count = std::max<Eigen::Index>(0, (signals.size() - 2 * border) / stride);
   for (Eigen::Index row = 0; row < count; ++row) {

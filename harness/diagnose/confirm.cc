@@ -15,6 +15,7 @@ using Eigen::VectorXd;
 
 // A model in one run: its base parameters, and what its other terms take along the measured motion.
 struct InRun {
+  Baseline machine;
   Theta theta;
   ExtraForce extra;
 };
@@ -23,7 +24,8 @@ InRun placed(const HeldOut& heldout, std::size_t i, const Context& context,
              const FittedModel& model) {
   const Dataset::Member& member = heldout.data().members[i];
   const VectorXd coefficients = heldout.coefficients_in(i, model);
-  return {coefficients.head<kBaseColumns>(),
+  return {machine_with(heldout.data().baseline, model.terms, coefficients),
+          coefficients.head<kBaseColumns>(),
           extra_force(member.signals, context, model.terms, coefficients)};
 }
 
@@ -56,20 +58,20 @@ std::vector<Index> window_starts(const Dataset::Member& member, const HeldOut::R
 }
 
 // From the measured state under the measured input: metres off after a window.
-double off_after_window_m(const Dataset::Member& member, const Baseline& baseline,
-                          const InRun& model, Index start) {
+double off_after_window_m(const Dataset::Member& member, const InRun& model, Index start) {
   const Run& run = member.run;
   const Signals& s = member.signals;
   const auto state = [&](const Signals& of) {
     return Motion{of.position_m[start], of.speed_m_per_s[start]};
   };
-  AxisBody body(baseline, model.theta, state(s),
+  AxisBody body(model.machine, model.theta, state(s),
                 s.load != nullptr ? state(s.load->motion) : state(s));
   const Index end = start + static_cast<Index>(std::lround(kWindow_s / run.period_s));
   const auto steps = std::max(1, static_cast<int>(std::ceil(run.period_s / kLongestStep_s)));
   const double h = run.period_s / steps;
   for (Index k = start; k < end; ++k) {
-    const double slope = baseline.model.input_is_held ? 0.0 : run.input_N[k + 1] - run.input_N[k];
+    const double slope =
+        model.machine.model.input_is_held ? 0.0 : run.input_N[k + 1] - run.input_N[k];
     for (int i = 0; i < steps; ++i) {
       const double w = (i + 0.5) / steps;
       const auto between = [&](const VectorXd& x) { return (1 - w) * x[k] + w * x[k + 1]; };
@@ -129,8 +131,8 @@ class Confirmer {
   void add_windows(std::size_t i, const InRun& supplied, const InRun& extended, Pair& way) const {
     const Dataset& data = heldout_.data();
     for (const Index start : window_starts(data.members[i], heldout_.scored(i))) {
-      way.add(off_after_window_m(data.members[i], data.baseline, supplied, start),
-              off_after_window_m(data.members[i], data.baseline, extended, start));
+      way.add(off_after_window_m(data.members[i], supplied, start),
+              off_after_window_m(data.members[i], extended, start));
     }
     way.end_run();
   }
@@ -140,8 +142,7 @@ class Confirmer {
                        ControlLaw::Kind& law) const {
     const Dataset::Member& member = heldout_.data().members[i];
     const auto twin = [&](const InRun& model, const ControlLaw& under) {
-      return simulate_twin(member, model.theta, heldout_.data().baseline, model.extra, under,
-                           seed_ + i);
+      return simulate_twin(member, model.theta, model.machine, model.extra, under, seed_ + i);
     };
     const ControlLaw found = find_control_law(member.run);
     Twin before = twin(supplied, found);

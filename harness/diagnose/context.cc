@@ -17,7 +17,7 @@ Context make_context(const NominalModel& model, const Dataset& data) {
     c.top_speed_m_per_s = std::max(c.top_speed_m_per_s, s.speed_m_per_s.cwiseAbs().maxCoeff());
     c.stroke_min_m = std::min(c.stroke_min_m, s.position_m.minCoeff());
     c.stroke_max_m = std::max(c.stroke_max_m, s.position_m.maxCoeff());
-    c.largest_input_N = std::max(c.largest_input_N, s.input_N.cwiseAbs().maxCoeff());
+    c.largest_input_N = std::max(c.largest_input_N, s.force_N().cwiseAbs().maxCoeff());
     c.resolution_m = std::max(c.resolution_m, member.run.resolution_m);
     c.acceleration_noise_m_per_s2 =
         std::max(c.acceleration_noise_m_per_s2,

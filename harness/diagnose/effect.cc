@@ -31,7 +31,7 @@ Eigen::MatrixXd effect_columns(const Effect& effect, const Signals& signals, con
       acting.on_load.col(j) += signals.load->of_motor_force(acting.on_motor.col(j));
     }
   }
-  return std::move(acting.on_load);
+  return signals.load->known.asDiagonal() * acting.on_load;
 }
 
 }  // namespace towbench::harness::diagnose

@@ -51,6 +51,7 @@ struct Effect {
   // The base column that the mean of its shape falls into, -1 for none: with the effect found, that
   // column's parameter is no longer comparable with the supplied one.
   int shares_mean_with = -1;
+  Eigen::Index chain_part = -1;  // of its first coefficient, where they are the chain's own
   ActsOn acts_on = ActsOn::kMotor;
   LineSearch search = LineSearch::kNone;  // its one scale is a frequency sought in the residual
   std::string needs = {};                 // the data that would show it

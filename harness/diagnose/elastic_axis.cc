@@ -5,6 +5,8 @@
 #include <memory>
 
 #include "harness/diagnose/direction.h"
+#include "harness/diagnose/flanks.h"
+#include "harness/diagnose/known_law.h"
 #include "harness/diagnose/two_bodies.h"
 #include "harness/diagnose/zero_phase_filter.h"
 
@@ -13,12 +15,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-// Slower than this share of its top speed it is not known which way the load goes, or if at all:
-// its speed is the motor's less what the stretch changes by, and that is known to a few per cent.
-constexpr double kUndecidedSpeed = 0.01;
-// Below this share of its rms the chain's force does not say which flank of a play carries.
-constexpr double kUndecidedForce = 0.1;
 
 // (k + d D)^-1 F, exact for a force that is linear between samples.
 VectorXd stretch_m(const ElasticChain& chain, const VectorXd& force_N, double period_s) {
@@ -41,7 +37,9 @@ VectorXd stretch_m(const ElasticChain& chain, const VectorXd& force_N, double pe
 class LoadLaw {
  public:
   LoadLaw(const Baseline& baseline, double period_s)
-      : baseline_(baseline), bodies_(baseline.model, baseline.at), period_s_(period_s) {}
+      : chain_(shifted(baseline.model.chain, baseline.read)),
+        bodies_(baseline.model, baseline.at),
+        period_s_(period_s) {}
 
   // (M D^2 + share B D) of a way.
   [[nodiscard]] VectorXd inertial_N(const VectorXd& way_m) const {
@@ -50,15 +48,16 @@ class LoadLaw {
            bodies_.load_viscous_N_s_per_m() * speed;
   }
   [[nodiscard]] VectorXd stretch_m(const VectorXd& force_N) const {
-    return diagnose::stretch_m(baseline_.model.chain, force_N, period_s_);
+    return diagnose::stretch_m(chain_, force_N, period_s_);
   }
   [[nodiscard]] VectorXd of_motor_force(const VectorXd& force_N) const {
     return force_N + inertial_N(stretch_m(force_N));
   }
   [[nodiscard]] const TwoBodies& bodies() const noexcept { return bodies_; }
+  [[nodiscard]] const ElasticChain& chain() const noexcept { return chain_; }
 
  private:
-  const Baseline& baseline_;
+  ElasticChain chain_;
   TwoBodies bodies_;
   double period_s_;
 };
@@ -71,26 +70,6 @@ VectorXd motor_force_N(const Signals& s, const Baseline& baseline, const TwoBodi
   return force;
 }
 
-// The flank that carries, +1 or -1; between them the gap is crossed at an even pace.
-VectorXd carrying_flank(const VectorXd& chain_N) {
-  const double least =
-      kUndecidedForce * chain_N.norm() / std::sqrt(static_cast<double>(chain_N.size()));
-  VectorXd side = VectorXd::Zero(chain_N.size());
-  Index last = -1;
-  for (Index i = 0; i < side.size(); ++i) {
-    if (std::abs(chain_N[i]) <= least) {
-      continue;
-    }
-    side[i] = chain_N[i] > 0 ? 1 : -1;
-    for (Index k = last + 1; k < i && last >= 0; ++k) {
-      const double w = static_cast<double>(k - last) / static_cast<double>(i - last);
-      side[k] = (1 - w) * side[last] + w * side[i];
-    }
-    last = i;
-  }
-  return side;
-}
-
 Signals load_signals(const Signals& motor, const VectorXd& load_m, const VectorXd& chain_N) {
   Signals s;
   s.period_s = motor.period_s;
@@ -101,7 +80,7 @@ Signals load_signals(const Signals& motor, const VectorXd& load_m, const VectorX
   s.input_N = chain_N;
   s.other_speed_m_per_s = motor.other_speed_m_per_s;
   s.other_acceleration_m_per_s2 = motor.other_acceleration_m_per_s2;
-  find_direction(s, 0, kUndecidedSpeed);
+  find_direction(s, 0);
   s.base.resize(s.size(), static_cast<Index>(kBaseColumns));
   s.base << s.acceleration_m_per_s2, s.speed_m_per_s, s.direction, VectorXd::Ones(s.size());
   return s;
@@ -113,16 +92,18 @@ VectorXd LoadSide::of_motor_force(const VectorXd& force_N) const {
   return LoadLaw(baseline, motion.period_s).of_motor_force(force_N);
 }
 
-void put_on_chain(Signals& s, const Baseline& baseline) {
-  const ElasticChain& chain = baseline.model.chain;
+void put_on_chain(Signals& s, const Baseline& baseline, double smoothing_Hz) {
   const LoadLaw law(baseline, s.period_s);
+  const ElasticChain& chain = law.chain();
   const VectorXd force = s.input_N;
   const VectorXd chain_N = force - motor_force_N(s, baseline, law.bodies());
   const VectorXd stretch = law.stretch_m(chain_N);
-  const VectorXd side = carrying_flank(chain_N);
+  const Flanks flanks = find_flanks(chain_N);
   auto load = std::make_shared<LoadSide>();
   load->baseline = baseline;
-  load->motion = load_signals(s, s.position_m - stretch - 0.5 * chain.play_m * side, chain_N);
+  load->motion = load_signals(
+      s, crossed(flanks, s.position_m - stretch - 0.5 * chain.play_m * flanks.side, chain.play_m),
+      chain_N);
   const Signals& x = load->motion;
   const double share = chain.load_share;
   s.base.resize(s.size(), static_cast<Index>(kBaseColumns));
@@ -134,18 +115,22 @@ void put_on_chain(Signals& s, const Baseline& baseline) {
   VectorXd left = chain_N - law.inertial_N(x.position_m);
   for (Index i = 0; i < s.size(); ++i) {
     left[i] -= x.direction[i] * law.bodies().load_dry_N({x.position_m[i], x.speed_m_per_s[i]});
-    s.standing[static_cast<std::size_t>(i)] |= x.standing[static_cast<std::size_t>(i)];
   }
   const double k = chain.stiffness_N_per_m;
   const VectorXd by_spring = law.stretch_m(k * stretch);
   load->by_chain.resize(s.size(), 2);
-  load->by_chain << law.inertial_N(by_spring), law.inertial_N(stretch - by_spring);
-  load->by_play = -0.5 * law.inertial_N(side);
+  load->by_chain << law.inertial_N(by_spring) / (1 + baseline.read[kStiffness]),
+      law.inertial_N(stretch - by_spring) / (1 + baseline.read[kDamping]);
+  load->by_play = -0.5 * law.inertial_N(flanks.side);
   load->by_scale = law.inertial_N(s.position_m) +
                    law.of_motor_force(chain.motor_kg * s.acceleration_m_per_s2 +
                                       (1 - share) * baseline.at[kViscous] * s.speed_m_per_s);
   load->by_gain = law.of_motor_force(force) - left;
-  s.input_N = left + s.base * baseline.at;
+  load->known = known_law(s, x, smoothing_Hz);
+  s.base = load->known.asDiagonal() * s.base;
+  const VectorXd read =
+      load->by_chain * baseline.read.head<2>() + load->by_play * baseline.read[kPlay];
+  s.input_N = load->known.cwiseProduct(left + read) + s.base * baseline.at;
   s.known_N = force - s.input_N;
   s.load = std::move(load);
 }

@@ -20,7 +20,8 @@ namespace towbench::harness::diagnose {
 // The load as the chain shows it.
 struct LoadSide {
   Signals motion;            // base columns those of a rigid body
-  Eigen::MatrixXd by_chain;  // of the load's law: per ln stiffness, ln damping
+  Eigen::VectorXd known;     // 1 where the load's law is known, 0 where a body may stand, between
+  Eigen::MatrixXd by_chain;  // of the load's law: per ratio of stiffness, of damping
   Eigen::VectorXd by_play;   // of the load's law: per metre of play
   Eigen::VectorXd by_gain;   // of the load's law: per share by which the amplifier gives less
   Eigen::VectorXd by_scale;  // of the load's law: per share by which the encoder reads short
@@ -32,7 +33,7 @@ struct LoadSide {
 
 // Fills base, known_N and load, makes of the input what the base columns are to make, and takes the
 // load's standstill for the axis's. Position, speed, acceleration, direction are there.
-void put_on_chain(Signals& signals, const Baseline& baseline);
+void put_on_chain(Signals& signals, const Baseline& baseline, double smoothing_Hz);
 
 // What the motor must be given for a motion, the load following by its own law (two_bodies.h).
 [[nodiscard]] Eigen::VectorXd force_for_motion_N(const Signals& motor, const Baseline& baseline);

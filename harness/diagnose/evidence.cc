@@ -45,12 +45,13 @@ Processed process_twins(const Dataset& data, const Context& context, const std::
                         const VectorXd& coefficients, const std::vector<ControlLaw>& laws,
                         std::uint64_t seed) {
   Processed out{VectorXd(data.rows()), MatrixXd(data.rows(), columns_of(terms))};
+  const Baseline machine = machine_with(data.baseline, terms, coefficients);
   Index at = 0;
   for (std::size_t i = 0; i < data.members.size(); ++i) {
     const Dataset::Member& member = data.members[i];
     const ExtraForce extra = extra_force(member.signals, context, terms, coefficients);
     const Theta theta = coefficients.head<kBaseColumns>();
-    const Twin twin = simulate_twin(member, theta, data.baseline, extra, laws[i], seed + i);
+    const Twin twin = simulate_twin(member, theta, machine, extra, laws[i], seed + i);
     if (twin.law == ControlLaw::Kind::kTracking) {
       out.law = twin.law;
     }
@@ -88,15 +89,42 @@ MatrixXd raw_columns(const Signals& signals, const Context& context,
   return raw;
 }
 
+ChainShift chain_shift(const std::vector<Term>& terms, const VectorXd& coefficients) {
+  // A fit may ask for a chain that is none.
+  constexpr double kLeast = -0.6;
+  constexpr double kMost = 1.5;
+  ChainShift shift = ChainShift::Zero();
+  Index at = kBaseColumns;
+  for (const Term& term : terms) {
+    const auto count = static_cast<Index>(term.effect->coefficients.size());
+    if (term.effect->chain_part >= 0) {
+      shift.segment(term.effect->chain_part, count) = coefficients.segment(at, count);
+    }
+    at += count;
+  }
+  shift = shift.cwiseMax(kLeast).cwiseMin(kMost);
+  shift[kPlay] = std::max(0.0, shift[kPlay]);
+  return shift;
+}
+
+Baseline machine_with(const Baseline& baseline, const std::vector<Term>& terms,
+                      const VectorXd& coefficients) {
+  Baseline machine = baseline;
+  machine.model.chain = shifted(machine.model.chain, chain_shift(terms, coefficients));
+  return machine;
+}
+
 ExtraForce extra_force(const Signals& signals, const Context& context,
                        const std::vector<Term>& terms, const VectorXd& coefficients) {
   ExtraForce extra{VectorXd::Zero(signals.size()), VectorXd::Zero(signals.size())};
   Index at = kBaseColumns;
   for (const Term& term : terms) {
     const auto count = static_cast<Index>(term.effect->coefficients.size());
-    const ActingColumns columns = acting_columns(*term.effect, signals, context, term.scales);
-    extra.on_motor_N += columns.on_motor * coefficients.segment(at, count);
-    extra.on_load_N += columns.on_load * coefficients.segment(at, count);
+    if (term.effect->chain_part < 0) {
+      const ActingColumns columns = acting_columns(*term.effect, signals, context, term.scales);
+      extra.on_motor_N += columns.on_motor * coefficients.segment(at, count);
+      extra.on_load_N += columns.on_load * coefficients.segment(at, count);
+    }
     at += count;
   }
   return extra;

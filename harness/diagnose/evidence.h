@@ -38,7 +38,13 @@ struct Evidence {
                                             const std::vector<Term>& terms);
 [[nodiscard]] Eigen::MatrixXd raw_columns(const Signals& signals, const Context& context,
                                           const std::vector<Term>& terms);
-// What the terms take along a motion, where they act. `coefficients`: base columns first.
+// What the terms say of the chain itself. `coefficients`: base columns first.
+[[nodiscard]] ChainShift chain_shift(const std::vector<Term>& terms,
+                                     const Eigen::VectorXd& coefficients);
+// The machine that the terms describe, its chain included.
+[[nodiscard]] Baseline machine_with(const Baseline& baseline, const std::vector<Term>& terms,
+                                    const Eigen::VectorXd& coefficients);
+// What the other terms take along a motion, where they act.
 [[nodiscard]] ExtraForce extra_force(const Signals& signals, const Context& context,
                                      const std::vector<Term>& terms,
                                      const Eigen::VectorXd& coefficients);

@@ -30,7 +30,7 @@ std::vector<Coordinate> coordinates() {
   return {{"position_m", [](const Signals& s) { return s.position_m; }},
           {"speed_m_per_s", [](const Signals& s) { return s.speed_m_per_s; }},
           {"acceleration_m_per_s2", [](const Signals& s) { return s.acceleration_m_per_s2; }},
-          {"input_N", [](const Signals& s) { return s.input_N; }},
+          {"input_N", [](const Signals& s) { return s.force_N(); }},
           {"time_s", [](const Signals& s) { return s.time_s; }},
           {"since_reversal_s", [](const Signals& s) { return s.since_reversal_s; }}};
 }

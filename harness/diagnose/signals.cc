@@ -98,7 +98,7 @@ Signals make_signals(const Run& run, const Conditioning& conditioning, const Bas
   find_direction(s, run.resolution_m);
   if (baseline.model.elastic()) {
     s.input_N = smooth.apply(s.input_N);
-    put_on_chain(s, baseline);
+    put_on_chain(s, baseline, conditioning.smoothing_Hz);
   } else {
     s.base = rigid_columns(s);
   }

@@ -61,21 +61,23 @@ MatrixXd amplifier_gain(const Signals& s, const Context& c, std::span<const doub
 // Nothing happens until |u| > d: u = F + d sgn F.
 MatrixXd amplifier_deadband(const Signals& s, const Context& c, std::span<const double>) {
   const double soft = 0.02 * c.largest_input_N;
-  return (s.input_N.array() / soft).tanh().matrix();
+  return (s.force_N().array() / soft).tanh().matrix();
 }
 
 // The amplifier clips at a level below the logged command: u - F = excess of |u| over it.
 MatrixXd command_saturation(const Signals& s, const Context& c, std::span<const double> scale) {
   const ArrayXd level = ArrayXd::Constant(s.size(), scale[0] * c.largest_input_N);
-  return ((s.input_N.array().abs() - level).max(0.0) * s.input_N.array().sign()).matrix();
+  const ArrayXd force = s.force_N().array();
+  return ((force.abs() - level).max(0.0) * force.sign()).matrix();
 }
 
 // The same with a level that back-EMF lowers with speed in the direction of the force.
 MatrixXd voltage_saturation(const Signals& s, const Context& c, std::span<const double> scale) {
-  const ArrayXd sign = s.input_N.array().sign();
+  const ArrayXd force = s.force_N().array();
+  const ArrayXd sign = force.sign();
   const ArrayXd along = s.speed_m_per_s.array() * sign / c.model.no_load_speed_m_per_s;
   const ArrayXd level = scale[0] * c.model.force_limit_N * (1.0 - along).max(0.0);
-  return ((s.input_N.array().abs() - level).max(0.0) * sign).matrix();
+  return ((force.abs() - level).max(0.0) * sign).matrix();
 }
 
 std::vector<Scales> clip_grid(const Context& /*c*/) {
