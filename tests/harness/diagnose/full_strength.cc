@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "harness/diagnose/context.h"
 #include "harness/diagnose/gates.h"
@@ -20,6 +21,7 @@ using Eigen::VectorXd;
 constexpr int kMostTries = 12;
 constexpr double kCloseEnough = 0.05;  // relative
 constexpr double kFarthest = 4;        // a try may change the size by this factor
+constexpr double kStride = 1.02;       // from size to size, where strength jumps
 // Of a hidden force, rms, off the model's columns; less is the filter's doing.
 constexpr double kInSpan = 0.1;
 // Of the force's rms; less is not held against a parameter, nor called unexplained.
@@ -37,27 +39,63 @@ double rms(const VectorXd& x) {
   return x.norm() / std::sqrt(static_cast<double>(x.size()));
 }
 
-// The size at which the effect alone has the wanted strength, or comes closest: some laws begin at
-// a threshold, so what is known to be too small and too large is closed in on.
-double sized(const HiddenAxis& alone, double wanted, std::uint64_t seed) {
-  HiddenAxis axis = alone;
-  double best = axis.size;
-  double least = 1e300;
+// Sizes of one effect that were tried, and the one that came closest to the wanted strength.
+class Sizing {
+ public:
+  Sizing(HiddenAxis alone, double wanted, std::uint64_t seed)
+      : axis_(std::move(alone)), best_(axis_.size), wanted_(wanted), seed_(seed) {}
+
+  // Times detectable at this size.
+  double strength_at(double size) {
+    axis_.size = size;
+    const double strength = std::max(1e-9, times_detectable(axis_, make_hidden_log(axis_, seed_)));
+    const double off = std::abs(std::log(strength / wanted_));
+    if (off < least_off_) {
+      least_off_ = off;
+      best_ = size;
+    }
+    return strength;
+  }
+  [[nodiscard]] bool close() const { return least_off_ <= std::log1p(kCloseEnough); }
+  [[nodiscard]] double best() const { return best_; }
+
+ private:
+  HiddenAxis axis_;
+  double best_;
+  double wanted_;
+  std::uint64_t seed_;
+  double least_off_ = 1e300;
+};
+
+// Some laws begin at a threshold, so what is known to be too small and too large is closed in on.
+void close_in(Sizing& sizing, double size, double wanted) {
   double too_small = 0;
   double too_large = 1e300;
-  for (int i = 0; i < kMostTries && least > std::log1p(kCloseEnough); ++i) {
-    const double strength = std::max(1e-9, times_detectable(axis, make_hidden_log(axis, seed)));
-    const double off = std::abs(std::log(strength / wanted));
-    if (off < least) {
-      least = off;
-      best = axis.size;
-    }
-    (strength < wanted ? too_small : too_large) = axis.size;
-    const double next = axis.size * std::clamp(wanted / strength, 1 / kFarthest, kFarthest);
+  for (int i = 0; i < kMostTries && !sizing.close(); ++i) {
+    const double strength = sizing.strength_at(size);
+    (strength < wanted ? too_small : too_large) = size;
+    const double next = size * std::clamp(wanted / strength, 1 / kFarthest, kFarthest);
     const bool between = next > too_small && next < too_large;
-    axis.size = between ? next : std::sqrt(too_small * too_large);
+    size = between ? next : std::sqrt(too_small * too_large);
   }
-  return best;
+}
+
+// Where a body sticks at one size and slips at the next, strength jumps to and fro: what closes in
+// may end at a jump across the wanted one, while other sizes have it.
+void look_around(Sizing& sizing) {
+  const double middle = sizing.best();
+  for (double factor = kStride; factor < kFarthest && !sizing.close(); factor *= kStride) {
+    sizing.strength_at(middle / factor);
+    sizing.strength_at(middle * factor);
+  }
+}
+
+// The size at which the effect alone has the wanted strength, or comes closest.
+double sized(const HiddenAxis& alone, double wanted, std::uint64_t seed) {
+  Sizing sizing(alone, wanted, seed);
+  close_in(sizing, alone.size, wanted);
+  look_around(sizing);
+  return sizing.best();
 }
 
 // Rms of a force that adds so much to the noise that leaving it out costs the least gain.

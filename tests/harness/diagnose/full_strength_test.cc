@@ -38,6 +38,13 @@ TEST(FullStrength, NothingIsLackingWhereNothingIsHidden) {
   EXPECT_LT(rms_about(make_hidden_log(axis, 1).lacking_N, 0), 0.01);
 }
 
+// A truth that lags by half a step is a delay that nobody hid.
+TEST(FullStrength, NothingHiddenIsNoPartOfWhatIsDetectable) {
+  for (const std::uint64_t seed : {1U, 6U}) {
+    EXPECT_LT(times_detectable(HiddenAxis{}, make_hidden_log(HiddenAxis{}, seed)), 0.02) << seed;
+  }
+}
+
 TEST(FullStrength, AConstantForceIsLackingWhereverTheAxisMoves) {
   HiddenAxis axis;
   axis.duration_s = 10;

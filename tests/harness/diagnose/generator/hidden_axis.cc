@@ -68,30 +68,34 @@ class Body {
   // it must, and nothing is left.
   double hold(double command_N, double duration_s) {
     const auto steps = static_cast<int>(std::lround(duration_s / kStep_s));
-    const double speed_before = read_m_per_s_;
+    const double speed_before = read_m_per_s();
     const double read_before = read_m();
     double direction = 0;
     bool stood = false;
     for (int i = 0; i < steps; ++i) {
-      const double read = read_m();
       step(delayed(command_N));
-      read_m_per_s_ = (read_m() - read) / kStep_s;
       stood = stood || s_.v_m_per_s == 0;
       direction += std::copysign(1.0 / steps, s_.v_m_per_s);
     }
-    const double nominal_N = axis_.mass_kg * (read_m_per_s_ - speed_before) / duration_s +
+    const double nominal_N = axis_.mass_kg * (read_m_per_s() - speed_before) / duration_s +
                              axis_.viscous_N_s_per_m * (read_m() - read_before) / duration_s +
                              axis_.coulomb_N * direction;
     return stood ? 0 : command_N - nominal_N;
   }
-  [[nodiscard]] double read_m() const { return second_.read_m(first_.read_m(shaft())); }
+  [[nodiscard]] double read_m() const { return read_at(s_.x_m); }
 
  private:
   [[nodiscard]] bool has(const char* name) const { return first_.is(name) || second_.is(name); }
   [[nodiscard]] double size_of(const char* name) const {
     return first_.is(name) ? first_.size() : second_.size();
   }
-  [[nodiscard]] double shaft() const { return s_.x_m; }
+  [[nodiscard]] double read_at(double x_m) const { return second_.read_m(first_.read_m(x_m)); }
+  // At this instant: the mean over a step would be half a step old.
+  [[nodiscard]] double read_m_per_s() const {
+    constexpr double kReach_m = 1e-6;
+    return s_.v_m_per_s * (read_at(s_.x_m + kReach_m) - read_at(s_.x_m - kReach_m)) /
+           (2 * kReach_m);
+  }
 
   double delayed(double command_N) {
     history_.push_back(command_N);
@@ -169,7 +173,6 @@ class Body {
   BodyState s_;
   double load_m_ = 0;
   double load_v_ = 0;
-  double read_m_per_s_ = 0;
   double lagged_ = 0;
   double direction_ = 0;
   std::deque<double> history_;
