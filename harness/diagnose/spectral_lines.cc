@@ -8,7 +8,7 @@
 namespace towbench::harness::diagnose {
 namespace {
 
-constexpr std::size_t kMostFrequencies = 1200;
+constexpr std::size_t kMostFrequencies = 4800;  // half a resolution apart up to 65 s at 37 Hz
 
 // |sum r exp(-2 pi i f x)|^2 at equally spaced f, by one rotation a sample and frequency.
 std::vector<double> powers(const Eigen::VectorXd& x, const Eigen::VectorXd& r, double lowest,
