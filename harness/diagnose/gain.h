@@ -29,4 +29,10 @@ struct Gain {
 [[nodiscard]] Gain gain_of(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
                            const std::vector<Eigen::Index>& starts, std::uint64_t seed);
 
+// The same of nested models, were the same motion made again: the residual is drawn anew and the
+// motion is not (regressors fixed or drawn, Freedman 1981). What three clipped peaks show is not
+// less sure because another motion might have had none.
+[[nodiscard]] Gain gain_on_this_motion(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
+                                       const std::vector<Eigen::Index>& starts);
+
 }  // namespace towbench::harness::diagnose

@@ -90,7 +90,14 @@ Trial Gates::trial(const std::vector<Term>& terms, int rounds) const {
 }
 
 Gain Gates::gain_at_home(const Trial& before, const Trial& after) const {
-  return gain_of(before.home, after.home, data_.starts(), seed_);
+  Gain gain = gain_of(before.home, after.home, data_.starts(), seed_);
+  if (context_.model.elastic()) {
+    return gain;  // of its residual much is no noise
+  }
+  const Gain here = gain_on_this_motion(before.home, after.home, data_.starts());
+  gain.ci99.low = std::max(gain.ci99.low, here.ci99.low);
+  gain.ci95.low = std::max(gain.ci95.low, here.ci95.low);
+  return gain;
 }
 
 bool Gates::stands(const Gain& home, const Trial& before, const Trial& after,
@@ -112,7 +119,7 @@ bool Gates::stands(const Gain& home, const Trial& before, const Trial& after,
 }
 
 bool Gates::as_good(const Trial& one, const Trial& other) const {
-  if (gain_at_home(one, other).ci95.low > 0) {
+  if (gain_of(one.home, other.home, data_.starts(), seed_).ci95.low > 0) {
     return false;
   }
   return abroad_ == nullptr || abroad_->gain(one.abroad, other.abroad, seed_).ci95.low <= 0;
