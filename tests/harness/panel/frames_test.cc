@@ -1,7 +1,6 @@
 #include "harness/panel/frames.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <thread>
@@ -11,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/time.h"
+#include "harness/record/temporary_folder.h"
 
 namespace towbench::harness {
 namespace {
@@ -27,16 +27,10 @@ std::vector<double> times_s(const json& rows) {
 
 class Frames : public ::testing::Test {
  protected:
-  ~Frames() override {
-    session_->cut_short();
-    std::filesystem::remove_all(out_);
-  }
+  ~Frames() override { session_->cut_short(); }
 
-  std::filesystem::path out_ = [] {
-    auto pattern = (std::filesystem::temp_directory_path() / "towbench-frames-XXXXXX").string();
-    return std::filesystem::path(mkdtemp(pattern.data()));
-  }();
-  std::unique_ptr<Session> session_ = std::make_unique<Session>(out_);
+  TemporaryFolder out_;
+  std::unique_ptr<Session> session_ = std::make_unique<Session>(out_.path());
   FrameMaker frames_{*session_};
 };
 
@@ -44,7 +38,8 @@ TEST_F(Frames, AtFullSpeedOneQuestionInTenIsAnsweredAndTheEndAtOnce) {
   session_->start({.experiment = "circle", .pace = {.speed = 0, .paused = false}});
   std::vector<double> told_s;
   int answers = 0;
-  int since_answer = FrameMaker::kHeldBack;
+  constexpr int kTen = 10;  // twenty questions a second, two answers
+  int since_answer = kTen;
   for (bool over = false; !over;) {
     over = session_->state().phase == Session::Phase::kOver;
     const auto frame = frames_.next();
@@ -55,7 +50,7 @@ TEST_F(Frames, AtFullSpeedOneQuestionInTenIsAnsweredAndTheEndAtOnce) {
     }
     const auto said = json::parse(frame);
     if (said.at("state").at("phase") == "running") {
-      EXPECT_GE(since_answer, FrameMaker::kHeldBack);
+      EXPECT_GE(since_answer, kTen);
       since_answer = 0;
       ++answers;
     }
