@@ -106,7 +106,9 @@ double thread_s(const ExperimentFixture& fixture, const fs::path& out, LiveTap* 
   options.out = out;
   options.watchers = time.watchers();
   if (tap != nullptr) {
-    tap->clear(0);
+    const auto& controller = fixture.controller.configuration;
+    tap->clear(towbench::bbmc::exchange_period_ns(controller.control_period_ns()),
+               LiveTap::Histogram::kTook);
     options.tap = tap;
     options.hand = &hand;
   }
@@ -114,17 +116,18 @@ double thread_s(const ExperimentFixture& fixture, const fs::path& out, LiveTap* 
   return time.passed_s();
 }
 
-// Takes what there is, as a panel's frames do, while it lives.
+// Takes the last stretch twice a second, as a panel's frames do at full speed, while it lives.
 class Reader {
  public:
   explicit Reader(LiveTap& tap)
       : thread_([this, &tap] {
-          while (!ending_) {
-            for (LiveRow row; tap.next(row);) {
-              benchmark::DoNotOptimize(row);
-            }
-            for (LiveTruth row; tap.next(row);) {
-              benchmark::DoNotOptimize(row);
+          std::vector<LiveRow> rows;
+          std::vector<LiveTruth> truths;
+          for (int question = 0; !ending_; ++question) {
+            if (question % FrameMaker::kHeldBack == 0) {
+              (void)tap.rows().copy(beginning(tap.rows()), rows);
+              (void)tap.truths().copy(beginning(tap.truths()), truths);
+              benchmark::ClobberMemory();
             }
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
           }
@@ -137,6 +140,12 @@ class Reader {
   }
 
  private:
+  template <typename Row>
+  static std::uint64_t beginning(const LastRows<Row>& rows) {
+    const auto end = rows.written();
+    return end > rows.least() ? end - rows.least() : 0;
+  }
+
   std::atomic<bool> ending_{false};
   std::thread thread_;
 };

@@ -171,6 +171,10 @@ std::uint64_t ControllerNode::rows_lost() const noexcept {
   return implementation_->system.rows_lost();
 }
 
+EdgeTimes ControllerNode::edge_times(core::Axis axis) const noexcept {
+  return implementation_->board.decoder(axis).edge_times();
+}
+
 bool ControllerNode::idle() const noexcept {
   Implementation& self = *implementation_;
   return self.system.at_rest() && self.application.idle() && !self.board.console().has_input();

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "bbmc/host/quadrature_decoder.h"
 #include "bbmc/system/configuration.h"
 #include "bbmc/system/system_event.h"
 #include "bbmc/system/telemetry_row.h"
@@ -60,6 +61,8 @@ class ControllerNode : public protocol::MessageSink {
   [[nodiscard]] bool next_row(TelemetryRow& row) noexcept;
   [[nodiscard]] bool next_event(ControllerEvent& event) noexcept;
   [[nodiscard]] std::uint64_t rows_lost() const noexcept;
+  // Of an axis' encoder, as far as it has been heard.
+  [[nodiscard]] EdgeTimes edge_times(core::Axis axis) const noexcept;
 
   // True when no motion runs and the console has nothing left to do: what a script waits for.
   [[nodiscard]] bool idle() const noexcept;

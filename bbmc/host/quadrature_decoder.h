@@ -22,6 +22,15 @@
 
 namespace towbench::bbmc {
 
+// When an encoder's last two edges came: what the capture unit's registers are made of.
+struct EdgeTimes {
+  core::Nanoseconds heard_until_ns = 0;
+  core::Nanoseconds last_ns = 0;
+  core::Nanoseconds before_ns = 0;  // 0 = none yet
+  std::int32_t last_step = 0;       // +-1, 0 = none yet
+  bool reversed = false;            // between the two
+};
+
 class QuadratureDecoder {
  public:
   // Edges of one message. False when it does not continue the one before (a message was lost).
@@ -31,6 +40,14 @@ class QuadratureDecoder {
 
   // Registers as of the end of the last message.
   TOWBENCH_REALTIME [[nodiscard]] Eqep::Reading read() const noexcept;
+  // As of the same moment, for whoever makes those registers elsewhere.
+  TOWBENCH_REALTIME [[nodiscard]] EdgeTimes edge_times() const noexcept {
+    return {.heard_until_ns = time_ns_,
+            .last_ns = counter_.last_edge_ns,
+            .before_ns = counter_.edge_before_ns,
+            .last_step = counter_.last_step,
+            .reversed = counter_.reversed};
+  }
 
   // False, and nothing changed, when the clock's period is not a whole number of nanoseconds.
   [[nodiscard]] bool configure(const Eqep::Settings& settings) noexcept;

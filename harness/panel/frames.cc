@@ -17,6 +17,8 @@ namespace {
 
 using nlohmann::json;
 
+static_assert(LiveTap::kKept_ns > FrameMaker::kShown_ns);
+
 // A number as a whole one with a power of ten, "-1234567e-8": a frame holds thousands, and whole
 // ones are written ten times as fast.
 void add(std::string& text, double value, double parts, std::string_view power) {
@@ -90,11 +92,12 @@ double FrameMaker::worst_error_m(const LiveTruth& row) {
 }
 
 template <typename Row>
-void FrameMaker::add_thinned(std::vector<Row>& to, const std::vector<Row>& rows) {
+std::vector<Row> FrameMaker::thinned(const std::vector<Row>& rows) {
   if (rows.size() <= kMostRows) {
-    to.insert(to.end(), rows.begin(), rows.end());
-    return;
+    return rows;
   }
+  std::vector<Row> some;
+  some.reserve(kMostRows);
   const std::size_t buckets = kMostRows / 2;
   for (std::size_t i = 0; i < buckets; ++i) {
     const std::size_t from = i * rows.size() / buckets;
@@ -104,10 +107,11 @@ void FrameMaker::add_thinned(std::vector<Row>& to, const std::vector<Row>& rows)
       worst = worst_error_m(rows[row]) > worst_error_m(rows[worst]) ? row : worst;
     }
     if (worst + 1 < end) {
-      to.push_back(rows[worst]);
+      some.push_back(rows[worst]);
     }
-    to.push_back(rows[end - 1]);
+    some.push_back(rows[end - 1]);
   }
+  return some;
 }
 
 // The first frame of a run; its fixture is there, its folder may not be yet.
@@ -115,6 +119,7 @@ void FrameMaker::begin(std::uint64_t number) {
   number_ = number;
   untold_.clear();
   tail_.reset();
+  next_row_ = next_truth_ = missed_ = 0;
   estimators_.reset();
   if (const auto* const fixture = session_.fixture()) {
     estimators_.emplace(fixture->controller.configuration);
@@ -124,46 +129,49 @@ void FrameMaker::begin(std::uint64_t number) {
   }
 }
 
-void FrameMaker::take_rows() {
+// What has come since the last frame, or its end in a run that is shown in stretches.
+template <typename Row>
+void FrameMaker::catch_up(const LastRows<Row>& rows, std::uint64_t& next, std::vector<Row>& fresh) {
+  auto from = next;
+  if (const auto end = rows.written(); in_stretches_ && end > rows.least()) {
+    from = std::max(from, end - rows.least());
+  }
+  const auto first = rows.copy(from, fresh);
+  missed_ += in_stretches_ ? 0 : first - next;
+  next = first + fresh.size();
+}
+
+std::vector<FrameMaker::SeenRow> FrameMaker::take_rows() {
+  catch_up(session_.tap().rows(), next_row_, fresh_rows_);
   seen_.clear();
-  for (SeenRow seen; session_.tap().next(seen.live);) {
+  for (const auto& live : fresh_rows_) {
+    auto& seen = seen_.emplace_back();
+    seen.live = live;
     if (estimators_) {
-      seen.speeds = estimators_->update(seen.live);
+      seen.speeds = estimators_->update(live);
     }
     for (const auto axis : core::kAxes) {
-      seen.position_m[axis] =
-          (static_cast<double>(seen.live.count[axis]) + 0.5) * m_per_count_[axis];
+      seen.position_m[axis] = (static_cast<double>(live.count[axis]) + 0.5) * m_per_count_[axis];
     }
-    seen_.push_back(seen);
   }
-  add_thinned(untold_.rows, seen_);
-  forget_what_is_not_shown(untold_.rows, [](const SeenRow& row) { return row.live.time_ns; });
+  forget_what_is_not_shown(seen_, [](const SeenRow& row) { return row.live.time_ns; });
+  return thinned(seen_);
 }
 
-void FrameMaker::take_truths() {
-  truths_.clear();
+std::vector<LiveTruth> FrameMaker::take_truths() {
   if (session_.state().clock == RunClock::kReal) {
-    if (tail_) {
-      truths_ = tail_->rows();
-    }
+    fresh_truths_ = tail_ ? tail_->rows() : std::vector<LiveTruth>{};
   } else {
-    for (LiveTruth row; session_.tap().next(row);) {
-      truths_.push_back(row);
-    }
+    catch_up(session_.tap().truths(), next_truth_, fresh_truths_);
   }
-  add_thinned(untold_.truths, truths_);
-  forget_what_is_not_shown(untold_.truths, [](const LiveTruth& row) { return row.time_ns; });
+  forget_what_is_not_shown(fresh_truths_, [](const LiveTruth& row) { return row.time_ns; });
+  return thinned(fresh_truths_);
 }
 
-void FrameMaker::take() {
-  if (const auto number = session_.state().number; number != number_) {
-    begin(number);
-  }
+void FrameMaker::take_words() {
   if (const auto folder = session_.tap().folder(); !tail_ && !folder.empty()) {
     tail_.emplace(folder);
   }
-  take_rows();
-  take_truths();
   untold_.events += session_.tap().take_events();
   if (tail_ && session_.state().clock == RunClock::kReal) {
     untold_.events += tail_->events();
@@ -178,9 +186,9 @@ void FrameMaker::take() {
 
 // [t, then for y and x: reference, position, reference velocity, velocity, duty, mode, and velocity
 // by frequency, by period and by the hybrid; then fault, and the force sensor's y and x]
-std::string FrameMaker::rows_text() const {
+std::string FrameMaker::text_of(const std::vector<SeenRow>& rows) {
   std::string text;
-  for (const auto& [live, position_m, speeds] : untold_.rows) {
+  for (const auto& [live, position_m, speeds] : rows) {
     begin_row(text, live.time_ns);
     for (const auto axis : core::kAxes) {
       add(text, live.reference_m[axis]);
@@ -203,9 +211,9 @@ std::string FrameMaker::rows_text() const {
 }
 
 // [t, then for y and x: carriage, carriage speed, current, chain force; then input lines]
-std::string FrameMaker::truths_text() const {
+std::string FrameMaker::text_of(const std::vector<LiveTruth>& rows) {
   std::string text;
-  for (const auto& row : untold_.truths) {
+  for (const auto& row : rows) {
     begin_row(text, row.time_ns);
     for (const auto axis : core::kAxes) {
       add(text, row.carriage_m[axis]);
@@ -231,7 +239,7 @@ std::string FrameMaker::state_text() {
                  {"folder", state.folder},
                  {"verdict", state.verdict},
                  {"reason", state.reason},
-                 {"dropped", session_.tap().dropped()},
+                 {"dropped", session_.tap().dropped() + missed_},
                  {"trouble", untold_.trouble}};
   if (auto* const hand = session_.hand_if_running()) {
     const auto pace = hand->pace();
@@ -274,23 +282,29 @@ bool FrameMaker::holds_back() {
   if (at_full_speed && told_at_full_speed_ == state.number && ++held_back_ < kHeldBack) {
     return true;
   }
+  in_stretches_ = at_full_speed || told_at_full_speed_ == state.number;
   told_at_full_speed_ = at_full_speed ? std::optional(state.number) : std::nullopt;
   held_back_ = 0;
   return false;
 }
 
 std::string FrameMaker::next() {
-  take();
+  if (const auto number = session_.state().number; number != number_) {
+    begin(number);
+  }
+  take_words();
   if (holds_back()) {
     return {};
   }
+  const auto rows = take_rows();
+  const auto truths = take_truths();
   auto state = state_text();
-  if (untold_.is_empty() && state == last_state_) {
+  if (rows.empty() && truths.empty() && untold_.is_empty() && state == last_state_) {
     return {};
   }
   auto frame = fmt::format(
       R"({{"kind":"frame","state":{},"rows":[{}],"truth":[{}],"events":[{}],"console":{}}})", state,
-      rows_text(), truths_text(), list_of(untold_.events),
+      text_of(rows), text_of(truths), list_of(untold_.events),
       json(untold_.console).dump(-1, ' ', true, json::error_handler_t::replace));
   last_state_ = std::move(state);
   untold_.clear();

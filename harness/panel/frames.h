@@ -14,9 +14,9 @@ namespace towbench::harness {
 
 // Asked twenty times a second, it takes all that has come and tells it at once. A run at full
 // speed, which nobody can follow, is told of twice a second, and of the stretch that the page shows
-// alone: whoever looks on takes the processors that such a run would use. The rows of one question
-// are thinned to `kMostRows`, by buckets of time: each bucket's last row and the one with the
-// largest tracking error.
+// alone: whoever looks on takes the processors that such a run would use. Nobody reads the rows in
+// between. The rows of a frame are thinned to `kMostRows`, by buckets of time: each bucket's last
+// row and the one with the largest tracking error.
 class FrameMaker {
  public:
   static constexpr std::size_t kMostRows = 240;
@@ -38,18 +38,14 @@ class FrameMaker {
   };
   // What has come and is not told.
   struct Untold {
-    std::vector<SeenRow> rows{};
-    std::vector<LiveTruth> truths{};
     std::string events{};
     std::string console{};
     std::string trouble{};  // why the last command came to nothing
 
     [[nodiscard]] bool is_empty() const noexcept {
-      return rows.empty() && truths.empty() && events.empty() && console.empty() && trouble.empty();
+      return events.empty() && console.empty() && trouble.empty();
     }
     void clear() noexcept {
-      rows.clear();
-      truths.clear();
       events.clear();
       console.clear();
       trouble.clear();
@@ -60,15 +56,17 @@ class FrameMaker {
   [[nodiscard]] static double worst_error_m(const LiveTruth& row);
   // Of each bucket the row with the largest figure and the last one, in order of time.
   template <typename Row>
-  static void add_thinned(std::vector<Row>& to, const std::vector<Row>& rows);
+  [[nodiscard]] static std::vector<Row> thinned(const std::vector<Row>& rows);
 
   void begin(std::uint64_t number);
-  void take_rows();
-  void take_truths();
-  void take();
+  void take_words();
+  template <typename Row>
+  void catch_up(const LastRows<Row>& rows, std::uint64_t& next, std::vector<Row>& fresh);
+  [[nodiscard]] std::vector<SeenRow> take_rows();
+  [[nodiscard]] std::vector<LiveTruth> take_truths();
   [[nodiscard]] bool holds_back();
-  [[nodiscard]] std::string rows_text() const;
-  [[nodiscard]] std::string truths_text() const;
+  [[nodiscard]] static std::string text_of(const std::vector<SeenRow>& rows);
+  [[nodiscard]] static std::string text_of(const std::vector<LiveTruth>& rows);
   [[nodiscard]] std::string state_text();
 
   Session& session_;
@@ -77,13 +75,18 @@ class FrameMaker {
   core::PerAxis<double> m_per_count_;
   std::optional<TruthTail> tail_;  // of a plant in another process, once its folder is there
   Untold untold_;
+  std::uint64_t next_row_ = 0;  // to be read, of the tap's
+  std::uint64_t next_truth_ = 0;
+  std::uint64_t missed_ = 0;                         // rows that were gone before they were read
+  bool in_stretches_ = false;                        // what lies between two frames is not wanted
   std::optional<std::uint64_t> told_at_full_speed_;  // the run of the last frame, if it was
   int held_back_ = 0;                                // questions since then
   std::string last_state_;
   // At full speed thousands a question. Kept: memory that came and went would interrupt the bench's
   // processor each time to forget where it was.
+  std::vector<LiveRow> fresh_rows_;
+  std::vector<LiveTruth> fresh_truths_;
   std::vector<SeenRow> seen_;
-  std::vector<LiveTruth> truths_;
 };
 
 }  // namespace towbench::harness

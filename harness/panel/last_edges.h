@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "bbmc/device/eqep.h"
+#include "bbmc/host/quadrature_decoder.h"
 #include "core/time.h"
 
 namespace towbench::harness {
@@ -18,6 +19,20 @@ struct LastEdges {
   bool same_way = false;                  // both edges there, and no reversal between them
   bool forward = true;
 };
+
+[[nodiscard]] inline LastEdges last_edges_of(const bbmc::EdgeTimes& times,
+                                             core::Nanoseconds moment_ns) noexcept {
+  const auto bounded = [](core::Nanoseconds length_ns) {
+    return length_ns > LastEdges::kLongAgo_ns ? LastEdges::kLongAgo_ns
+                                              : static_cast<std::uint32_t>(length_ns);
+  };
+  return {.before_ns = bounded(times.heard_until_ns - times.last_ns),
+          .apart_ns = bounded(times.last_ns - times.before_ns),
+          .heard_ns = static_cast<std::int32_t>(moment_ns - times.heard_until_ns),
+          .any = times.last_step != 0,
+          .same_way = times.before_ns != 0 && !times.reversed,
+          .forward = times.last_step >= 0};
+}
 
 // The registers of a capture unit whose clock runs from 0: QCPRD, QCTMR and their flags. Time and
 // those only; `moment_ns` as the edges were asked for.

@@ -24,7 +24,8 @@ std::filesystem::path LiveTap::folder() const {
   return folder_;
 }
 
-void LiveTap::row(const bbmc::TelemetryRow& row) noexcept {
+void LiveTap::row(const bbmc::TelemetryRow& row,
+                  const core::PerAxis<bbmc::EdgeTimes>& edges) noexcept {
   latest_.time_ns = row.time_ns;
   latest_.fault = core::number_of(row.fault);
   for (const auto axis : core::kAxes) {
@@ -34,19 +35,15 @@ void LiveTap::row(const bbmc::TelemetryRow& row) noexcept {
     latest_.count[axis] = now.count;
     latest_.reference_velocity_m_per_s[axis] = static_cast<float>(now.reference_velocity_m_per_s);
     latest_.duty_pct[axis] = static_cast<float>(now.duty_pct);
-    latest_.last_edges[axis] = watch_[axis].seen_from(row.time_ns);
+    latest_.last_edges[axis] = last_edges_of(edges[axis], row.time_ns);
     latest_.edges[axis] = now.edges;
     latest_.mode[axis] = static_cast<std::uint8_t>(now.mode);
   }
-  if (!queues_->rows.push(latest_)) {
-    count(dropped_);
-  }
+  rows_.add(latest_);
 }
 
 void LiveTap::truth(const emulator::TruthRow& row) noexcept {
-  if (!queues_->truths.push(live(row))) {
-    count(dropped_);
-  }
+  truths_.add(live(row));
 }
 
 void LiveTap::on(const protocol::ForceSample& sample) noexcept {
@@ -77,22 +74,17 @@ std::array<std::uint64_t, LiveTap::kBins> LiveTap::exchange_times() const noexce
   return counts;
 }
 
-void LiveTap::clear(core::Nanoseconds period_ns) {
-  LiveRow row;
-  while (next(row)) {
-  }
-  LiveTruth truth;
-  while (next(truth)) {
-  }
+void LiveTap::clear(core::Nanoseconds exchange_ns, Histogram histogram) {
+  rows_.clear(rows_of(exchange_ns));
+  truths_.clear(rows_of(exchange_ns));
   dropped_ = 0;
   for (auto& bin : exchange_times_) {
     bin = 0;
   }
   (void)take_events();
   (void)take_console();
-  watch_ = {};
   latest_ = {};
-  period_ns_ = period_ns;
+  period_ns_ = histogram == Histogram::kOffPeriod ? exchange_ns : 0;
   begins({});
 }
 

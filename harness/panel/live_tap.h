@@ -1,5 +1,6 @@
-// What the bench's thread leaves for those who look on, all through lock-free queues. When one is
-// full the row or line is dropped for the lookers-on and counted; the bench never waits.
+// What the bench's thread leaves for those who look on, without a lock. It keeps the last rows, and
+// lines in queues; a line that finds its queue full is dropped for the lookers-on and counted. The
+// bench never waits and never asks who looks on.
 #pragma once
 
 #include <array>
@@ -11,8 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/spsc_queue.h"
-#include "harness/panel/edge_watch.h"
+#include "harness/panel/last_rows.h"
 #include "harness/panel/live_row.h"
 #include "harness/panel/text_queue.h"
 #include "harness/record/run_tap.h"
@@ -21,58 +21,59 @@ namespace towbench::harness {
 
 class LiveTap final : public RunTap, private protocol::MessageSink {
  public:
+  // Of exchanges: in lockstep how long each took, by the wall clock how far it was off its period.
+  enum class Histogram : std::uint8_t { kTook, kOffPeriod };
   // Bins of doubling width: [0, 1) us, [1, 2), [2, 4), ...
   static constexpr std::size_t kBins = 20;
+  // Of the machine's time, kept in rows: what the page shows, and some to get the estimators going.
+  static constexpr core::Nanoseconds kKept_ns = 20'500'000'000;
 
   // ---- bench's thread ----
   void begins(const std::filesystem::path& folder) override;
   [[nodiscard]] protocol::MessageSink* witness() noexcept override { return this; }
-  void row(const bbmc::TelemetryRow& row) noexcept override;
+  void row(const bbmc::TelemetryRow& row,
+           const core::PerAxis<bbmc::EdgeTimes>& edges) noexcept override;
   void truth(const emulator::TruthRow& row) noexcept override;
   void exchange(core::Nanoseconds took_ns) noexcept override;
   void event(std::string_view line) noexcept override { add(queues_->events, line); }
   void console(std::string_view text) noexcept override { add(queues_->console, text); }
 
   // ---- one reader's thread ----
-  [[nodiscard]] bool next(LiveRow& row) noexcept { return queues_->rows.pop(row); }
-  [[nodiscard]] bool next(LiveTruth& row) noexcept { return queues_->truths.pop(row); }
+  [[nodiscard]] const LastRows<LiveRow>& rows() const noexcept { return rows_; }
+  [[nodiscard]] const LastRows<LiveTruth>& truths() const noexcept { return truths_; }
   [[nodiscard]] std::string take_events() { return queues_->events.take(); }
   [[nodiscard]] std::string take_console() { return queues_->console.take(); }
+  // Lines; rows that were not read in time are the reader's to count.
   [[nodiscard]] std::uint64_t dropped() const noexcept {
     return dropped_.load(std::memory_order_relaxed);
   }
-  // In lockstep how long exchanges took; by the wall clock how far each was off its period.
   [[nodiscard]] std::array<std::uint64_t, kBins> exchange_times() const noexcept;
   // Of the run under way or the last one; empty before.
   [[nodiscard]] std::filesystem::path folder() const;
-  // Before a run; nobody else is at it then. `period_ns`: of an exchange by the wall clock, 0 in
-  // lockstep.
-  void clear(core::Nanoseconds period_ns);
+  // Before a run; nobody else is at it then. `exchange_ns`: the machine's time between two of them.
+  void clear(core::Nanoseconds exchange_ns, Histogram histogram);
 
  private:
-  static constexpr std::size_t kRows = 16'384;
   static constexpr std::size_t kMostText = 1U << 20U;
   using Text = TextQueue<kMostText>;
   struct Queues {
-    core::SpscQueue<LiveRow, kRows> rows;
-    core::SpscQueue<LiveTruth, kRows> truths;
     Text events;
     Text console;
   };
 
   using MessageSink::on;
-  void on(const protocol::EncoderEdges& edges) noexcept override { watch_[edges.axis].take(edges); }
-  void on(const protocol::EncoderReport& report) noexcept override {
-    watch_[report.axis].take(report);
-  }
   void on(const protocol::ForceSample& sample) noexcept override;
 
+  static constexpr std::size_t rows_of(core::Nanoseconds exchange_ns) noexcept {
+    return static_cast<std::size_t>(kKept_ns / exchange_ns);
+  }
   void add(Text& queue, std::string_view more) noexcept;
 
   std::unique_ptr<Queues> queues_ = std::make_unique<Queues>();
-  core::PerAxis<EdgeWatch> watch_;
-  LiveRow latest_;  // its force is the last sample's
-  core::Nanoseconds period_ns_ = 0;
+  LastRows<LiveRow> rows_{rows_of(core::kNanosecondsPerMillisecond)};
+  LastRows<LiveTruth> truths_{rows_of(core::kNanosecondsPerMillisecond)};
+  LiveRow latest_;                   // its force is the last sample's
+  core::Nanoseconds period_ns_ = 0;  // of exchanges that are to keep one
   std::atomic<std::uint64_t> dropped_{0};
   std::array<std::atomic<std::uint64_t>, kBins> exchange_times_{};
   mutable std::mutex folder_mutex_;  // taken before anything runs, and by the reader

@@ -99,7 +99,8 @@ void Session::start(const SessionStart& wanted) {
   fixture_ = std::move(fixture);
   const auto& controller = fixture_->controller.configuration;
   const bool real = wanted.clock == RunClock::kReal;
-  tap_.clear(real ? bbmc::exchange_period_ns(controller.control_period_ns()) : 0);
+  tap_.clear(bbmc::exchange_period_ns(controller.control_period_ns()),
+             real ? LiveTap::Histogram::kOffPeriod : LiveTap::Histogram::kTook);
   stop_ = false;
   if (real) {
     hand_ = std::make_unique<RealtimeHand>(fixture_->experiment.hand, wanted.holds);

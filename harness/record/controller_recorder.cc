@@ -3,6 +3,17 @@
 #include "harness/record/event_lines.h"
 
 namespace towbench::harness {
+namespace {
+
+core::PerAxis<bbmc::EdgeTimes> edge_times_of(const bbmc::ControllerNode& controller) noexcept {
+  return {{controller.edge_times(core::Axis::kY), controller.edge_times(core::Axis::kX)}};
+}
+// There the kernel counts; nobody looks on.
+core::PerAxis<bbmc::EdgeTimes> edge_times_of(const bbmc::LinuxNode& /*controller*/) noexcept {
+  return {};
+}
+
+}  // namespace
 
 ControllerRecorder::ControllerRecorder(const std::filesystem::path& folder, RunTap* tap)
     : tap_(tap),
@@ -28,7 +39,7 @@ void ControllerRecorder::take_all(Controller& controller) noexcept {
   while (controller.next_row(row)) {
     log_rows_.add(row);
     if (tap_ != nullptr) {
-      tap_->row(row);
+      tap_->row(row, edge_times_of(controller));
     }
   }
   bbmc::ControllerEvent told;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "bbmc/host/controller_node.h"
+#include "core/axis.h"
 #include "core/time.h"
 #include "emulator/plant_node.h"
 #include "protocol/message_sink.h"
@@ -24,7 +25,9 @@ class RunTap {
   // Who hears what the controller hears, before it does. Null: nobody cares.
   [[nodiscard]] virtual protocol::MessageSink* witness() noexcept { return nullptr; }
 
-  virtual void row(const bbmc::TelemetryRow& row) noexcept = 0;
+  // `edges`: as the row's own control tick knew them.
+  virtual void row(const bbmc::TelemetryRow& row,
+                   const core::PerAxis<bbmc::EdgeTimes>& edges) noexcept = 0;
   // Not of a plant in another process: its record is what there is of it.
   virtual void truth(const emulator::TruthRow& row) noexcept = 0;
   virtual void exchange(core::Nanoseconds took_ns) noexcept = 0;

@@ -63,6 +63,42 @@ TEST_F(Frames, AtFullSpeedOneQuestionInTenIsAnsweredAndTheEndAtOnce) {
   EXPECT_GT(told_s.back(), 15.0) << "the circle's last second";
 }
 
+// However little was told before: nobody read most of its rows.
+TEST_F(Frames, AfterARunAtFullSpeedItsLastStretchIsTold) {
+  session_->start({.experiment = "wall-clock-60s", .pace = {.speed = 0, .paused = false}});
+  EXPECT_FALSE(frames_.next().empty());
+  while (session_->state().phase != Session::Phase::kOver) {
+    std::this_thread::yield();
+  }
+  const auto said = json::parse(frames_.next());
+  EXPECT_EQ(said.at("state").at("dropped"), 0) << "nobody could have followed them";
+  for (const char* const kind : {"rows", "truth"}) {
+    const auto times = times_s(said.at(kind));
+    ASSERT_GT(times.size(), 100U) << kind;
+    EXPECT_GT(times.back(), 55.0) << kind;
+    EXPECT_NEAR(times.back() - times.front(), 20.0, 0.2) << kind;
+    for (std::size_t i = 1; i < times.size(); ++i) {
+      EXPECT_LT(times[i] - times[i - 1], 0.2) << kind << " at " << times[i];
+    }
+  }
+}
+
+TEST_F(Frames, RowsThatAreGoneBeforeTheyWereReadAreCounted) {
+  bbmc::TelemetryRow row;
+  for (int i = 0; i < 100'000; ++i) {
+    row.time_ns = i * core::kNanosecondsPerMillisecond;
+    session_->tap().row(row, {});
+  }
+  std::vector<LiveRow> kept;
+  const auto gone = session_->tap().rows().copy(0, kept);
+  EXPECT_GT(gone, 0U);
+  for (int question = 0; question < 2; ++question) {
+    const auto said = json::parse(frames_.next());
+    EXPECT_EQ(said.at("state").at("dropped"), gone);
+    session_->tap().row(row, {});
+  }
+}
+
 TEST_F(Frames, BelowFullSpeedWhatIsNewIsToldWithTheNextQuestion) {
   session_->start({.experiment = "circle", .pace = {.speed = 0.001, .paused = true}});
   EXPECT_FALSE(frames_.next().empty());
@@ -79,7 +115,7 @@ TEST_F(Frames, WhatThePageNoLongerShowsIsNotTold) {
   constexpr core::Nanoseconds kPeriod_ns = 4 * core::kNanosecondsPerMillisecond;  // 40 s in all
   for (int i = 0; i < kRows; ++i) {
     row.time_ns = truth.time_ns = i * kPeriod_ns;
-    session_->tap().row(row);
+    session_->tap().row(row, {});
     session_->tap().truth(truth);
   }
   const auto said = json::parse(frames_.next());

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -32,7 +33,7 @@ TEST_P(LiveEstimatorsTest, TheFollowedOneIsTheControllersOwnInEveryRow) {
     axis.velocity.method = GetParam();
   }
   const auto tap = std::make_unique<LiveTap>();
-  tap->clear(0);
+  tap->clear(core::kNanosecondsPerMillisecond, LiveTap::Histogram::kTook);
   RunOptions options;
   options.out = out_;
   options.tap = tap.get();
@@ -41,7 +42,10 @@ TEST_P(LiveEstimatorsTest, TheFollowedOneIsTheControllersOwnInEveryRow) {
   std::size_t rows = 0;
   double fastest = 0;
   double apart = 0;
-  for (LiveRow live; tap->next(live); ++rows) {
+  std::vector<LiveRow> lives;
+  ASSERT_EQ(tap->rows().copy(0, lives), 0U);
+  for (const auto& live : lives) {
+    ++rows;
     const auto speeds = estimators.update(live);
     for (const auto axis : core::kAxes) {
       ASSERT_DOUBLE_EQ(speeds[axis][static_cast<std::size_t>(GetParam())],

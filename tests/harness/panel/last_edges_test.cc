@@ -1,4 +1,4 @@
-#include "harness/panel/edge_watch.h"
+#include "harness/panel/last_edges.h"
 
 #include <memory>
 #include <random>
@@ -34,9 +34,11 @@ class Encoder {
   unsigned levels_ = 0;
 };
 
-bbmc::Eqep::Reading registers(const EdgeWatch& watch, core::Nanoseconds heard_until_ns) {
-  const auto moment_ns = heard_until_ns + kBehind_ns;
-  return registers_of(watch.seen_from(moment_ns), moment_ns, kClock_Hz);
+// As they come to the page's side: through a row.
+bbmc::Eqep::Reading registers(const bbmc::QuadratureDecoder& board) {
+  const auto times = board.edge_times();
+  const auto moment_ns = times.heard_until_ns + kBehind_ns;
+  return registers_of(last_edges_of(times, moment_ns), moment_ns, kClock_Hz);
 }
 
 void expect_same(const bbmc::Eqep::Reading& ours, const bbmc::Eqep::Reading& boards, int message) {
@@ -47,10 +49,9 @@ void expect_same(const bbmc::Eqep::Reading& ours, const bbmc::Eqep::Reading& boa
   EXPECT_EQ(ours.forward, boards.forward) << message;
 }
 
-TEST(EdgeWatch, AreThoseOfTheBoardsDecoderThatWalksEveryEdge) {
+TEST(LastEdges, MakeTheBoardsOwnRegisters) {
   std::mt19937 draw(7);
   const auto below = [&](unsigned most) { return static_cast<unsigned>(draw() % most); };
-  EdgeWatch ours;
   bbmc::QuadratureDecoder boards;
   ASSERT_TRUE(boards.configure({.capture_clock_Hz = kClock_Hz}));
   Encoder encoder;
@@ -74,14 +75,12 @@ TEST(EdgeWatch, AreThoseOfTheBoardsDecoderThatWalksEveryEdge) {
     }
     message->end_ns = at_ns + below(200'000);
     ASSERT_TRUE(boards.take(*message));
-    ours.take(*message);
-    expect_same(registers(ours, boards.read().time_ns), boards.read(), i);
+    expect_same(registers(boards), boards.read(), i);
   }
 }
 
-TEST(EdgeWatch, TakeADigestAsTheBoardDoes) {
+TEST(LastEdges, MakeTheBoardsOwnRegistersOfADigest) {
   std::mt19937 draw(8);
-  EdgeWatch ours;
   bbmc::QuadratureDecoder boards;
   protocol::EncoderReport report;
   for (int i = 0; i < 2000; ++i) {
@@ -93,8 +92,7 @@ TEST(EdgeWatch, TakeADigestAsTheBoardDoes) {
       report.capture_period_ns = 1000 + static_cast<std::uint32_t>(draw() % 500'000U);
     }
     ASSERT_TRUE(boards.take(report));
-    ours.take(report);
-    expect_same(registers(ours, boards.read().time_ns), boards.read(), i);
+    expect_same(registers(boards), boards.read(), i);
   }
 }
 
