@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kLinesKept = 3;
 constexpr double kLowestHz = 0.3;
+constexpr double kConvincing = 1e-6;
 
 bool same_effect(const std::vector<Term>& taken, const Effect& effect) {
   // Lines may be many; any other effect is in the model once.
@@ -28,6 +29,17 @@ void hold_to(double law, const Evidence& evidence, const Eigen::MatrixXd& column
   test.projected_rms = made.norm() / std::sqrt(static_cast<double>(r.size()));
 }
 
+// Of two scales the one that explains more, unless only the other one's error is small enough for
+// it to be believed.
+bool says_more(const WaldTest& one, const WaldTest& other) {
+  const bool convinces = one.p_value < kConvincing;
+  const bool other_convinces = other.p_value < kConvincing;
+  if (convinces != other_convinces) {
+    return convinces;
+  }
+  return convinces ? one.explained > other.explained : one.p_value < other.p_value;
+}
+
 bool is_plausible(const Candidate& c) {
   const Effect& effect = *c.term.effect;
   const double first = c.test.beta[0];
@@ -41,7 +53,9 @@ bool is_plausible(const Candidate& c) {
 }  // namespace
 
 Candidate judge(const Evidence& evidence, Term term, Eigen::MatrixXd columns) {
-  Candidate c{std::move(term), std::move(columns), {}, false};
+  Candidate c;
+  c.term = std::move(term);
+  c.columns = std::move(columns);
   c.test = wald_test(evidence.basis, c.columns, evidence.corrected, evidence.starts);
   const double law = c.term.effect->first_by_law;
   if (law > 0 && c.test.beta[0] > law) {
@@ -84,7 +98,7 @@ std::vector<Scales> Candidates::lines(const Effect& effect, const Evidence& evid
     }
   }
   const Lines found = find_lines(x, evidence.corrected, lowest, highest, kLinesKept);
-  tried_ += found.searched;
+  sought_ += found.searched;
   std::vector<Scales> out;
   for (const double frequency : found.frequency) {
     out.push_back({frequency});
@@ -95,13 +109,14 @@ std::vector<Scales> Candidates::lines(const Effect& effect, const Evidence& evid
 std::vector<Candidate> Candidates::best_of_each(const Evidence& evidence,
                                                 const std::vector<Term>& taken) {
   std::vector<Candidate> out;
-  tried_ = 0;
+  listed_ = 0;
+  sought_ = 0;
   for (const Effect& effect : effect_library()) {
     if (same_effect(taken, effect)) {
       continue;
     }
     std::vector<Scales> grid = effect.grid(context_);
-    tried_ += grid.size();
+    listed_ += grid.size();
     const bool sought = grid.empty() && effect.search != LineSearch::kNone;
     if (sought) {
       grid = lines(effect, evidence);
@@ -113,14 +128,19 @@ std::vector<Candidate> Candidates::best_of_each(const Evidence& evidence,
       Candidate candidate = judge(evidence, term, sought ? columns(term) : cached(effect, scales));
       const bool better =
           best.term.effect == nullptr || (candidate.plausible && !best.plausible) ||
-          (candidate.plausible == best.plausible && candidate.test.explained > best.test.explained);
+          (candidate.plausible == best.plausible && says_more(candidate.test, best.test));
       if (better) {
         best = std::move(candidate);
       }
     }
     if (best.term.effect != nullptr) {
+      best.sought = sought;
       out.push_back(std::move(best));
     }
+  }
+  const std::size_t shares = sought_ > 0 ? 2 : 1;
+  for (Candidate& c : out) {
+    c.tried = shares * (c.sought ? sought_ : listed_);
   }
   return out;
 }
@@ -139,6 +159,8 @@ Candidate Candidates::refined(const Evidence& evidence, const Candidate& candida
   const Scales best = refine_scales(*candidate.term.effect, candidate.term.scales, reach,
                                     evidence.basis, evidence.corrected, with);
   Candidate out = judge(evidence, {candidate.term.effect, best}, with(best));
+  out.sought = candidate.sought;
+  out.tried = candidate.tried;
   return out.plausible && out.test.explained >= candidate.test.explained ? out : candidate;
 }
 

@@ -274,7 +274,7 @@ Diagnosis diagnose(const Request& given) {
   const HeldOut heldout(data.heldout, d.context,
                         data.same_session ? kSameSession : kRestOfAnotherSession);
   tell("scoring on data not yet seen");
-  refit_and_score(d.selection, data.fit, heldout, d.context, request.seed);
+  refit_and_score(d.selection, data.fit, heldout, d.context, request.seed, data.same_session);
   const FittedModel supplied{{}, Eigen::VectorXd(stated_baseline(request.model).at)};
   const FittedModel extended{d.selection.terms(), d.selection.after.coefficients};
   d.gain_over_supplied =

@@ -23,6 +23,7 @@ struct Context {
   double stroke_max_m = 0;
   double resolution_m = 0;
   double acceleration_noise_m_per_s2 = 0;  // of the encoder's steps, in the signals
+  double quiet_Hz = 0;  // below it the encoder's steps are next to nothing beside the input
   double largest_input_N = 0;
   double period_s = 0;
   double cutoff_Hz = 0;

@@ -30,6 +30,11 @@ VectorXd least_squares(const MatrixXd& x, const VectorXd& y) {
 // A twin's own noise adds to the log's; a correction that leaves more than both is none.
 constexpr double kWorstCorrection = 1.6;
 
+// One twin's own noise would add as much again to what is tested: of the last round several, whose
+// encoders lie otherwise under the start, leave a quarter of it (in power).
+constexpr int kTwins = 4;
+constexpr std::uint64_t kSeedsApart = 1'000'003;  // more than there are runs
+
 double rms(const VectorXd& x) {
   return std::sqrt(x.squaredNorm() / static_cast<double>(std::max<Index>(1, x.size())));
 }
@@ -60,6 +65,30 @@ Processed process_twins(const Dataset& data, const Context& context, const std::
     out.y.segment(at, rows) = member.conditioner.column(signals.input_N);
     out.x.middleRows(at, rows) = member.conditioner.columns(raw_columns(signals, context, terms));
     at += rows;
+  }
+  return out;
+}
+
+// What several twins at `coefficients` leave, and by how much they are fitted wrong, on average.
+struct Twins {
+  VectorXd bias;
+  VectorXd residual;
+  double one_rms_N = 0;  // of a single one's residual
+  ControlLaw::Kind law = ControlLaw::Kind::kFitted;
+};
+
+Twins fit_twins(int count, const Dataset& data, const Context& context,
+                const std::vector<Term>& terms, const VectorXd& coefficients,
+                const std::vector<ControlLaw>& laws, std::uint64_t seed) {
+  Twins out{VectorXd::Zero(coefficients.size()), VectorXd::Zero(data.rows())};
+  for (int i = 0; i < count; ++i) {
+    const Processed twin = process_twins(data, context, terms, coefficients, laws,
+                                         seed + static_cast<std::uint64_t>(i) * kSeedsApart);
+    const VectorXd residual = twin.y - twin.x * coefficients;
+    out.bias += (least_squares(twin.x, twin.y) - coefficients) / count;
+    out.residual += residual / count;
+    out.one_rms_N = std::max(out.one_rms_N, rms(residual));
+    out.law = twin.law == ControlLaw::Kind::kTracking ? twin.law : out.law;
   }
   return out;
 }
@@ -148,27 +177,30 @@ Evidence weigh(const Dataset& data, const Context& context, const std::vector<Te
   e.coefficients = plain;
   VectorXd twin_residual = VectorXd::Zero(e.y.size());
   for (int round = 0; round < rounds; ++round) {
-    const Processed twin = process_twins(data, context, terms, e.coefficients, laws, seed);
-    e.law = twin.law;
-    // theta <- theta + theta_hat(data) - theta_hat(twin(theta))
-    const VectorXd bias = least_squares(twin.x, twin.y) - e.coefficients;
-    twin_residual = twin.y - twin.x * e.coefficients;
-    if (twin.law == ControlLaw::Kind::kTracking && rms(twin_residual) > left) {
-      // Noisier than the log itself: no twin of it.
+    const bool last = round + 1 == rounds;
+    const Twins twins =
+        fit_twins(last ? kTwins : 1, data, context, terms, e.coefficients, laws, seed);
+    e.law = twins.law;
+    if (twins.law == ControlLaw::Kind::kTracking && twins.one_rms_N > left) {
+      // Noisier than the log itself: no twins of it.
       twin_residual.setZero();
+      e.twin_rms_N = 0;
       e.coefficients = plain;
       break;
     }
-    e.coefficients = plain - bias;
+    // theta <- theta + theta_hat(data) - theta_hat(twin(theta))
+    twin_residual = twins.residual;
+    e.twin_rms_N = twins.one_rms_N;
+    e.coefficients = plain - twins.bias;
   }
   if (rms(e.y - e.x * e.coefficients) > kWorstCorrection * left) {
     // The columns are so alike that the twin's noise moved the coefficients: the plain fit stands.
     twin_residual.setZero();
+    e.twin_rms_N = 0;
     e.coefficients = plain;
   }
   e.residual = e.y - e.x * e.coefficients;
   e.corrected = e.residual - twin_residual;
-  e.twin_rms_N = rms(twin_residual);
   e.basis = orthonormal(e.x);
   e.covariance = hac_of_coefficients(e);
   return e;

@@ -67,6 +67,16 @@ bool survives_the_twin(const Trial& trial) {
 
 }  // namespace
 
+Gain surest(Gain one, const Gain& other) {
+  one.ci99.low = std::max(one.ci99.low, other.ci99.low);
+  one.ci95.low = std::max(one.ci95.low, other.ci95.low);
+  return one;
+}
+
+bool certain(const Gain& gain) {
+  return gain.ci99.low > 0 && gain.ci99.value > kLeastGain;
+}
+
 double Trial::home_rms_N() const {
   return home.norm() / std::sqrt(static_cast<double>(home.size()));
 }
@@ -94,15 +104,13 @@ Gain Gates::gain_at_home(const Trial& before, const Trial& after) const {
   if (context_.model.elastic()) {
     return gain;  // of its residual much is no noise
   }
-  const Gain here = gain_on_this_motion(before.home, after.home, data_.starts());
-  gain.ci99.low = std::max(gain.ci99.low, here.ci99.low);
-  gain.ci95.low = std::max(gain.ci95.low, here.ci95.low);
-  return gain;
+  return surest(gain, gain_on_this_motion(before.home, after.home, data_.starts()));
 }
 
 bool Gates::stands(const Gain& home, const Trial& before, const Trial& after,
                    bool with_the_rest) const {
-  if (!(home.ci99.low > 0 && home.ci99.value > kLeastGain) || !signs_are_allowed(after) ||
+  const bool likely = home.ci95.low > 0 && home.ci95.value > kLeastGain;
+  if (!(provisional() ? likely : certain(home)) || !signs_are_allowed(after) ||
       !survives_the_twin(after)) {
     return false;
   }

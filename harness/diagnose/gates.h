@@ -26,6 +26,10 @@ struct Trial {
   [[nodiscard]] double home_rms_N() const;
 };
 
+// The higher of two lower bounds.
+[[nodiscard]] Gain surest(Gain one, const Gain& other);
+[[nodiscard]] bool certain(const Gain& gain);
+
 class Gates {
  public:
   // `abroad`: a part of another run, short as it is, or null.
@@ -44,6 +48,9 @@ class Gates {
   [[nodiscard]] bool as_good(const Trial& one, const Trial& other) const;
 
  private:
+  // Of the only run of a rigid axis the rest is asked with it, at the end (score.h).
+  [[nodiscard]] bool provisional() const { return abroad_ == nullptr && !context_.model.elastic(); }
+
   const Dataset& data_;
   const HeldOut* abroad_;
   const Context& context_;

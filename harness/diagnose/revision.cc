@@ -32,7 +32,7 @@ std::optional<Revision> revised(const Trial& stand, const NominalModel& model, c
   const std::size_t now = names_in(model, stand);
   std::optional<Revision> best;
   std::size_t fewest = now;
-  const auto consider = [&](const Trial& base, const Candidate& c, std::size_t tried) {
+  const auto consider = [&](const Trial& base, const Candidate& c) {
     std::vector<Term> terms = base.terms;
     terms.push_back(c.term);
     const Trial with = gates.trial(terms);
@@ -44,8 +44,7 @@ std::optional<Revision> revised(const Trial& stand, const NominalModel& model, c
     const bool ahead = names < fewest ||
                        (names == fewest && (!best || with.home_rms_N() < best->stand.home_rms_N()));
     if (ahead && better && gates.stands(gain, base, with, true)) {
-      best =
-          Revision{with, c.term, std::min(1.0, c.test.p_value * static_cast<double>(tried)), gain};
+      best = Revision{with, c.term, c.p_value(), gain};
       fewest = names;
     }
   };
@@ -56,7 +55,7 @@ std::optional<Revision> revised(const Trial& stand, const NominalModel& model, c
     const Trial base = gates.trial(terms);
     const Shortlist list = shortlist(candidates, base.evidence, terms, least_N);
     for (std::size_t i = 0; i < std::min(kJudged, list.best.size()); ++i) {
-      consider(base, list.best[i], list.tried);
+      consider(base, list.best[i]);
     }
   }
   return best;

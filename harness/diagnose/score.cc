@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/diagnose/cross_validation.h"
+
 namespace towbench::harness::diagnose {
 namespace {
 
@@ -37,22 +39,24 @@ bool borne_out(const Gain& gain, const VectorXd& before, const VectorXd& after, 
 class Score {
  public:
   Score(Selection& selection, const Dataset& fit, const HeldOut& heldout, const Context& context,
-        std::uint64_t seed)
+        std::uint64_t seed, bool same_session)
       : s_(selection),
         fit_(fit),
         heldout_(heldout),
         context_(context),
         seed_(seed),
-        laws_(laws_of(fit)) {
+        laws_(laws_of(fit)),
+        same_session_(same_session) {
     s_.before = weighed({});
-    before_ = heldout_.residual({{}, s_.before.fitted});
+    stretches_ = stretches_of(s_.before);
+    before_ = left_by({}, s_.before);
   }
 
   void refit() {
     const std::vector<Term> terms = s_.terms();
     s_.after = terms.empty() ? s_.before : weighed(terms);
-    after_ = heldout_.residual({terms, s_.after.fitted});
-    s_.gain = heldout_.gain(before_, after_, seed_);
+    after_ = left_by(terms, s_.after);
+    s_.gain = heldout_.gain(before_.heldout, after_.heldout, seed_);
     Index at = kBaseColumns;
     for (Cause& cause : s_.causes) {
       const auto count = static_cast<Index>(cause.term.effect->coefficients.size());
@@ -62,16 +66,16 @@ class Score {
     }
   }
 
-  // What looked certain where it was looked for and is not borne out is no cause: the one that
-  // gains least goes. False when there is none.
+  // What looked certain, or likely, where it was looked for and is not borne out is no cause: the
+  // one that gains least goes. False when there is none.
   bool withdraw_one() {
     std::size_t worst = s_.causes.size();
     for (std::size_t i = 0; i < s_.causes.size(); ++i) {
-      const VectorXd lacking = without(i);
-      s_.causes[i].gain = heldout_.gain(lacking, after_, seed_);
+      const Left lacking = without(i);
+      s_.causes[i].gain = heldout_.gain(lacking.heldout, after_.heldout, seed_);
       const bool least = worst == s_.causes.size() ||
                          s_.causes[i].gain.ci99.value < s_.causes[worst].gain.ci99.value;
-      if (!borne_out(s_.causes[i].gain, lacking, after_, context_.model.elastic()) && least) {
+      if (!stands(s_.causes[i].gain, lacking) && least) {
         worst = i;
       }
     }
@@ -85,13 +89,41 @@ class Score {
   }
 
  private:
+  // What terms leave of the rows that they were fitted to, each left out in turn, and of the
+  // others.
+  struct Left {
+    VectorXd home;
+    VectorXd heldout;
+
+    [[nodiscard]] VectorXd everywhere() const {
+      VectorXd all(home.size() + heldout.size());
+      all << home, heldout;
+      return all;
+    }
+  };
+
   [[nodiscard]] Evidence weighed(const std::vector<Term>& terms) const {
     return weigh(fit_, context_, terms, laws_, kTwinRounds, seed_);
   }
-  [[nodiscard]] VectorXd without(std::size_t which) const {
+  [[nodiscard]] Left left_by(const std::vector<Term>& terms, const Evidence& evidence) const {
+    return {cross_validated_residual(evidence, terms, stretches_),
+            heldout_.residual({terms, evidence.fitted})};
+  }
+  [[nodiscard]] Left without(std::size_t which) const {
     std::vector<Term> others = s_.terms();
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(which));
-    return others.empty() ? before_ : heldout_.residual({others, weighed(others).fitted});
+    return others.empty() ? before_ : left_by(others, weighed(others));
+  }
+  // A rigid axis' only run: all rows together.
+  [[nodiscard]] bool stands(const Gain& there, const Left& lacking) const {
+    if (!same_session_ || context_.model.elastic()) {
+      return borne_out(there, lacking.heldout, after_.heldout, context_.model.elastic());
+    }
+    const VectorXd before = lacking.everywhere();
+    const VectorXd after = after_.everywhere();
+    const std::vector<Index> starts{0, after_.home.size(), after.size()};
+    return certain(
+        surest(gain_of(before, after, starts, seed_), gain_on_this_motion(before, after, starts)));
   }
 
   Selection& s_;
@@ -100,15 +132,17 @@ class Score {
   const Context& context_;
   std::uint64_t seed_;
   std::vector<ControlLaw> laws_;
-  VectorXd before_;
-  VectorXd after_;
+  bool same_session_;
+  Index stretches_ = 0;  // of cross-validation
+  Left before_;
+  Left after_;
 };
 
 }  // namespace
 
 void refit_and_score(Selection& selection, const Dataset& fit, const HeldOut& heldout,
-                     const Context& context, std::uint64_t seed) {
-  Score score(selection, fit, heldout, context, seed);
+                     const Context& context, std::uint64_t seed, bool same_session) {
+  Score score(selection, fit, heldout, context, seed, same_session);
   do {
     score.refit();
   } while (score.withdraw_one());

@@ -47,19 +47,19 @@ class Selector {
   bool add_one() {
     const Shortlist list = shortlist(candidates_, stand_.evidence, stand_.terms, least_N_);
     for (std::size_t i = 0; i < std::min(kJudged, list.best.size()); ++i) {
-      if (accept(list.best[i], list.tried)) {
+      if (accept(list.best[i])) {
         return true;
       }
     }
     return false;
   }
 
-  bool accept(const Candidate& c, std::size_t tried) {
+  bool accept(const Candidate& c) {
     std::vector<Term> terms = stand_.terms;
     terms.push_back(c.term);
     const Trial with = gates_.trial(terms);
     const Gain gain = gates_.gain_at_home(stand_, with);
-    const double p = std::min(1.0, c.test.p_value * static_cast<double>(tried));
+    const double p = c.p_value();
     if (!gates_.stands(gain, stand_, with, false)) {
       s_.rejected.push_back({c.term.effect->name, p, gain.ci99});
       return false;

@@ -27,11 +27,9 @@ Shortlist shortlist(Candidates& candidates, const Evidence& evidence,
                     const std::vector<Term>& taken, double least_N) {
   Shortlist list;
   list.all = candidates.best_of_each(evidence, taken);
-  list.tried = candidates.tried();
   for (const Candidate& c : list.all) {
-    const double p = c.test.p_value * static_cast<double>(list.tried);
     const bool matters = c.test.projected_rms > least_N;
-    if (matters && c.plausible && c.test.left_of_group > kLeastLeft && p < kAlpha) {
+    if (matters && c.plausible && c.test.left_of_group > kLeastLeft && c.p_value() < kAlpha) {
       list.best.push_back(c);
     }
   }

@@ -1,7 +1,6 @@
 // The effects that the residual of a model speaks for, best first.
 //
-// Each effect is tried at its best scale. Its group Wald p-value is multiplied by the number of
-// groups looked at (Bonferroni, grids and searched frequencies included) and must lie below alpha.
+// Each effect is tried at its best scale, its group Wald p-value corrected for all that was tried.
 // The order is by the Bayesian information criterion on effective samples (Schwarz 1978), so that a
 // flexible group does not beat a simple one for its flexibility alone.
 #pragma once
@@ -18,7 +17,6 @@ inline constexpr double kLeastLeft = 0.05;  // of a group off the model, rms; be
 struct Shortlist {
   std::vector<Candidate> all;   // of every effect, as it came
   std::vector<Candidate> best;  // significant and plausible, the first of them refined
-  std::size_t tried = 0;
 };
 
 // `least_N`: rms that an effect must have off the model.

@@ -5,6 +5,7 @@
 
 #include "harness/diagnose/effect.h"
 #include "harness/diagnose/elastic_axis.h"
+#include "harness/diagnose/fine_motion.h"
 #include "harness/diagnose/two_bodies.h"
 
 namespace towbench::harness::diagnose {
@@ -57,9 +58,9 @@ VectorXd through_mode(const VectorXd& x, double period_s, std::span<const double
 
 // (3.37): what resists the load, its inertia and its friction, is felt through the chain, so the
 // motor feels (H - 1) (M_load a + C_load sgn v) more than the rigid model says.
-MatrixXd chain_elasticity(const Signals& s, const Context& /*c*/, std::span<const double> mode) {
+MatrixXd chain_elasticity(const Signals& s, const Context& c, std::span<const double> mode) {
   MatrixXd columns(s.size(), 2);
-  columns.col(0) = through_mode(s.acceleration_m_per_s2, s.period_s, mode);
+  columns.col(0) = through_mode(fine_acceleration_m_per_s2(s, c), s.period_s, mode);
   columns.col(1) = through_mode(s.direction, s.period_s, mode);
   return columns;
 }
@@ -69,7 +70,7 @@ std::vector<Scales> mode_grid(const Context& c) {
   if (c.model.elastic()) {
     return grid;
   }
-  for (const double frequency : {3.0, 4.5, 6.5, 9.0, 13.0, 19.0, 28.0, 40.0}) {
+  for (const double frequency : {3.0, 4.5, 6.5, 9.0, 13.0, 19.0, 28.0, 40.0, 56.0}) {
     if (frequency > 1.5 * c.cutoff_Hz) {
       break;
     }
@@ -93,8 +94,9 @@ MatrixXd backlash(const Signals& s, const Context& c, std::span<const double> sc
                  .stiffness_N_per_m = load_kg * w * w,
                  .damping_N_s_per_m = 2 * kFlankDamping * load_kg * w,
                  .load_share = kFrictionShare};
+  const FineMotion motor = fine_motion(s, c);
   const auto chain_N = [&] {
-    return follow_motor(model, c.theta, s.position_m, s.speed_m_per_s, s.period_s);
+    return follow_motor(model, c.theta, motor.position_m, motor.speed_m_per_s, s.period_s);
   };
   const VectorXd without = chain_N();
   model.chain.play_m += scale[0];
@@ -110,7 +112,7 @@ MatrixXd stated_play(const Signals& s, const Context& /*c*/, std::span<const dou
 std::vector<Scales> play_grid(const Context& c) {
   std::vector<Scales> grid;
   const double stroke = c.stroke_max_m - c.stroke_min_m;
-  for (double play = std::max({4 * c.resolution_m, 1e-4 * stroke, 1e-6});
+  for (double play = std::max({0.25 * c.resolution_m, 1e-6 * stroke, 1e-7});
        play < stroke / 20 && !c.model.elastic(); play *= 2) {
     grid.push_back({play, 0.5});
     grid.push_back({play, 0.8});

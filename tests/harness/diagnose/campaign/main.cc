@@ -69,6 +69,27 @@ std::string joined(const std::vector<std::string>& names) {
   return all;
 }
 
+// Why the effect was not named: what stopped it last, with its figures.
+std::string what_stopped(const Diagnosis& d, const std::string& effect) {
+  using namespace towbench::harness::diagnose;
+  std::string out;
+  for (const Rejected& r : d.selection.rejected) {
+    if (r.effect == effect) {
+      out += fmt::format("gate or score: gain {:.2f} % [{:.2f}, {:.2f}], p {:.1g}; ",
+                         100 * r.gain.value, 100 * r.gain.low, 100 * r.gain.high, r.p_value);
+    }
+  }
+  for (const Candidate& c : d.selection.last_round) {
+    if (c.term.effect->name == effect) {
+      out += fmt::format("last round: p {:.1g} of {} tried, {:.2g} N of {:.2g}, {:.0f} % its own{}",
+                         c.test.p_value, d.selection.tried, c.test.projected_rms,
+                         d.selection.after.force_rms_N, 100 * c.test.left_of_group,
+                         c.plausible ? "" : ", sign forbidden");
+    }
+  }
+  return out;
+}
+
 struct Tally {
   int runs = 0;
   int hit = 0;
@@ -85,6 +106,10 @@ struct Tally {
     }
     const bool nothing_to_name = effect.empty() || effect == "outside";
     ++runs;
+    if (wrong || !(found || nothing_to_name)) {
+      fmt::print(stderr, "{} run {}: {}: {}\n", effect, runs, wrong ? "other names" : "not named",
+                 found ? "" : what_stopped(d, effect));
+    }
     hit += !wrong && (found || nothing_to_name) ? 1 : 0;
     extra += wrong ? 1 : 0;
     unexplained += d.unexplained ? 1 : 0;
