@@ -116,7 +116,7 @@ double thread_s(const ExperimentFixture& fixture, const fs::path& out, LiveTap* 
   return time.passed_s();
 }
 
-// Takes the last stretch twice a second, as a panel's frames do at full speed, while it lives.
+// Takes the last stretch once a second, as a panel's frames do at full speed, while it lives.
 class Reader {
  public:
   explicit Reader(LiveTap& tap)

@@ -13,14 +13,14 @@
 namespace towbench::harness {
 
 // Asked twenty times a second, it takes all that has come and tells it at once. A run at full
-// speed, which nobody can follow, is told of twice a second, and of the stretch that the page shows
+// speed, which nobody can follow, is told of once a second, and of the stretch that the page shows
 // alone: whoever looks on takes the processors that such a run would use. Nobody reads the rows in
 // between. The rows of a frame are thinned to `kMostRows`, by buckets of time: each bucket's last
 // row and the one with the largest tracking error.
 class FrameMaker {
  public:
   static constexpr std::size_t kMostRows = 240;
-  static constexpr int kHeldBack = 10;  // questions between two frames at full speed
+  static constexpr int kHeldBack = 20;  // questions between two frames at full speed
   static constexpr core::Nanoseconds kShown_ns = 20'000'000'000;  // reports/src/panel/run_view.ts
 
   explicit FrameMaker(Session& session) : session_(session) {}
