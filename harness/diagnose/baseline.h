@@ -30,7 +30,7 @@ struct Baseline {
 
 // Share of the force below which nothing is named of an elastic axis: the chain's force,
 // differentiated twice, leaves this much of a machine as stated.
-inline constexpr double kElasticFloor = 0.01;
+inline constexpr double kElasticFloor = 0.005;
 
 [[nodiscard]] inline Baseline stated_baseline(const NominalModel& model) {
   return {model, Theta(model.mass_kg, model.viscous_N_s_per_m, model.coulomb_N, model.bias_N)};

@@ -3,11 +3,14 @@
 //   diagnose_campaign [SEEDS [STRENGTH [EFFECT...]]]        in a rigid axis, by another generator
 //   diagnose_campaign pairs [SEEDS [STRENGTH]]              two of different families; one a seed
 //   diagnose_campaign bench [SEEDS [STRENGTH [EFFECT...]]]  in the emulator, under BBMC
+//   diagnose_campaign honest [SEEDS [STRENGTH]]             what was stated as gained, and what
+//                                                           another log of the machine shows
 //
 // SEEDS is how many, from 1, or which: 7-8.
 // STRENGTH is a share of full strength (full_strength.h); on the bench, of the sizes in
 // bench_case.cc.
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <map>
@@ -17,6 +20,7 @@
 #include <fmt/format.h>
 
 #include "core/random.h"
+#include "harness/diagnose/heldout.h"
 #include "tests/harness/diagnose/bench_case.h"
 #include "tests/harness/diagnose/full_strength.h"
 #include "tests/harness/diagnose/hidden_case.h"
@@ -193,11 +197,64 @@ void pairs(const Seeds& seeds, double strength) {
              seeds.count(), any, alone);
 }
 
+bool everywhere(Eigen::Index /*row*/, Eigen::Index /*rows*/) {
+  return true;
+}
+
+// What the causes gain on another log of the same machine that nobody has seen.
+double gain_elsewhere(const HiddenAxis& axis, std::uint64_t seed, const Diagnosis& d) {
+  using namespace towbench::harness::diagnose;
+  constexpr std::uint64_t kFarAway = 1'000'000;
+  HiddenAxis same = axis;
+  same.machine = seed;
+  const Dataset other = make_dataset({run_of(same, make_hidden_log(same, seed + kFarAway))},
+                                     d.data.conditioning, d.data.baseline, everywhere);
+  const HeldOut there(other, d.context, kSameSession);
+  const auto left = [&](const std::vector<Term>& terms, const Evidence& evidence) {
+    return there.residual({terms, evidence.fitted});
+  };
+  return there
+      .gain(left({}, d.selection.before), left(d.selection.terms(), d.selection.after), seed)
+      .ci99.value;
+}
+
+void honest(const Seeds& seeds, double strength) {
+  std::vector<double> flattery;
+  double stated = 0;
+  for (const auto& effect : all_effects()) {
+    HiddenAxis axis;
+    axis.effect = effect;
+    for (int i = seeds.first; i <= seeds.last; ++i) {
+      const auto seed = static_cast<std::uint64_t>(i);
+      const HiddenAxis sized = at_strength(axis, strength, seed);
+      const Diagnosis d = diagnose_hidden(sized, seed);
+      if (!d.selection.causes.empty()) {
+        const double here = d.selection.gain.ci99.value;
+        const double there = gain_elsewhere(sized, seed, d);
+        flattery.push_back(here - there);
+        stated += here;
+        fmt::print("| {} | {} | {:.2f} % | {:.2f} % |\n", effect, seed, 100 * here, 100 * there);
+        std::fflush(stdout);
+      }
+    }
+  }
+  const auto n = static_cast<double>(flattery.size());
+  double mean = 0;
+  double square = 0;
+  for (const double one : flattery) {
+    mean += one / n;
+    square += one * one / n;
+  }
+  fmt::print("\n{} logs with a cause: stated {:.2f} %, more than elsewhere by {:.2f} +- {:.2f} %\n",
+             flattery.size(), 100 * stated / n, 100 * mean,
+             100 * std::sqrt((square - mean * mean) / n));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::string kind = argc > 1 ? argv[1] : "";
-  if (kind == "bench" || kind == "pairs") {
+  if (kind == "bench" || kind == "pairs" || kind == "honest") {
     --argc;
     ++argv;
   }
@@ -205,6 +262,10 @@ int main(int argc, char** argv) {
   const double strength = argc > 2 ? std::atof(argv[2]) : 1.0;
   if (kind == "pairs") {
     pairs(seeds, strength);
+    return 0;
+  }
+  if (kind == "honest") {
+    honest(seeds, strength);
     return 0;
   }
   std::vector<std::string> effects(argv + std::min(argc, 3), argv + argc);
