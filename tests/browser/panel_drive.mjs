@@ -142,7 +142,7 @@ export async function driveRuns({ checks, person, page, bench, root, runs, shots
       window.drawings.observe(lamps, { childList: true, characterData: true, subtree: true });
     });
     const began = await page.evaluate(() => performance.now());
-    await person.start("circles-5min", "0", { hold: true, limit_s: 80_000 });
+    await person.start("circles-20min", "0", { hold: true, limit_s: 80_000 });
     await person.untilTime(300);
     await page.waitForFunction((since) => performance.now() > since + 3000, began);
     await page.click("#finish");
