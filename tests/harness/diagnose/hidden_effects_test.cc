@@ -76,16 +76,11 @@ TEST(WeakCause, IsNotWithdrawnForGainingLessThanPromised) {
   }
 }
 
-// Less than a count of the encoder, or than one twin's noise, would let through (decision record
-// 0017).
+// Less than the encoder's steps let through of the motion itself (decision record 0017).
 TEST(WeakCause, IsSeenBelowTheEncodersSteps) {
   for (const char* effect : {"backlash", "chain_elasticity"}) {
     EXPECT_THAT(all_names(hiding(effect, 0.3, 21), 21), testing::ElementsAre(effect));
   }
-}
-
-TEST(WeakCause, IsTriedAtTheScaleThatCanBeBelieved) {
-  EXPECT_THAT(all_names(hiding("chain_polygon", 0.3, 5), 5), testing::Contains("chain_polygon"));
 }
 
 TEST(Stiction, RingingThatItLeavesIsNoForceInTime) {
