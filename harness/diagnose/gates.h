@@ -1,6 +1,7 @@
 // Models on trial: a set of terms fitted, and what it leaves where it was not fitted.
 //
-// A cause stands when its gain at home, cross-validated, is certain, and a gain abroad is likely. A
+// A cause stands when its gain at home, cross-validated, is certain, and a gain abroad is likely;
+// of the only run of a rigid axis when it is likely at home, for score.h asks all rows once more. A
 // line in time must gain across quarters of the run too: a burst of ringing, cut into short
 // stretches, looks like a line to its neighbours.
 #pragma once
