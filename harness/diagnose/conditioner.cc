@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "harness/diagnose/elastic_axis.h"
 
@@ -36,11 +37,31 @@ std::vector<char> tainted(const Signals& signals, const std::vector<char>& missi
   return bad;
 }
 
+// What was before a log, and comes after, is not known: the reflection that a filter puts there is
+// wrong wherever the axis is under way, and a sharp filter rings with it for tenths of a second. A
+// weight in time that is the same for all columns changes no law among them; this one rises from
+// zero at either end, so that nothing is left to reflect. It begins where the position's own filter
+// (of 2.5 times the cut-off) has forgotten its end.
+constexpr double kForgotten = 0.4;  // of the border
+
+Eigen::VectorXd faded_at_the_ends(Eigen::Index samples, Eigen::Index border) {
+  Eigen::VectorXd weight = Eigen::VectorXd::Ones(samples);
+  const double from = kForgotten * static_cast<double>(border);
+  for (Eigen::Index i = 0; i < std::min(border, samples / 2); ++i) {
+    const double risen = (static_cast<double>(i) - from) / (static_cast<double>(border) - from);
+    const double sine = std::sin(std::numbers::pi / 2 * std::max(0.0, risen));
+    weight[i] = sine * sine;
+    weight[samples - 1 - i] = weight[i];
+  }
+  return weight;
+}
+
 }  // namespace
 
 Conditioner::Conditioner(const Signals& signals, const std::vector<char>& missing,
                          const Conditioning& conditioning, const Wanted& wanted)
-    : filter_(filter_for(signals, conditioning.cutoff_Hz)) {
+    : filter_(filter_for(signals, conditioning.cutoff_Hz)),
+      weight_(faded_at_the_ends(signals.size(), filter_.border())) {
   const double rate_Hz = 1 / signals.period_s;
   const auto stride = std::max<Eigen::Index>(
       1, static_cast<Eigen::Index>(0.4 * rate_Hz / conditioning.cutoff_Hz + 1e-9));
@@ -64,7 +85,7 @@ Conditioner::Conditioner(const Signals& signals, const std::vector<char>& missin
 }
 
 Eigen::VectorXd Conditioner::column(const Eigen::Ref<const Eigen::VectorXd>& raw) const {
-  return at_rows(filter_.apply(raw));
+  return at_rows(filter_.apply(weight_.cwiseProduct(raw)));
 }
 
 Eigen::MatrixXd Conditioner::columns(const Eigen::MatrixXd& raw) const {

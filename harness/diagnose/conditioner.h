@@ -28,6 +28,7 @@ class Conditioner {
 
  private:
   ZeroPhaseFilter filter_;
+  Eigen::VectorXd weight_;           // of each sample, before the filter
   std::vector<Eigen::Index> index_;  // of each row, in samples
 };
 

@@ -6,6 +6,9 @@
 // tried in their place. The answer with the fewest names (causes, and things that moved of the
 // nominal model) stands, unless it predicts worse for certain; of as many names, the one that
 // predicts better for certain.
+//
+// Two causes may together look like one other and parameters that moved, and neither alone better
+// than that: where two would be fewer names and no single one is, two are tried at once.
 #pragma once
 
 #include <optional>
@@ -17,11 +20,15 @@
 
 namespace towbench::harness::diagnose {
 
+struct Added {
+  Term term;
+  double p_value = 1;  // corrected for the number tried
+  Gain gain;           // at home, over all the others
+};
+
 struct Revision {
-  Trial stand;
-  Term added;
-  double p_value = 1;  // of what was put in, corrected for the number tried
-  Gain gain;           // of what was put in, at home
+  Trial stand;               // its last terms are those that were put in
+  std::vector<Added> added;  // one, or two
 };
 
 // None: nothing says it better. `least_N` as in shortlist().

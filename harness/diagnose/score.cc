@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "harness/diagnose/cross_validation.h"
 
@@ -35,6 +36,12 @@ bool borne_out(const Gain& gain, const VectorXd& before, const VectorXd& after, 
   return gain.ci95.low > 0 || gain.ci95.value > kLeastOfPromise * promised;
 }
 
+// What terms leave of data that they were not fitted to.
+struct Left {
+  VectorXd heldout;
+  VectorXd only_run;  // of a rigid axis: each stretch of all of it by the others; else empty
+};
+
 // Scores the causes of `selection` as they stand, refitted together.
 class Score {
  public:
@@ -45,10 +52,14 @@ class Score {
         heldout_(heldout),
         context_(context),
         seed_(seed),
-        laws_(laws_of(fit)),
-        same_session_(same_session) {
+        laws_(laws_of(fit)) {
     s_.before = weighed({});
-    stretches_ = stretches_of(s_.before);
+    if (same_session && !context.model.elastic()) {
+      const Dataset::Member& whole = fit.members.front();
+      only_run_ = make_dataset({whole.run}, fit.conditioning, fit.baseline,
+                               [](Index /*row*/, Index /*rows*/) { return true; });
+      stretches_ = stretches_of(weigh(*only_run_, context_, {}, laws_, 0, seed_));
+    }
     before_ = left_by({}, s_.before);
   }
 
@@ -75,7 +86,7 @@ class Score {
       s_.causes[i].gain = heldout_.gain(lacking.heldout, after_.heldout, seed_);
       const bool least = worst == s_.causes.size() ||
                          s_.causes[i].gain.ci99.value < s_.causes[worst].gain.ci99.value;
-      if (!stands(s_.causes[i].gain, lacking) && least) {
+      if (least && !stands(i, lacking)) {
         worst = i;
       }
     }
@@ -89,41 +100,55 @@ class Score {
   }
 
  private:
-  // What terms leave of the rows that they were fitted to, each left out in turn, and of the
-  // others.
-  struct Left {
-    VectorXd home;
-    VectorXd heldout;
-
-    [[nodiscard]] VectorXd everywhere() const {
-      VectorXd all(home.size() + heldout.size());
-      all << home, heldout;
-      return all;
-    }
-  };
-
   [[nodiscard]] Evidence weighed(const std::vector<Term>& terms) const {
     return weigh(fit_, context_, terms, laws_, kTwinRounds, seed_);
   }
   [[nodiscard]] Left left_by(const std::vector<Term>& terms, const Evidence& evidence) const {
-    return {cross_validated_residual(evidence, terms, stretches_),
-            heldout_.residual({terms, evidence.fitted})};
+    return {heldout_.residual({terms, evidence.fitted}), cross_validated(terms)};
   }
   [[nodiscard]] Left without(std::size_t which) const {
     std::vector<Term> others = s_.terms();
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(which));
     return others.empty() ? before_ : left_by(others, weighed(others));
   }
-  // A rigid axis' only run: all rows together.
-  [[nodiscard]] bool stands(const Gain& there, const Left& lacking) const {
-    if (!same_session_ || context_.model.elastic()) {
-      return borne_out(there, lacking.heldout, after_.heldout, context_.model.elastic());
+  [[nodiscard]] VectorXd cross_validated(const std::vector<Term>& terms) const {
+    if (!only_run_) {
+      return {};
     }
-    const VectorXd before = lacking.everywhere();
-    const VectorXd after = after_.everywhere();
-    const std::vector<Index> starts{0, after_.home.size(), after.size()};
+    return cross_validated_residual(weigh(*only_run_, context_, terms, laws_, 0, seed_), terms,
+                                    stretches_);
+  }
+  [[nodiscard]] bool stands(std::size_t which, const Left& lacking) const {
+    if (!only_run_) {
+      return borne_out(s_.causes[which].gain, lacking.heldout, after_.heldout,
+                       context_.model.elastic());
+    }
+    return is_certain(lacking.only_run, after_.only_run) || is_certain_beside_another(which);
+  }
+  // On all rows.
+  [[nodiscard]] bool is_certain(const VectorXd& before, const VectorXd& after) const {
+    const std::vector<Index> starts = only_run_->starts();
     return certain(
         surest(gain_of(before, after, starts, seed_), gain_on_this_motion(before, after, starts)));
+  }
+  // The peaks that another effect leaves are noise to this one: drag that grows with speed hides
+  // behind what happens at a few reversals. An effect that the residual speaks for, and that
+  // predicts, is taken into both models, were it not certain enough to be named itself.
+  [[nodiscard]] bool is_certain_beside_another(std::size_t which) const {
+    return std::any_of(s_.last_round.begin(), s_.last_round.end(), [&](const Candidate& candidate) {
+      if (!candidate.plausible || candidate.test.left_of_group < kLeastLeft ||
+          candidate.p_value() > kAlpha) {
+        return false;
+      }
+      std::vector<Term> terms = s_.terms();
+      terms.push_back(candidate.term);
+      const VectorXd after = cross_validated(terms);
+      if (after.norm() > (1 - kLeastGain) * after_.only_run.norm()) {
+        return false;
+      }
+      terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(which));
+      return is_certain(cross_validated(terms), after);
+    });
   }
 
   Selection& s_;
@@ -132,7 +157,8 @@ class Score {
   const Context& context_;
   std::uint64_t seed_;
   std::vector<ControlLaw> laws_;
-  bool same_session_;
+  // All rows, those that are held out as well.
+  std::optional<Dataset> only_run_;
   Index stretches_ = 0;  // of cross-validation
   Left before_;
   Left after_;

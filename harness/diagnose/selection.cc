@@ -96,27 +96,30 @@ class Selector {
     }
   }
 
-  // Keeps causes and terms in the same order: those that stay, then the new one.
+  // Keeps causes and terms in the same order: those that stay, then the new ones.
   bool revise() {
     const auto revision = revised(stand_, model_, gates_, candidates_, least_N_);
     if (!revision) {
       return false;
     }
     const std::vector<Term>& kept = revision->stand.terms;
+    const auto first_added = kept.end() - static_cast<std::ptrdiff_t>(revision->added.size());
     for (std::size_t i = s_.causes.size(); i-- > 0;) {
       const Term& term = s_.causes[i].term;
-      const bool stays = std::any_of(kept.begin(), kept.end() - 1, [&](const Term& other) {
+      const bool stays = std::any_of(kept.begin(), first_added, [&](const Term& other) {
         return other.effect == term.effect && other.scales == term.scales;
       });
       if (!stays) {
         reject(i);
       }
     }
-    s_.causes.push_back({revision->added, {}, {}, revision->p_value, revision->gain, {}});
-    stand_ = revision->stand;
-    if (progress_) {
-      progress_(fmt::format("said with less: {}", revision->added.effect->name));
+    for (const Added& added : revision->added) {
+      s_.causes.push_back({added.term, {}, {}, added.p_value, added.gain, {}});
+      if (progress_) {
+        progress_(fmt::format("said with less: {}", added.term.effect->name));
+      }
     }
+    stand_ = revision->stand;
     return true;
   }
 

@@ -1,6 +1,7 @@
 #include "harness/identify/zero_phase_filter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -58,20 +59,43 @@ ZeroPhaseFilter::ZeroPhaseFilter(const std::vector<std::complex<double>>& poles,
   sections_[0].b2 *= gain;
 }
 
-// Transposed direct form II, each section started in the steady state of its first sample.
-void ZeroPhaseFilter::run(Eigen::VectorXd& x) const {
-  for (const Section& s : sections_) {
-    const double gain = (s.b0 + s.b1 + s.b2) / (1.0 + s.a1 + s.a2);
-    const double settled = gain * x[0];
-    double z2 = s.b2 * x[0] - s.a2 * settled;
-    double z1 = s.b1 * x[0] - s.a1 * settled + z2;
-    for (double& value : x) {
-      const double in = value;
-      const double out = s.b0 * in + z1;
-      z1 = s.b1 * in - s.a1 * out + z2;
-      z2 = s.b2 * in - s.a2 * out;
-      value = out;
+// Transposed direct form II, each section started in the steady state of its first sample. A sample
+// passes all sections before the next one begins: a section waits for its own last output alone, so
+// that the processor works at as many samples at once as there are sections.
+template <std::size_t kSections>
+void ZeroPhaseFilter::cascade(Eigen::VectorXd& x) const {
+  std::array<Section, kSections> sections;
+  std::array<double, kSections> z1;
+  std::array<double, kSections> z2;
+  double first = x[0];
+  for (std::size_t i = 0; i < kSections; ++i) {
+    const Section& s = sections[i] = sections_[i];
+    const double settled = (s.b0 + s.b1 + s.b2) / (1.0 + s.a1 + s.a2) * first;
+    z2[i] = s.b2 * first - s.a2 * settled;
+    z1[i] = s.b1 * first - s.a1 * settled + z2[i];
+    first = s.b0 * first + z1[i];
+  }
+  for (double& value : x) {
+    double in = value;
+    for (std::size_t i = 0; i < kSections; ++i) {
+      const Section& s = sections[i];
+      const double out = s.b0 * in + z1[i];
+      z1[i] = s.b1 * in - s.a1 * out + z2[i];
+      z2[i] = s.b2 * in - s.a2 * out;
+      in = out;
     }
+    value = in;
+  }
+}
+
+void ZeroPhaseFilter::run(Eigen::VectorXd& x) const {
+  constexpr std::size_t kSharp = 4;
+  constexpr std::size_t kSmooth = 2;
+  if (sections_.size() == kSharp) {
+    cascade<kSharp>(x);
+  } else {
+    core::check(sections_.size() == kSmooth);
+    cascade<kSmooth>(x);
   }
 }
 

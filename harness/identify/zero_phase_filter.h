@@ -37,6 +37,8 @@ class ZeroPhaseFilter {
   ZeroPhaseFilter(const std::vector<std::complex<double>>& poles, double gain, double cutoff_Hz,
                   double rate_Hz);
   void run(Eigen::VectorXd& x) const;
+  template <std::size_t kSections>
+  void cascade(Eigen::VectorXd& x) const;
 
   std::vector<Section> sections_;
   Eigen::Index border_;

@@ -101,6 +101,25 @@ TEST(NothingHidden, NothingIsNamed) {
   }
 }
 
+std::vector<std::string> names_of_pair(const char* one, const char* other, std::uint64_t seed) {
+  HiddenAxis axis;
+  axis.effect = one;
+  axis.second_effect = other;
+  return all_names(at_strength(axis, 1, seed), seed);
+}
+
+// Either alone predicts less well than Stribeck friction with other viscous and Coulomb friction.
+TEST(PairOfCauses, IsFoundTogetherWhereAMakeshiftBeatsEither) {
+  EXPECT_THAT(names_of_pair("stiction", "viscous_asymmetry", 56),
+              testing::UnorderedElementsAre("stiction", "viscous_asymmetry"));
+}
+
+// Three or four reversals leave peaks that no gain is certain against.
+TEST(PairOfCauses, OneStandsBesidePeaksThatTheOtherLeaves) {
+  EXPECT_THAT(names_of_pair("quadratic_drag", "presliding", 13),
+              testing::Contains("quadratic_drag"));
+}
+
 TEST(OutsideTheLibrary, IsCalledUnexplainedAndNotMisnamed) {
   HiddenAxis axis;
   axis.effect = "outside";

@@ -77,6 +77,9 @@ std::string joined(const std::vector<std::string>& names) {
 std::string what_stopped(const Diagnosis& d, const std::string& effect) {
   using namespace towbench::harness::diagnose;
   std::string out;
+  for (const Finding& finding : d.findings) {
+    out += finding.name + ": " + finding.sentence + "; ";
+  }
   for (const Rejected& r : d.selection.rejected) {
     if (r.effect == effect) {
       out += fmt::format("gate or score: gain {:.2f} % [{:.2f}, {:.2f}], p {:.1g}; ",
@@ -173,7 +176,8 @@ void pairs(const Seeds& seeds, double strength) {
     HiddenAxis axis;
     axis.effect = drawn_from(kFamilies[first], random);
     axis.second_effect = drawn_from(kFamilies[(first + step) % kFamilies.size()], random);
-    const auto all = named(diagnose_hidden(at_strength(axis, strength, drawn), drawn));
+    const Diagnosis d = diagnose_hidden(at_strength(axis, strength, drawn), drawn);
+    const auto all = named(d);
     bool one = false;
     bool other = false;
     bool wrong = false;
@@ -192,6 +196,11 @@ void pairs(const Seeds& seeds, double strength) {
     fmt::print("| {} + {} | {} | {} | {} |\n", axis.effect, axis.second_effect,
                one && other ? "yes" : "no", wrong ? "no" : "yes", list);
     std::fflush(stdout);
+    for (const auto& effect : {axis.effect, axis.second_effect}) {
+      if (!(effect == axis.effect ? one : other)) {
+        fmt::print(stderr, "seed {}: {} not named: {}\n", seed, effect, what_stopped(d, effect));
+      }
+    }
   }
   fmt::print("\nboth named: {} of {}; at least one: {}; both and nothing else: {}\n", both,
              seeds.count(), any, alone);
