@@ -85,16 +85,25 @@ void check_reference(Run& run, Index window, Findings& findings) {
     return;
   }
   const double ratio = quantile(ratios, 0.5);
-  if (ratio < -1 / kReferenceOff) {
+  const bool always_along = quantile(ratios, 0.1) >= 0;
+  const bool always_against = quantile(ratios, 0.9) < 0;
+  if (always_against && ratio < -1 / kReferenceOff) {
     findings.push_back({Kind::kFatal, "position_sign_reversed",
                         fmt::format("{}: the position runs against its reference: the sign of one "
                                     "of the two is reversed",
                                     run.name)});
   } else if (ratio < 1 / kReferenceOff || ratio > kReferenceOff) {
-    findings.push_back({Kind::kNote, "reference_unit_off",
-                        fmt::format("{}: the position goes {:.3g} times as far as its reference "
-                                    "asks: another unit? It goes on without the reference",
-                                    run.name, ratio)});
+    findings.push_back(
+        always_along
+            ? Finding{Kind::kNote, "reference_unit_off",
+                      fmt::format("{}: the position goes {:.3g} times as far as its reference "
+                                  "asks: another unit? It goes on without the reference",
+                                  run.name, ratio)}
+            : Finding{Kind::kNote, "reference_not_followed",
+                      fmt::format("{}: the position goes now with its reference and now against "
+                                  "it: another axis' reference, or a loop that had lost control? "
+                                  "It goes on without the reference",
+                                  run.name)});
     run.reference_m.resize(0);
   }
 }

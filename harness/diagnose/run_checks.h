@@ -8,8 +8,8 @@
 namespace towbench::harness::diagnose {
 
 // Named findings: position_unit_off (faster than the machine can be), input_unit_off (more than its
-// whole command), position_sign_reversed (against its reference), reference_unit_off (then the run
-// goes on without its reference).
+// whole command), position_sign_reversed (against its reference); reference_unit_off and
+// reference_not_followed (then the run goes on without its reference).
 void check_run(Run& run, const NominalModel& model, Findings& findings);
 
 }  // namespace towbench::harness::diagnose

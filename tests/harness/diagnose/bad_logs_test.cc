@@ -157,6 +157,17 @@ const std::vector<BadLog>& bad_logs() {
 INSTANTIATE_TEST_SUITE_P(All, BadLogs, testing::ValuesIn(bad_logs()),
                          [](const auto& parameter) { return std::string(parameter.param.name); });
 
+// A loop that hunts goes half of the time against what is asked: that reverses no sign.
+TEST(AReferenceOfSomethingElse, IsToldAndLeftOut) {
+  const BroughtCase brought(short_axis());
+  brought.write("log.csv", spoilt([](auto& log) {
+                  log.reference_m = make_hidden_log(short_axis(), 2).reference_m;
+                }));
+  const auto output = brought.diagnose("--data log.csv");
+  EXPECT_EQ(output.code, 0) << output.text;
+  EXPECT_THAT(output.text, HasSubstr("reference_not_followed: log.csv"));
+}
+
 class OtherwiseSpelt : public testing::TestWithParam<BadLog> {};
 
 TEST_P(OtherwiseSpelt, AreReadAsMeant) {

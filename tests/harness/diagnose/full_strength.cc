@@ -90,12 +90,31 @@ void look_around(Sizing& sizing) {
   }
 }
 
-// The size at which the effect alone has the wanted strength, or comes closest.
+// A much smaller size that is stronger; 0: there is none. A play that makes the loop hunt drowns in
+// noise of its own, and has the wanted strength once more at a hundred times the size.
+double stronger_below(const HiddenAxis& alone, double size, double wanted, std::uint64_t seed) {
+  constexpr double kStronger = 1.5;
+  HiddenAxis axis = alone;
+  for (const double smaller : {size / 8, size / 64}) {
+    axis.size = smaller;
+    if (times_detectable(axis, make_hidden_log(axis, seed)) > kStronger * wanted) {
+      return smaller;
+    }
+  }
+  return 0;
+}
+
+// The size at which the effect alone has the wanted strength, or comes closest; of several the
+// smallest.
 double sized(const HiddenAxis& alone, double wanted, std::uint64_t seed) {
-  Sizing sizing(alone, wanted, seed);
-  close_in(sizing, alone.size, wanted);
-  look_around(sizing);
-  return sizing.best();
+  double size = 0;
+  for (double start = alone.size; start > 0; start = stronger_below(alone, size, wanted, seed)) {
+    Sizing sizing(alone, wanted, seed);
+    close_in(sizing, start, wanted);
+    look_around(sizing);
+    size = sizing.best();
+  }
+  return size;
 }
 
 // Rms of a force that adds so much to the noise that leaving it out costs the least gain.

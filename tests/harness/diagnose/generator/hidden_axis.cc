@@ -60,8 +60,8 @@ class Body {
         random_(seed ^ 0x5eedU),
         first_(axis.effect, axis.size, random_),
         second_(axis.second_effect, axis.second_size, random_) {
-    s_.x_m = start_m;
-    load_m_ = start_m;
+    s_.x_m = where_it_reads(start_m);
+    load_m_ = s_.x_m;
   }
 
   // Returns what the nominal law leaves of the command; where the axis stands friction takes what
@@ -90,6 +90,16 @@ class Body {
     return first_.is(name) ? first_.size() : second_.size();
   }
   [[nodiscard]] double read_at(double x_m) const { return second_.read_m(first_.read_m(x_m)); }
+  // A controller has brought the reading, not the body, to where the reference begins: otherwise a
+  // log would open with a step of full duty.
+  [[nodiscard]] double where_it_reads(double reading_m) const {
+    constexpr int kEnough = 60;  // for a reading that is off by half of the way
+    double x_m = reading_m;
+    for (int i = 0; i < kEnough; ++i) {
+      x_m += reading_m - read_at(x_m);
+    }
+    return x_m;
+  }
   // At this instant: the mean over a step would be half a step old.
   [[nodiscard]] double read_m_per_s() const {
     constexpr double kReach_m = 1e-6;
