@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -26,6 +27,29 @@ bool agree(const Ratio& a, const Ratio& b) {
 bool shared(const std::vector<Term>& causes, Eigen::Index column) {
   return std::any_of(causes.begin(), causes.end(),
                      [&](const Term& term) { return term.effect->shares_mean_with == column; });
+}
+
+// What stands behind inertia, viscous and Coulomb friction together; empty: nothing does.
+using Common = std::array<std::string, 3>;
+
+Common common_causes(const std::vector<ParameterShift>& shifts) {
+  if (!shifts[kMass].moved || shifts[kViscous].supplied == 0 || shifts[kCoulomb].supplied == 0) {
+    return {};
+  }
+  const Ratio mass = ratio_of(shifts[kMass]);
+  const Ratio viscous = ratio_of(shifts[kViscous]);
+  const Ratio coulomb = ratio_of(shifts[kCoulomb]);
+  if (agree(mass, coulomb) && agree(mass, viscous)) {
+    return {"amplifier_gain", "amplifier_gain", "amplifier_gain"};
+  }
+  if (!agree(mass, viscous) || std::abs(viscous.value - 1) < 3 * viscous.error) {
+    return {};
+  }
+  if (!shifts[kCoulomb].moved) {
+    return {"encoder_count_loss", "encoder_count_loss", ""};
+  }
+  // Lost counts scale what moves, a wrong gain that and what only rubs.
+  return {"encoder_count_loss", "encoder_count_loss", "amplifier_gain"};
 }
 
 }  // namespace
@@ -62,10 +86,10 @@ std::vector<ParameterShift> judge_parameters(const NominalModel& model, const Ev
   if (shifts[kBias].moved) {
     shifts[kBias].indistinguishable_from = {"constant_bias", "coulomb_asymmetry"};
   }
-  const std::string common = common_cause(shifts);
-  for (std::size_t i = 0; i < 3 && !common.empty(); ++i) {
-    if (shifts[i].moved) {
-      shifts[i].indistinguishable_from.push_back(common);
+  const Common common = common_causes(shifts);
+  for (std::size_t i = 0; i < common.size(); ++i) {
+    if (shifts[i].moved && !common[i].empty()) {
+      shifts[i].indistinguishable_from.push_back(common[i]);
     }
   }
   return shifts;
@@ -74,25 +98,23 @@ std::vector<ParameterShift> judge_parameters(const NominalModel& model, const Ev
 std::size_t things_moved(const std::vector<ParameterShift>& shifts) {
   const auto moved = static_cast<std::size_t>(std::count_if(
       shifts.begin(), shifts.end(), [](const ParameterShift& shift) { return shift.moved; }));
-  const std::string common = common_cause(shifts);
-  const auto explained = static_cast<std::size_t>(
-      std::count_if(shifts.begin(), shifts.begin() + kBias,
-                    [](const ParameterShift& shift) { return shift.moved; }));
-  return common.empty() ? moved : moved - explained + 1;
+  std::set<std::string> causes;
+  std::size_t explained = 0;
+  const Common common = common_causes(shifts);
+  for (std::size_t i = 0; i < common.size(); ++i) {
+    if (shifts[i].moved && !common[i].empty()) {
+      causes.insert(common[i]);
+      ++explained;
+    }
+  }
+  return moved - explained + causes.size();
 }
 
 std::string common_cause(const std::vector<ParameterShift>& shifts) {
-  if (!shifts[kMass].moved || shifts[kViscous].supplied == 0 || shifts[kCoulomb].supplied == 0) {
-    return {};
-  }
-  const Ratio mass = ratio_of(shifts[kMass]);
-  const Ratio viscous = ratio_of(shifts[kViscous]);
-  const Ratio coulomb = ratio_of(shifts[kCoulomb]);
-  if (agree(mass, coulomb) && agree(mass, viscous)) {
-    return "amplifier_gain";
-  }
-  const bool same = agree(mass, viscous) && std::abs(viscous.value - 1) > 3 * viscous.error;
-  return same && !shifts[kCoulomb].moved ? "encoder_count_loss" : std::string{};
+  const Common common = common_causes(shifts);
+  const bool of_all = common[kMass] == common[kViscous] &&
+                      (common[kCoulomb].empty() || common[kCoulomb] == common[kMass]);
+  return of_all ? common[kMass] : std::string{};
 }
 
 }  // namespace towbench::harness::diagnose

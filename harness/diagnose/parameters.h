@@ -25,7 +25,8 @@ struct ParameterShift {
 // A parameter has moved when it lies more than 4 standard errors (HAC) and 1 % of the model's
 // whole force rms from what was supplied, and no accepted cause shares its mean with it.
 // Classes: {inertia, added_mass}; all by one ratio: {amplifier_gain}; inertia and viscous by one
-// ratio, Coulomb not: {encoder_count_loss}; bias: {constant_bias, coulomb_asymmetry}.
+// ratio, Coulomb not: {encoder_count_loss}; Coulomb by another: {amplifier_gain} beside it, two
+// things; bias: {constant_bias, coulomb_asymmetry}.
 [[nodiscard]] std::vector<ParameterShift> judge_parameters(const NominalModel& model,
                                                            const Evidence& evidence,
                                                            const std::vector<Term>& causes);

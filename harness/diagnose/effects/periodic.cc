@@ -44,8 +44,9 @@ std::vector<Scales> sprocket_turn(const Context& c) {
     return {};
   }
   const double per_m = 1 / (kTurn * c.model.sprocket_radius_m);
-  const bool seen_whole = (c.stroke_max_m - c.stroke_min_m) * per_m > 0.7;
-  return seen_whole ? std::vector<Scales>{{per_m}} : std::vector<Scales>{};
+  // Of less than that a cosine is a slope, and the turn is the position's own.
+  const bool seen = (c.stroke_max_m - c.stroke_min_m) * per_m > 0.4;
+  return seen ? std::vector<Scales>{{per_m}} : std::vector<Scales>{};
 }
 
 // Teeth of the sprocket are not in the model: usual numbers.

@@ -114,6 +114,12 @@ TEST(PairOfCauses, IsFoundTogetherWhereAMakeshiftBeatsEither) {
               testing::UnorderedElementsAre("stiction", "viscous_asymmetry"));
 }
 
+// Lost counts scale what moves, a wrong gain that and what only rubs.
+TEST(PairOfCauses, IsReadOffTwoRatiosOfTheParameters) {
+  const auto all = names_of_pair("amplifier_gain", "encoder_count_loss", 238);
+  EXPECT_THAT(all, testing::IsSupersetOf({"amplifier_gain", "encoder_count_loss"}));
+}
+
 // Three or four reversals leave peaks that no gain is certain against.
 TEST(PairOfCauses, OneStandsBesidePeaksThatTheOtherLeaves) {
   EXPECT_THAT(names_of_pair("quadratic_drag", "presliding", 13),
