@@ -1,5 +1,6 @@
 #include "harness/diagnosis_page/page.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -89,7 +90,17 @@ std::string parameters(const Diagnosis& d) {
   return table({"parameter", "stated", "fitted (95 %)", "unit, load side", "is", "or else"}, rows);
 }
 
-std::string confirmed(const diagnose::Confirmation& c) {
+// A model that stays has nothing to confirm: its refit moved nothing that matters, and what that
+// moved in simulation is chance.
+bool stays(const Diagnosis& d) {
+  return std::find(d.verdicts.begin(), d.verdicts.end(), "model_adequate") != d.verdicts.end();
+}
+
+std::string confirmed(const Diagnosis& d) {
+  if (stays(d)) {
+    return "<p>Nothing was found that could be.</p>\n";
+  }
+  const diagnose::Confirmation& c = d.confirmed;
   std::vector<Row> rows;
   const auto add = [&](const std::string& what, const diagnose::Improvement& i, double scale,
                        const char* unit) {
@@ -129,7 +140,7 @@ std::string page(const std::string& title, const Diagnosis& d) {
   if (!diagnose::is_fatal(d.findings)) {
     out += heading(2, "Causes") + causes(d);
     out += heading(2, "Parameters") + parameters(d);
-    out += heading(2, "Confirmed by simulation") + confirmed(d.confirmed);
+    out += heading(2, "Confirmed by simulation") + confirmed(d);
     out += heading(2, "Pictures");
     for (const auto& figure : pictures(d)) {
       out +=

@@ -1,6 +1,8 @@
 // Logs as different benches write them, through the program itself: an effect that the log could
 // show is named from each and nothing else is; what a log cannot show is said.
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <ostream>
 #include <string>
 
@@ -59,6 +61,9 @@ TEST_P(LogKinds, NothingIsNamedWhereNothingIsHidden) {
   const auto output = brought.diagnose("--data log.csv");
   EXPECT_EQ(output.code, 0) << output.text;
   EXPECT_EQ(names_in(brought.answer()), "") << output.text;
+  std::ifstream report(brought.out() / "report.html");
+  const std::string page(std::istreambuf_iterator<char>(report), {});
+  EXPECT_THAT(page, HasSubstr("Nothing was found that could be.")) << "a gain of nothing";
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, LogKinds,
