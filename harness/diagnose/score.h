@@ -6,8 +6,8 @@
 //
 // Of the only run of a rigid axis the held-out quarter and the rest decide together: what the gates
 // let pass as likely stands when its gain over all rows, each predicted by a fit without it, is
-// certain. So a weak cause need not be certain on three quarters of the data, and then show on the
-// last one besides.
+// certain, alone or beside an effect that predicts and is not certain itself. So a weak cause need
+// not be certain on three quarters of the data, and then show on the last one besides.
 #pragma once
 
 #include <cstdint>
