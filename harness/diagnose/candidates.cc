@@ -161,7 +161,11 @@ Candidate Candidates::refined(const Evidence& evidence, const Candidate& candida
   Candidate out = judge(evidence, {candidate.term.effect, best}, with(best));
   out.sought = candidate.sought;
   out.tried = candidate.tried;
-  return out.plausible && out.test.explained >= candidate.test.explained ? out : candidate;
+  // Of two scales the one whose error is small enough for it to be believed, as in says_more().
+  const bool says_as_much =
+      out.test.explained >= candidate.test.explained &&
+      (out.test.p_value < kConvincing || candidate.test.p_value >= kConvincing);
+  return out.plausible && says_as_much ? out : candidate;
 }
 
 }  // namespace towbench::harness::diagnose

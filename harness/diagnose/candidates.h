@@ -33,7 +33,7 @@ class Candidates {
   // thousands, and half to the scales of all other effects, a hundred.
   [[nodiscard]] std::vector<Candidate> best_of_each(const Evidence& evidence,
                                                     const std::vector<Term>& taken);
-  // The scale moved off the grid to the least residual.
+  // The scale moved off the grid to the least residual, unless only the grid's can be believed.
   [[nodiscard]] Candidate refined(const Evidence& evidence, const Candidate& candidate) const;
   // Groups looked at per selection round, grids and searched frequencies included.
   [[nodiscard]] std::size_t tried() const noexcept { return listed_ + sought_; }

@@ -10,7 +10,8 @@
 namespace towbench::harness::diagnose {
 namespace {
 
-constexpr double kWorstInSample = 1.05;  // of what is left, where two are tried at once
+// Of what is left, where two are tried at once; 1 where they cannot be fewer names.
+constexpr double kWorstInSample = 1.05;
 
 std::size_t names_in(const NominalModel& model, const Trial& trial) {
   return trial.terms.size() + things_moved(judge_parameters(model, trial.evidence, trial.terms));
@@ -57,7 +58,7 @@ class Search {
       return std::move(best_);
     }
     for (const std::vector<Term>& terms : bases) {
-      if (terms.size() + 2 < now_) {
+      if (terms.size() + 2 <= now_) {
         const Trial base = gates_.trial(terms);
         for (const Candidate& c : best_beside(base)) {
           consider_two(base, c);
@@ -85,14 +86,18 @@ class Search {
     }
   }
 
+  // With fewer names and as well, or with as many and better for certain.
+  [[nodiscard]] bool says_it_better(const Trial& with, std::size_t names) const {
+    return names < now_ ? gates_.as_good(with, stand_)
+                        : names == now_ &&
+                              gates_.stands(gates_.gain_at_home(stand_, with), stand_, with, true);
+  }
+
   void consider_one(const Trial& base, const Candidate& c) {
     const Trial with = gates_.trial(with_term(base.terms, c.term));
     const std::size_t names = names_in(model_, with);
     const Gain gain = gates_.gain_at_home(base, with);
-    const bool better = names < now_
-                            ? gates_.as_good(with, stand_)
-                            : gates_.stands(gates_.gain_at_home(stand_, with), stand_, with, true);
-    if (names <= now_ && better && gates_.stands(gain, base, with, true)) {
+    if (says_it_better(with, names) && gates_.stands(gain, base, with, true)) {
       keep_if_ahead(with, names, {{c.term, c.p_value(), gain}});
     }
   }
@@ -101,7 +106,8 @@ class Search {
   [[nodiscard]] bool leaves_more(const Trial& without, const Candidate& c) const {
     const double left =
         without.evidence.corrected.norm() * std::sqrt(std::max(0.0, 1 - c.test.explained));
-    return left > kWorstInSample * stand_.evidence.corrected.norm();
+    const bool may_be_fewer = without.terms.size() + 1 < now_;
+    return left > (may_be_fewer ? kWorstInSample : 1) * stand_.evidence.corrected.norm();
   }
 
   void consider_two(const Trial& base, const Candidate& one) {
@@ -112,7 +118,7 @@ class Search {
       }
       const Trial with = gates_.trial(with_term(with_one.terms, other.term));
       const std::size_t names = names_in(model_, with);
-      if (names >= now_ || !gates_.as_good(with, stand_)) {
+      if (!says_it_better(with, names)) {
         continue;
       }
       const Gain of_other = gates_.gain_at_home(with_one, with);

@@ -8,7 +8,7 @@
 // predicts better for certain.
 //
 // Two causes may together look like one other and parameters that moved, and neither alone better
-// than that: where two would be fewer names and no single one is, two are tried at once.
+// than that: where no single one says it better, two that would be no more names are tried at once.
 #pragma once
 
 #include <optional>

@@ -51,26 +51,60 @@ class Selector {
         return true;
       }
     }
+    for (std::size_t i = 0; i < std::min(kJudged, list.best.size()); ++i) {
+      if (accept_beside_another(list.best[i])) {
+        return true;
+      }
+    }
     return false;
   }
 
   bool accept(const Candidate& c) {
-    std::vector<Term> terms = stand_.terms;
-    terms.push_back(c.term);
-    const Trial with = gates_.trial(terms);
+    const Trial with = stand_with({c.term});
     const Gain gain = gates_.gain_at_home(stand_, with);
-    const double p = c.p_value();
     if (!gates_.stands(gain, stand_, with, false)) {
-      s_.rejected.push_back({c.term.effect->name, p, gain.ci99});
+      s_.rejected.push_back({c.term.effect->name, c.p_value(), gain.ci99});
       return false;
     }
-    s_.causes.push_back({c.term, {}, {}, p, gain, {}});
+    take(c, with, gain);
+    return true;
+  }
+
+  // What another effect leaves is noise to this one, and need not be certain itself to be taken
+  // into both models. It is not named for that; score.h asks the same once more.
+  bool accept_beside_another(const Candidate& c) {
+    const Trial with = stand_with({c.term});
+    const Shortlist beside = shortlist(candidates_, with.evidence, with.terms, least_N_);
+    for (std::size_t i = 0; i < std::min(kJudged, beside.best.size()); ++i) {
+      const Term& other = beside.best[i].term;
+      const Trial with_both = stand_with({c.term, other});
+      if (with_both.home_rms_N() > (1 - kLeastGain) * with.home_rms_N()) {
+        continue;
+      }
+      const Trial lacking = stand_with({other});
+      const Gain gain = gates_.gain_at_home(lacking, with_both);
+      if (gates_.stands(gain, lacking, with_both, true)) {
+        take(c, with, gain);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  [[nodiscard]] Trial stand_with(const std::vector<Term>& added) const {
+    std::vector<Term> terms = stand_.terms;
+    terms.insert(terms.end(), added.begin(), added.end());
+    return gates_.trial(terms);
+  }
+
+  void take(const Candidate& c, const Trial& with, const Gain& gain) {
+    std::erase_if(s_.rejected, [&](const Rejected& r) { return r.effect == c.term.effect->name; });
+    s_.causes.push_back({c.term, {}, {}, c.p_value(), gain, {}});
     stand_ = with;
     if (progress_) {
       progress_(fmt::format("accepted {} (gain where it was tried {:.1f} %)", c.term.effect->name,
                             100 * gain.ci99.value));
     }
-    return true;
   }
 
   void reject(std::size_t which) {

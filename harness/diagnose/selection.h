@@ -1,10 +1,10 @@
 // Which causes stand: chosen forward, pruned, and revised.
 //
-// Each round the shortlist's first whose gain on the gates stands is accepted, and the twin is run
-// again with it. What was accepted early may be idle once the others stand, or a makeshift for a
-// cause that says the same alone: both are looked at again (prune, revision.h) until nothing
-// changes. What is reported as gained is measured elsewhere (score.h): data that decided once is no
-// longer unseen.
+// Each round the shortlist's first whose gain on the gates stands is accepted, alone or, where none
+// stands alone, beside another effect that the residual speaks for; the twin is run again with it.
+// What was accepted early may be idle once the others stand, or a makeshift for a cause that says
+// the same alone: both are looked at again (prune, revision.h) until nothing changes. What is
+// reported as gained is measured elsewhere (score.h): data that decided once is no longer unseen.
 #pragma once
 
 #include <functional>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -27,16 +28,16 @@ Shortlist shortlist(Candidates& candidates, const Evidence& evidence,
                     const std::vector<Term>& taken, double least_N) {
   Shortlist list;
   list.all = candidates.best_of_each(evidence, taken);
-  for (const Candidate& c : list.all) {
+  const auto speaks = [&](const Candidate& c) {
     const bool matters = c.test.projected_rms > least_N;
-    if (matters && c.plausible && c.test.left_of_group > kLeastLeft && c.p_value() < kAlpha) {
-      list.best.push_back(c);
-    }
-  }
+    return matters && c.plausible && c.test.left_of_group > kLeastLeft && c.p_value() < kAlpha;
+  };
+  std::copy_if(list.all.begin(), list.all.end(), std::back_inserter(list.best), speaks);
   sort_by_information(list.best);
   for (std::size_t i = 0; i < std::min(kRefined, list.best.size()); ++i) {
     list.best[i] = candidates.refined(evidence, list.best[i]);
   }
+  std::erase_if(list.best, [&](const Candidate& c) { return !speaks(c); });
   sort_by_information(list.best);
   return list;
 }

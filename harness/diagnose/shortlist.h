@@ -16,7 +16,7 @@ inline constexpr double kLeastLeft = 0.05;  // of a group off the model, rms; be
 
 struct Shortlist {
   std::vector<Candidate> all;   // of every effect, as it came
-  std::vector<Candidate> best;  // significant and plausible, the first of them refined
+  std::vector<Candidate> best;  // significant and plausible, the first of them at refined scales
 };
 
 // `least_N`: rms that an effect must have off the model.

@@ -126,6 +126,12 @@ TEST(PairOfCauses, OneStandsBesidePeaksThatTheOtherLeaves) {
               testing::Contains("quadratic_drag"));
 }
 
+// Each is sure in sample and makes noise for the other, so that neither predicts for certain alone.
+TEST(PairOfCauses, OneIsAcceptedBesideAnotherThatIsNotCertain) {
+  EXPECT_THAT(names_of_pair("presliding", "chain_elasticity", 436),
+              testing::ElementsAre("chain_elasticity"));
+}
+
 TEST(OutsideTheLibrary, IsCalledUnexplainedAndNotMisnamed) {
   HiddenAxis axis;
   axis.effect = "outside";
