@@ -1,4 +1,4 @@
-// Who looks on gives way, and what a looker-on starts does not.
+// Who looks on gives way, and what a looker-on starts does not but goes ahead where it may.
 #include "harness/panel/turns.h"
 
 #include <filesystem>
@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 #include <sched.h>
+#include <sys/resource.h>
 
 #include "harness/panel/session.h"
 #include "tests/harness/fixtures/temporary_fixtures.h"
@@ -43,6 +44,20 @@ TEST(Turns, ARunThatALookerOnStartsTakesItsTurns) {
   EXPECT_EQ(during[SCHED_BATCH], 1) << "this thread alone gives way";
   EXPECT_GE(during[SCHED_OTHER], before.at(SCHED_OTHER)) << "the run's does not";
   EXPECT_EQ(::sched_getscheduler(0), SCHED_OTHER);
+}
+
+TEST(Turns, WhoWorksGoesAheadWhereTheHostAllowsItAndNotWhenItLooksOnAgain) {
+  std::thread([] {
+    look_on();
+    const int own = ::getpriority(PRIO_PROCESS, 0);
+    take_turns();
+    const int ahead = ::getpriority(PRIO_PROCESS, 0);
+    const bool allowed = ::setpriority(PRIO_PROCESS, 0, own - 1) == 0;
+    take_turns();
+    EXPECT_EQ(ahead, allowed ? -10 : own);
+    look_on();
+    EXPECT_EQ(::getpriority(PRIO_PROCESS, 0), own);
+  }).join();
 }
 
 }  // namespace
