@@ -12,6 +12,10 @@ namespace {
 
 constexpr int kMostRevisions = 4;
 
+bool is_line_in_time(const Term& term) {
+  return term.effect->search == LineSearch::kTime;
+}
+
 class Selector {
  public:
   Selector(const Dataset& data, const HeldOut* abroad, const Context& context, std::uint64_t seed,
@@ -71,12 +75,19 @@ class Selector {
   }
 
   // What another effect leaves is noise to this one, and need not be certain itself to be taken
-  // into both models. It is not named for that; score.h asks the same once more.
+  // into both models. It is not named for that; score.h asks the same once more. A line in time is
+  // neither: a few of them follow a burst of ringing, and beside each other each is certain.
   bool accept_beside_another(const Candidate& c) {
+    if (is_line_in_time(c.term)) {
+      return false;
+    }
     const Trial with = stand_with({c.term});
     const Shortlist beside = shortlist(candidates_, with.evidence, with.terms, least_N_);
     for (std::size_t i = 0; i < std::min(kJudged, beside.best.size()); ++i) {
       const Term& other = beside.best[i].term;
+      if (is_line_in_time(other)) {
+        continue;
+      }
       const Trial with_both = stand_with({c.term, other});
       if (with_both.home_rms_N() > (1 - kLeastGain) * with.home_rms_N()) {
         continue;

@@ -140,5 +140,12 @@ TEST(OutsideTheLibrary, IsCalledUnexplainedAndNotMisnamed) {
   EXPECT_THAT(named(d), testing::IsEmpty());
 }
 
+// Several lines in time follow its ringing, each certain beside the others.
+TEST(OutsideTheLibrary, IsNoSumOfLinesInTime) {
+  HiddenAxis axis;
+  axis.effect = "outside";
+  EXPECT_THAT(named(diagnose_hidden(at_strength(axis, 1, 34), 34)), testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace towbench::tests
