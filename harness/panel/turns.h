@@ -1,8 +1,9 @@
 // Whose turn it is when both processors are taken: who only looks on never displaces the bench.
 //
 // A browser on the same processors is not ours to hold back. It was given the bench's processor
-// some 150 times a second, for a twentieth of the run's time; so the run goes ahead of everybody
-// where the host allows it (root, CAP_SYS_NICE, or `nice` in limits.conf).
+// for a twentieth of the run's time while the other one had turns to spare; so the run goes ahead
+// of other programs where the host allows it (root, CAP_SYS_NICE, or `nice` in limits.conf).
+// docs/performance.md has what that gains, and why a real-time class gains nothing.
 #pragma once
 
 namespace towbench::harness {
