@@ -10,6 +10,7 @@
 #include "harness/faults/fault_text.h"
 #include "harness/faults/faulted_experiment.h"
 #include "harness/fixtures/canonical_hash.h"
+#include "harness/panel/autogroup.h"
 #include "harness/panel/live_hand.h"
 #include "harness/panel/realtime_hand.h"
 #include "harness/panel/turns.h"
@@ -119,6 +120,7 @@ void Session::start(const SessionStart& wanted) {
 }
 
 RunResult Session::run_by_its_clock(std::uint64_t seed) {
+  const AheadOfOtherSessions ahead;
   RunOptions options;
   options.out = runs_;
   options.seed = seed;

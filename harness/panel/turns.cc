@@ -8,8 +8,6 @@
 namespace towbench::harness {
 namespace {
 
-constexpr int kAhead = -10;  // of a processor that one other wants too, nine tenths
-
 // As this program was started, asked before anything is changed.
 int own_nice() noexcept {
   static const int nice = ::getpriority(PRIO_PROCESS, 0);
