@@ -108,7 +108,7 @@ double thread_s(const ExperimentFixture& fixture, const fs::path& out, LiveTap* 
   if (tap != nullptr) {
     const auto& controller = fixture.controller.configuration;
     tap->clear(towbench::bbmc::exchange_period_ns(controller.control_period_ns()),
-               LiveTap::Histogram::kTook);
+               LiveTap::Histogram::kTook, fixture.rig.parameters.force_sensor.fitted);
     options.tap = tap;
     options.hand = &hand;
   }

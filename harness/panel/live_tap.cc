@@ -74,7 +74,7 @@ std::array<std::uint64_t, LiveTap::kBins> LiveTap::exchange_times() const noexce
   return counts;
 }
 
-void LiveTap::clear(core::Nanoseconds exchange_ns, Histogram histogram) {
+void LiveTap::clear(core::Nanoseconds exchange_ns, Histogram histogram, bool has_force_sensor) {
   rows_.clear(rows_of(exchange_ns));
   truths_.clear(rows_of(exchange_ns));
   dropped_ = 0;
@@ -84,6 +84,7 @@ void LiveTap::clear(core::Nanoseconds exchange_ns, Histogram histogram) {
   (void)take_events();
   (void)take_console();
   latest_ = {};
+  hears_force_ = has_force_sensor;
   period_ns_ = histogram == Histogram::kOffPeriod ? exchange_ns : 0;
   begins({});
 }

@@ -30,7 +30,10 @@ class LiveTap final : public RunTap, private protocol::MessageSink {
 
   // ---- bench's thread ----
   void begins(const std::filesystem::path& folder) override;
-  [[nodiscard]] protocol::MessageSink* witness() noexcept override { return this; }
+  // Of what the controller hears only the force is not in its rows.
+  [[nodiscard]] protocol::MessageSink* witness() noexcept override {
+    return hears_force_ ? this : nullptr;
+  }
   void row(const bbmc::TelemetryRow& row,
            const core::PerAxis<bbmc::EdgeTimes>& edges) noexcept override;
   void truth(const emulator::TruthRow& row) noexcept override;
@@ -51,7 +54,8 @@ class LiveTap final : public RunTap, private protocol::MessageSink {
   // Of the run under way or the last one; empty before.
   [[nodiscard]] std::filesystem::path folder() const;
   // Before a run; nobody else is at it then. `exchange_ns`: the machine's time between two of them.
-  void clear(core::Nanoseconds exchange_ns, Histogram histogram);
+  // `has_force_sensor`: of the rig.
+  void clear(core::Nanoseconds exchange_ns, Histogram histogram, bool has_force_sensor);
 
  private:
   static constexpr std::size_t kMostText = 1U << 20U;
@@ -74,6 +78,7 @@ class LiveTap final : public RunTap, private protocol::MessageSink {
   LastRows<LiveTruth> truths_{rows_of(core::kNanosecondsPerMillisecond)};
   LiveRow latest_;                   // its force is the last sample's
   core::Nanoseconds period_ns_ = 0;  // of exchanges that are to keep one
+  bool hears_force_ = false;
   std::atomic<std::uint64_t> dropped_{0};
   std::array<std::atomic<std::uint64_t>, kBins> exchange_times_{};
   mutable std::mutex folder_mutex_;  // taken before anything runs, and by the reader

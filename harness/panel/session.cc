@@ -101,7 +101,8 @@ void Session::start(const SessionStart& wanted) {
   const auto& controller = fixture_->controller.configuration;
   const bool real = wanted.clock == RunClock::kReal;
   tap_.clear(bbmc::exchange_period_ns(controller.control_period_ns()),
-             real ? LiveTap::Histogram::kOffPeriod : LiveTap::Histogram::kTook);
+             real ? LiveTap::Histogram::kOffPeriod : LiveTap::Histogram::kTook,
+             fixture_->rig.parameters.force_sensor.fitted);
   stop_ = false;
   if (real) {
     hand_ = std::make_unique<RealtimeHand>(fixture_->experiment.hand, wanted.holds);

@@ -1,16 +1,19 @@
 #include "harness/panel/frames.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/time.h"
 #include "harness/record/temporary_folder.h"
+#include "tests/harness/fixtures/temporary_fixtures.h"
 
 namespace towbench::harness {
 namespace {
@@ -96,6 +99,32 @@ TEST_F(Frames, RowsThatAreGoneBeforeTheyWereReadAreCounted) {
     const auto said = json::parse(frames_.next());
     EXPECT_EQ(said.at("state").at("dropped"), gone);
     session_->tap().row(row, {});
+  }
+}
+
+// The last two of a row.
+TEST_F(Frames, TheForceIsToldOfARigThatHasItsSensor) {
+  const TemporaryFixtures fixtures;
+  for (const auto* const rig : {"tow-dry", "macs-nominal"}) {
+    const auto shipped = std::filesystem::relative("fixtures", fixtures.folder()).string();
+    const auto file = fixtures.write(
+        std::string(rig) + ".toml",
+        fmt::format("schema = 1\nname = \"{0}\"\nrig = \"{1}/rigs/{0}.toml\"\n"
+                    "controller = \"{1}/controllers/bbmc-tuned.toml\"\n"
+                    "duration_limit_s = 2.0\n\n"
+                    "[[console]]\nsend = \"reset poscalib y 0.449092m\"\nexpect = \"ok\"\n\n"
+                    "[[console]]\nsend = \"run -trapez y --distance 0.1m --speed 0.2m/s "
+                    "--acceleration 0.2s\"\nexpect = \"done\"\nwait = \"idle\"\ntimeout_s = 1.5\n",
+                    rig, shipped));
+    session_->start({.experiment = file.string(), .pace = {.speed = 0, .paused = false}});
+    while (session_->state().phase != Session::Phase::kOver) {
+      std::this_thread::yield();
+    }
+    const auto rows = json::parse(frames_.next()).at("rows");
+    ASSERT_GT(rows.size(), 50U) << rig << ": " << session_->state().reason;
+    const auto& last = rows.back();
+    EXPECT_EQ(last.at(last.size() - 1).is_number(), std::string(rig) == "tow-dry") << rig;
+    EXPECT_EQ(last.at(last.size() - 2).is_number(), std::string(rig) == "tow-dry") << rig;
   }
 }
 

@@ -33,7 +33,7 @@ TEST_P(LiveEstimatorsTest, TheFollowedOneIsTheControllersOwnInEveryRow) {
     axis.velocity.method = GetParam();
   }
   const auto tap = std::make_unique<LiveTap>();
-  tap->clear(core::kNanosecondsPerMillisecond, LiveTap::Histogram::kTook);
+  tap->clear(core::kNanosecondsPerMillisecond, LiveTap::Histogram::kTook, false);
   RunOptions options;
   options.out = out_;
   options.tap = tap.get();

@@ -12,7 +12,7 @@ namespace {
 TEST(LiveTap, KeepsWhatThePageShowsWhateverTheExchange) {
   const auto tap = std::make_unique<LiveTap>();
   for (const core::Nanoseconds exchange_ns : {1'000'000, 200'000}) {
-    tap->clear(exchange_ns, LiveTap::Histogram::kTook);
+    tap->clear(exchange_ns, LiveTap::Histogram::kTook, false);
     EXPECT_EQ(tap->rows().written(), 0U);
     bbmc::TelemetryRow row;
     emulator::TruthRow truth;
@@ -54,13 +54,13 @@ TEST(LiveTap, TextBeyondItsBoundIsDroppedWholeAndCounted) {
   }
   EXPECT_EQ(tap->take_events().size(), 2 * line.size());
   EXPECT_EQ(tap->dropped(), 1U);
-  tap->clear(core::kNanosecondsPerMillisecond, LiveTap::Histogram::kTook);
+  tap->clear(core::kNanosecondsPerMillisecond, LiveTap::Histogram::kTook, false);
   EXPECT_EQ(tap->dropped(), 0U);
 }
 
 TEST(LiveTap, ByTheWallClockBinsAreOfDistancesFromThePeriod) {
   const auto tap = std::make_unique<LiveTap>();
-  tap->clear(core::kNanosecondsPerMillisecond, LiveTap::Histogram::kOffPeriod);
+  tap->clear(core::kNanosecondsPerMillisecond, LiveTap::Histogram::kOffPeriod, false);
   for (const core::Nanoseconds took_ns : {1'000'000, 1'000'900, 998'500, 1'001'500}) {
     tap->exchange(took_ns);
   }
