@@ -221,7 +221,8 @@ class TorqueSpeedMap final : public Procedure {
   static ProcedureOutcome judged(const ProcedureContext& context, const Settings& settings,
                                  const std::vector<double>& speeds, const Collected& measured,
                                  double middle_m) {
-    const auto& [runs, stalled, trouble] = measured;
+    const auto& runs = measured.runs;
+    const auto stalled = measured.stalled;
     const double first =
         context.machine.configuration().axes[context.axis].friction.stribeck_speed_rad_per_s;
     const auto law = identify::fit_friction_law(runs, first, excess_of(context));
