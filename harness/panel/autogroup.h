@@ -17,7 +17,7 @@ class AheadOfOtherSessions {
   explicit AheadOfOtherSessions(std::filesystem::path file = "/proc/self/autogroup");
   AheadOfOtherSessions(const AheadOfOtherSessions&) = delete;
   AheadOfOtherSessions& operator=(const AheadOfOtherSessions&) = delete;
-  // As it was before.
+  // As it was before. Who is killed (SIGKILL) leaves it ahead, for what else its terminal runs.
   ~AheadOfOtherSessions();
 
  private:

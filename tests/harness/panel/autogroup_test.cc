@@ -50,7 +50,7 @@ TEST(AheadOfOtherSessions, TakesNothingFromOneThatIsFurtherAhead) {
   EXPECT_EQ(text_of(file), "/autogroup-17 nice -15");
 }
 
-TEST(AheadOfOtherSessions, LeavesAloneWhatItCannotReadOrWrite) {
+TEST(AheadOfOtherSessions, LeavesAloneWhatItCannotRead) {
   const TemporaryFixtures folder;
   const auto file = folder.folder() / "autogroup";
   { const AheadOfOtherSessions ahead(file); }

@@ -32,6 +32,12 @@ class Frames : public ::testing::Test {
  protected:
   ~Frames() override { session_->cut_short(); }
 
+  void wait_until_over() const {
+    while (session_->state().phase != Session::Phase::kOver) {
+      std::this_thread::yield();
+    }
+  }
+
   TemporaryFolder out_;
   std::unique_ptr<Session> session_ = std::make_unique<Session>(out_.path());
   FrameMaker frames_{*session_};
@@ -70,9 +76,7 @@ TEST_F(Frames, AtFullSpeedOneQuestionInTwentyIsAnsweredAndTheEndAtOnce) {
 TEST_F(Frames, AfterARunAtFullSpeedItsLastStretchIsTold) {
   session_->start({.experiment = "wall-clock-60s", .pace = {.speed = 0, .paused = false}});
   EXPECT_FALSE(frames_.next().empty());
-  while (session_->state().phase != Session::Phase::kOver) {
-    std::this_thread::yield();
-  }
+  wait_until_over();
   const auto said = json::parse(frames_.next());
   EXPECT_EQ(said.at("state").at("dropped"), 0) << "nobody could have followed them";
   for (const char* const kind : {"rows", "truth"}) {
@@ -117,9 +121,7 @@ TEST_F(Frames, TheForceIsToldOfARigThatHasItsSensor) {
                     "--acceleration 0.2s\"\nexpect = \"done\"\nwait = \"idle\"\ntimeout_s = 1.5\n",
                     rig, shipped));
     session_->start({.experiment = file.string(), .pace = {.speed = 0, .paused = false}});
-    while (session_->state().phase != Session::Phase::kOver) {
-      std::this_thread::yield();
-    }
+    wait_until_over();
     const auto rows = json::parse(frames_.next()).at("rows");
     ASSERT_GT(rows.size(), 50U) << rig << ": " << session_->state().reason;
     const auto& last = rows.back();
