@@ -10,7 +10,7 @@
 namespace towbench::board {
 namespace {
 
-constexpr std::uint32_t kThumb = 1U << 5U;
+constexpr std::uint32_t kThumbBit = 1U << 5U;
 
 }  // namespace
 
@@ -49,7 +49,7 @@ std::uint32_t Processor::code_word(std::uint32_t address) const {
 
 // Unicorn knows the block only.
 std::uint32_t Processor::instruction_that_accesses(std::uint32_t address) const {
-  const bool thumb = (reg(UC_ARM_REG_CPSR) & kThumb) != 0;
+  const bool thumb = (reg(UC_ARM_REG_CPSR) & kThumbBit) != 0;
   return faulting_instruction({block_, block_size_, thumb}, registers(), address,
                               [this](std::uint32_t at) { return code_word(at); });
 }

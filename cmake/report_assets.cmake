@@ -29,6 +29,8 @@ function(towbench_embed_page target name header namespace page_function page sty
             -DOUTPUT=${output} -P ${CMAKE_SOURCE_DIR}/cmake/embed_report_assets.cmake
     DEPENDS ${page} ${style} ${script} ${CMAKE_SOURCE_DIR}/cmake/embed_report_assets.cmake
     COMMENT "Embedding ${page}" VERBATIM)
+  # A unit of its own: it is long, and changes with the page alone.
+  set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_sources(${target} PRIVATE ${output})
 endfunction()
 

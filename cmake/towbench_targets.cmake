@@ -5,8 +5,7 @@ target_include_directories(towbench_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_compile_options(towbench_options INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wnon-virtual-dtor
   -Wold-style-cast -Woverloaded-virtual -Wundef
-  # A precompiled header is no system header to GCC 12, whose false alarms in it are not ours.
-  $<$<NOT:$<BOOL:${TOWBENCH_PRECOMPILED_HEADERS}>>:-Werror>
+  -Werror
   # Same bits on every machine and build type: no fused multiply-add, no reassociation.
   -ffp-contract=off -fno-fast-math)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
@@ -32,15 +31,17 @@ if(TOWBENCH_FUZZ)
   target_link_options(towbench_options INTERFACE -fsanitize=address,undefined)
 endif()
 
-# What nearly every source includes, parsed once a library: a fresh machine's build is mostly parsing.
-# Off wherever tests are built, so that a missing include is still an error there.
-set(towbench_common_headers <algorithm> <array> <cmath> <cstdint> <functional> <memory> <optional>
-  <span> <string> <string_view> <vector> <fmt/format.h>)
+# A build is mostly the parsing of headers, so sources of one library are compiled a few at a time.
+# TOWBENCH_UNITY=OFF compiles each alone: for clang-tidy, for the mutants, and so that a missing
+# include is still an error (`./towbench test --only alone`).
+set(CMAKE_UNITY_BUILD ${TOWBENCH_UNITY})
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)
 
-# towbench_library(NAME [DEPENDS targets...] [FOLDERS names...] [EXCLUDE regex...]): every .cc below the
-# calling folder, or below those of its folders.
+# towbench_library(NAME [DEPENDS targets...] [FOLDERS names...] [EXCLUDE regex...] [ALONE files...]):
+# every .cc below the calling folder, or below those of its folders. ALONE: files that no other may
+# share a unit with (system headers that clash, register names that every peripheral has).
 function(towbench_library name)
-  cmake_parse_arguments(arg "" "" "DEPENDS;FOLDERS;EXCLUDE;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(arg "" "" "DEPENDS;FOLDERS;EXCLUDE;ALONE" ${ARGN})
   set(patterns ${arg_FOLDERS})
   list(TRANSFORM patterns PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   if(NOT arg_FOLDERS)
@@ -54,9 +55,7 @@ function(towbench_library name)
   if(sources)
     add_library(${name} STATIC ${sources})
     target_link_libraries(${name} PUBLIC towbench_options ${arg_DEPENDS})
-    if(TOWBENCH_PRECOMPILED_HEADERS)
-      target_precompile_headers(${name} PRIVATE ${towbench_common_headers} ${arg_PRECOMPILE})
-    endif()
+    set_source_files_properties(${arg_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   else()
     add_library(${name} INTERFACE)
     target_link_libraries(${name} INTERFACE towbench_options ${arg_DEPENDS})

@@ -11,7 +11,7 @@ build=build/tidy
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/towbench-tidy
 mkdir -p build "$cache"
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ \
-  -DCMAKE_CXX_COMPILER_LAUNCHER= -DTOWBENCH_REPORT_ASSETS=OFF -DTOWBENCH_BENCHMARKS=OFF -DTOWBENCH_TOGETHER=OFF >build/tidy.log 2>&1 ||
+  -DCMAKE_CXX_COMPILER_LAUNCHER= -DTOWBENCH_REPORT_ASSETS=OFF -DTOWBENCH_BENCHMARKS=OFF -DTOWBENCH_UNITY=OFF >build/tidy.log 2>&1 ||
   { tail -n 20 build/tidy.log; exit 1; }
 
 tidy_one() {

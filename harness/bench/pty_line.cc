@@ -13,7 +13,7 @@
 namespace towbench::harness {
 namespace {
 
-int must(int result, const char* what) {
+int must_open(int result, const char* what) {
   if (result < 0) {
     throw std::system_error(errno, std::generic_category(), what);
   }
@@ -36,24 +36,24 @@ bool write_whole(int file, const char* bytes, std::size_t size) noexcept {
 
 PtyLine::End PtyLine::open_end() {
   End end;
-  end.master = must(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC), "posix_openpt");
+  end.master = must_open(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC), "posix_openpt");
   std::array<char, 64> name{};
-  must(grantpt(end.master), "grantpt");
-  must(unlockpt(end.master), "unlockpt");
+  must_open(grantpt(end.master), "grantpt");
+  must_open(unlockpt(end.master), "unlockpt");
   if (const int error = ptsname_r(end.master, name.data(), name.size()); error != 0) {
     throw std::system_error(error, std::generic_category(), "ptsname_r");
   }
   end.device = name.data();
-  end.held = must(open(end.device.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC), "open");
+  end.held = must_open(open(end.device.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC), "open");
   termios raw{};
-  must(tcgetattr(end.held, &raw), "tcgetattr");
+  must_open(tcgetattr(end.held, &raw), "tcgetattr");
   cfmakeraw(&raw);
-  must(tcsetattr(end.held, TCSANOW, &raw), "tcsetattr");
+  must_open(tcsetattr(end.held, TCSANOW, &raw), "tcsetattr");
   return end;
 }
 
 PtyLine::PtyLine() : ends_{open_end(), open_end()} {
-  must(pipe2(stop_.data(), O_CLOEXEC), "pipe");
+  must_open(pipe2(stop_.data(), O_CLOEXEC), "pipe");
   carrier_ = std::thread([this] { carry(); });
 }
 

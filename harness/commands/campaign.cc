@@ -25,7 +25,7 @@
 namespace towbench::harness {
 namespace {
 
-struct Options {
+struct CampaignOptions {
   std::string campaign = "standard";
   std::string out = "runs/campaign";
   std::string shard = "1/1";
@@ -61,8 +61,8 @@ std::filesystem::path find_campaign(const std::string& named) {
 }
 
 // This shard's cases that have no result yet.
-std::vector<CampaignCase> left_over(const std::vector<CampaignCase>& all, const Options& options,
-                                    const Shard& shard,
+std::vector<CampaignCase> left_over(const std::vector<CampaignCase>& all,
+                                    const CampaignOptions& options, const Shard& shard,
                                     const std::vector<nlohmann::json>& results) {
   std::set<std::string> done;
   for (const auto& line : results) {
@@ -118,7 +118,7 @@ std::string results_file(const Shard& shard) {
 }
 
 // Runs what is left of this shard here.
-void run_here(const Options& options, const Campaign& campaign,
+void run_here(const CampaignOptions& options, const Campaign& campaign,
               const std::vector<CampaignCase>& cases, const Shard& shard) {
   const std::filesystem::path folder = options.out;
   const auto file = folder / results_file(shard);
@@ -145,7 +145,7 @@ void run_here(const Options& options, const Campaign& campaign,
 }
 
 // Shards of which a case has no result yet.
-std::vector<std::size_t> unfinished(const Options& options, const Campaign& campaign,
+std::vector<std::size_t> unfinished(const CampaignOptions& options, const Campaign& campaign,
                                     const std::vector<CampaignCase>& all) {
   const auto results = load_results(options.out, campaign.fingerprint);
   std::vector<std::size_t> shards;
@@ -158,7 +158,7 @@ std::vector<std::size_t> unfinished(const Options& options, const Campaign& camp
 }
 
 // As a job array; a task that was lost is submitted again, as long as that helps.
-void run_on_slurm(const Options& options, const Campaign& campaign,
+void run_on_slurm(const CampaignOptions& options, const Campaign& campaign,
                   const std::vector<CampaignCase>& all) {
   SlurmArray array{.name = campaign.name,
                    .tasks = options.slurm,
@@ -201,13 +201,13 @@ void remove_results(const std::filesystem::path& folder, const Shard& shard) {
 }
 
 // Which command keeps any case's run, in the words of this campaign's call.
-std::string keep_command(const Options& options) {
+std::string keep_command(const CampaignOptions& options) {
   const auto seeds = options.seeds == 0 ? "" : fmt::format(" --seeds {}", options.seeds);
   return fmt::format("./towbench campaign {}{} --out {} --keep CASE", options.campaign, seeds,
                      options.out);
 }
 
-int keep_one(const Options& options, const Campaign& campaign,
+int keep_one(const CampaignOptions& options, const Campaign& campaign,
              const std::vector<CampaignCase>& all) {
   const auto found = std::find_if(all.begin(), all.end(),
                                   [&](const CampaignCase& one) { return one.id == options.keep; });
@@ -221,7 +221,7 @@ int keep_one(const Options& options, const Campaign& campaign,
 }
 
 // All results there are, as matrix.md, with the runs that are worth keeping.
-int report_all(const Options& options, const Campaign& campaign,
+int report_all(const CampaignOptions& options, const Campaign& campaign,
                const std::vector<CampaignCase>& all, bool whole) {
   const std::filesystem::path folder = options.out;
   const auto results = load_results(folder, campaign.fingerprint);
@@ -253,7 +253,7 @@ int report_all(const Options& options, const Campaign& campaign,
   return exit_code_of(sum.verdict());
 }
 
-int execute(const Options& options) {
+int execute_campaign(const CampaignOptions& options) {
   const auto shard = parse_shard(options.shard);
   auto campaign = load_campaign(find_campaign(options.campaign), options.seeds);
   const std::filesystem::path folder = options.out;
@@ -278,7 +278,7 @@ int execute(const Options& options) {
 }  // namespace
 
 void add_campaign(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CampaignOptions>();
   auto* verb = app.add_subcommand("campaign", "try faults on motions, by the thousand");
   verb->add_option("campaign", options->campaign,
                    "name of a campaign of fixtures/campaigns, or a path")
@@ -304,7 +304,7 @@ void add_campaign(CLI::App& app, int& exit_code) {
   verb->add_flag("--fresh", options->fresh, "run everything again");
   verb->add_flag("-q,--quiet", options->quiet, "print the verdict and the report's path only");
   verb->footer("Example: towbench campaign standard --seeds 3 --shard 1/4 --out runs/campaign");
-  verb->callback([options, &exit_code] { exit_code = execute(*options); });
+  verb->callback([options, &exit_code] { exit_code = execute_campaign(*options); });
 }
 
 }  // namespace towbench::harness

@@ -33,7 +33,7 @@
 namespace towbench::harness {
 namespace {
 
-struct Options {
+struct ControlOptions {
   std::string controller;
   std::string carrier;
   std::string lines;
@@ -106,7 +106,7 @@ std::unique_ptr<protocol::Connection> connect_to(const std::string& address) {
   return std::move(*connection);
 }
 
-std::unique_ptr<WiredPlant> wired(PlantEnd& plant, const Options& options) {
+std::unique_ptr<WiredPlant> wired(PlantEnd& plant, const ControlOptions& options) {
   auto whole =
       WiredPlant::open(plant, {options.lines, options.encoder_lines},
                        options.by_wall_clock() ? EdgeTimes::kOfKernel : EdgeTimes::kOfExchange);
@@ -117,7 +117,7 @@ std::unique_ptr<WiredPlant> wired(PlantEnd& plant, const Options& options) {
 }
 
 // Before the loop takes its rights: a thread of the console's must not have them.
-std::unique_ptr<SessionConsole> console_of(const Options& options) {
+std::unique_ptr<SessionConsole> console_of(const ControlOptions& options) {
   if (options.console.empty()) {
     return std::make_unique<OwnTerminal>();
   }
@@ -167,7 +167,7 @@ class WallClock {
   std::unique_ptr<RealtimePlantEnd> plant_;
 };
 
-int execute(const Options& options) {
+int execute_control(const ControlOptions& options) {
   SourceFiles sources;
   const auto controller = load_controller(options.controller, sources);
   if (!options.devices.empty()) {
@@ -222,7 +222,7 @@ int execute(const Options& options) {
 }  // namespace
 
 void add_control(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ControlOptions>();
   auto* verb = app.add_subcommand("control", "the controller, with its console on this terminal");
   verb->add_option("--controller", options->controller, "controller file")->required();
   auto* connect = verb->add_option(
@@ -263,7 +263,7 @@ void add_control(CLI::App& app, int& exit_code) {
     if (options->devices.empty() && options->carrier.empty() == options->rig.empty()) {
       throw CLI::RequiredError("--carrier, --rig or --devices");
     }
-    exit_code = execute(*options);
+    exit_code = execute_control(*options);
   });
 }
 

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::array kDemo{"trapezoid-400", "circle", "pulses", "endstop-y-max"};
 
-struct Options {
+struct DemoOptions {
   ExperimentOptions shared;
   bool board = false;
 };
@@ -37,7 +37,7 @@ std::string bare_metal_image() {
   return "firmware:" + image.string();
 }
 
-int execute(const ExperimentOptions& options) {
+int execute_demo(const ExperimentOptions& options) {
   std::vector<ExperimentFixture> fixtures;
   fixtures.reserve(kDemo.size());
   for (const char* name : kDemo) {
@@ -68,7 +68,7 @@ int execute(const ExperimentOptions& options) {
 }  // namespace
 
 void add_demo(CLI::App& app, int& exit_code) {
-  auto chosen = std::make_shared<Options>();
+  auto chosen = std::make_shared<DemoOptions>();
   auto* options = &chosen->shared;
   auto* verb = app.add_subcommand(
       "demo", "trapezoid, circle, open-loop pulses and an end-stop, judged in one report");
@@ -85,7 +85,7 @@ void add_demo(CLI::App& app, int& exit_code) {
     if (chosen->board) {
       chosen->shared.controller = bare_metal_image();
     }
-    exit_code = execute(chosen->shared);
+    exit_code = execute_demo(chosen->shared);
   });
 }
 

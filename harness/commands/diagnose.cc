@@ -28,7 +28,7 @@ int diagnose_once(const DiagnoseOptions& options) {
   return kExitPass;
 }
 
-int execute(const DiagnoseOptions& options, const ActiveOptions& active) {
+int execute_diagnose(const DiagnoseOptions& options, const ActiveOptions& active) {
   try {
     return active.wanted ? diagnose_and_run(options, active) : diagnose_once(options);
   } catch (const UnusableData& error) {
@@ -66,7 +66,8 @@ void add_diagnose(CLI::App& app, int& exit_code) {
       "         towbench diagnose --model plant.toml --data a.csv --data b.csv --columns map.toml\n"
       "Writes report.html, headline.txt, diagnosis.json, extended_plant.toml, residual.csv.\n"
       "Exit: 0 diagnosed, 2 the data cannot be diagnosed (one line says why).");
-  verb->callback([options, active, &exit_code] { exit_code = execute(*options, *active); });
+  verb->callback(
+      [options, active, &exit_code] { exit_code = execute_diagnose(*options, *active); });
 }
 
 }  // namespace towbench::harness

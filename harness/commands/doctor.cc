@@ -15,13 +15,13 @@
 namespace towbench::harness {
 namespace {
 
-struct Options {
+struct DoctorOptions {
   double seconds = 10;
   unsigned compare_blocks = 0;
   bool json = false;
 };
 
-int execute(const Options& options) {
+int execute_doctor(const DoctorOptions& options) {
   if (options.compare_blocks > 0) {
     constexpr core::Nanoseconds kBlock_ns = core::kNanosecondsPerSecond / 2;
     fmt::print("{}", compare_loops(options.compare_blocks, kBlock_ns).text());
@@ -53,7 +53,7 @@ int execute(const Options& options) {
 }  // namespace
 
 void add_doctor(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DoctorOptions>();
   auto* verb = app.add_subcommand("doctor", "what this host is fit for, and how to mend it");
   verb->add_option("--seconds", options->seconds, "how long to measure its lateness; 0: not at all")
       ->check(CLI::Range(0.0, 3600.0))
@@ -62,7 +62,7 @@ void add_doctor(CLI::App& app, int& exit_code) {
                    "instead: so many blocks of our loop against a bare one, half a second each");
   verb->add_flag("--json", options->json, "print the findings as JSON");
   verb->footer("Example: towbench doctor --seconds 3");
-  verb->callback([options, &exit_code] { exit_code = execute(*options); });
+  verb->callback([options, &exit_code] { exit_code = execute_doctor(*options); });
 }
 
 }  // namespace towbench::harness

@@ -30,7 +30,7 @@
 namespace towbench::harness {
 namespace {
 
-struct Options {
+struct EmulateOptions {
   std::string experiment;
   std::string rig;
   std::string carrier;
@@ -49,12 +49,12 @@ struct Machine {
   std::uint64_t seed = 1;
 };
 
-protocol::Scheme scheme_of(const Options& options) {
+protocol::Scheme scheme_of(const EmulateOptions& options) {
   return options.stream_descriptor >= 0 ? protocol::Scheme::kLocal
                                         : carrier_address("--carrier", options.carrier).scheme;
 }
 
-Machine machine_of(const Options& options) {
+Machine machine_of(const EmulateOptions& options) {
   Machine machine;
   if (!options.rig.empty()) {
     SourceFiles sources;
@@ -91,7 +91,7 @@ struct Caller {
   protocol::Hello hello;
 };
 
-Caller wait_for_controller(const Options& options) {
+Caller wait_for_controller(const EmulateOptions& options) {
   using Clock = std::chrono::steady_clock;
   const auto deadline = Clock::now() + std::chrono::duration<double>(options.patience_s);
   const auto keep_waiting = [&] {
@@ -123,7 +123,7 @@ Caller wait_for_controller(const Options& options) {
   return caller;
 }
 
-core::Status serve_by_the_wall_clock(const Options& options, const Caller& caller,
+core::Status serve_by_the_wall_clock(const EmulateOptions& options, const Caller& caller,
                                      emulator::PlantNode& plant, const PlantWires& wires,
                                      bool& heard_is_written) {
   std::optional<MessageRecord> heard;
@@ -144,7 +144,7 @@ core::Status serve_by_the_wall_clock(const Options& options, const Caller& calle
   return ended;
 }
 
-int execute(const Options& options) {
+int execute_emulate(const EmulateOptions& options) {
   const auto machine = machine_of(options);
   UnrecordedPlant unrecorded;
   std::unique_ptr<PlantRecorder> recorder;
@@ -187,7 +187,7 @@ int execute(const Options& options) {
 }  // namespace
 
 void add_emulate(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<EmulateOptions>();
   auto* verb = app.add_subcommand("emulate", "the emulated machine as a process of its own");
   auto* experiment = verb->add_option("experiment", options->experiment,
                                       "take rig, seed and events from this experiment");
@@ -218,7 +218,7 @@ void add_emulate(CLI::App& app, int& exit_code) {
     if (options->carrier.empty() && options->stream_descriptor < 0) {
       throw CLI::RequiredError("--carrier");
     }
-    exit_code = execute(*options);
+    exit_code = execute_emulate(*options);
   });
 }
 

@@ -31,7 +31,7 @@ using procedures::ProcedureOutcome;
 
 constexpr double kSpread = 0.4;  // of drawn machines, experiments.md
 
-struct Options {
+struct IdentifyOptions {
   std::string rig;
   std::string controller;
   std::string settings;
@@ -150,7 +150,7 @@ struct Bench {
   std::filesystem::path settings;
 };
 
-Bench bench_of(const Options& options) {
+Bench bench_of(const IdentifyOptions& options) {
   const auto fixtures = fixtures_directory();
   const auto named = [&](const std::string& given, const char* folder, const char* standard) {
     return given.empty() ? fixtures / folder / standard : std::filesystem::path(given);
@@ -163,7 +163,7 @@ Bench bench_of(const Options& options) {
                                                : std::filesystem::path(options.settings)};
 }
 
-int tell_everything(const Options& options, const std::string& title,
+int tell_everything(const IdentifyOptions& options, const std::string& title,
                     const procedures::Machine& machine, const ChainResult& result,
                     const std::vector<Recovery>& recoveries) {
   const std::filesystem::path out = options.out;
@@ -185,7 +185,7 @@ int tell_everything(const Options& options, const std::string& title,
 }
 
 // Nothing is moved and no truth is near: the log is all there is.
-int execute_on_log(const Options& options, const Bench& bench) {
+int execute_on_log(const IdentifyOptions& options, const Bench& bench) {
   if (options.axis == "both") {
     throw FixtureError({.file = "--axis"}, "nothing", "y or x: whose log it is");
   }
@@ -205,7 +205,7 @@ int execute_on_log(const Options& options, const Bench& bench) {
   return tell_everything(options, "Identification from " + options.data, machine, result, {});
 }
 
-int execute_set(const Options& options, const Bench& bench) {
+int execute_set(const IdentifyOptions& options, const Bench& bench) {
   IdentificationSet set{.rig = bench.rig,
                         .controller = bench.controller,
                         .settings = bench.settings,
@@ -238,7 +238,7 @@ int execute_set(const Options& options, const Bench& bench) {
   return code;
 }
 
-int execute(const Options& options) {
+int execute_identify(const IdentifyOptions& options) {
   auto bench = bench_of(options);
   if (!options.data.empty()) {
     return execute_on_log(options, bench);
@@ -275,7 +275,7 @@ int execute(const Options& options) {
 }  // namespace
 
 void add_identify(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IdentifyOptions>();
   auto* verb = app.add_subcommand("identify", "find a machine's parameters by experiments on it");
   verb->add_option("rig", options->rig, "rig file; fixtures/rigs/tow-dry.toml if not given")
       ->check(CLI::ExistingFile);
@@ -316,7 +316,7 @@ void add_identify(CLI::App& app, int& exit_code) {
       "Writes estimates.json, identified_plant.toml, report.html. Exit: 0 all experiments done,\n"
       "1 an estimate misses the emulated machine's own value by more than its demand allows,\n"
       "2 bad arguments, 4 an experiment was refused or its data are no good.");
-  verb->callback([options, &exit_code] { exit_code = execute(*options); });
+  verb->callback([options, &exit_code] { exit_code = execute_identify(*options); });
 }
 
 }  // namespace towbench::harness

@@ -14,7 +14,7 @@
 namespace towbench::harness {
 namespace {
 
-struct Options {
+struct ListOptions {
   bool metrics = false;
   bool json = false;
 };
@@ -63,7 +63,7 @@ int list_experiments(bool json) {
 }  // namespace
 
 void add_list(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ListOptions>();
   auto* verb = app.add_subcommand("list", "list the experiments, or the metrics for budgets");
   verb->add_flag("--metrics", options->metrics, "the metrics that a [[budget]] may name");
   verb->add_flag("--json", options->json, "print JSON");

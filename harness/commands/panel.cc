@@ -16,12 +16,12 @@
 namespace towbench::harness {
 namespace {
 
-struct Options {
+struct PanelOptions {
   std::string out = "runs";
   WebOptions web;
 };
 
-int execute(const Options& options) {
+int execute_panel(const PanelOptions& options) {
   if (panel::script_asset().text.empty()) {
     throw FixtureError({.file = "panel"}, "a build without the page's script",
                        "one with TOWBENCH_REPORT_ASSETS=ON");
@@ -46,7 +46,7 @@ int execute(const Options& options) {
 }  // namespace
 
 void add_panel(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PanelOptions>();
   auto* verb = app.add_subcommand("panel", "watch and steer runs in the browser");
   verb->add_option("--out", options->out, "folder of the run folders, its own and older ones")
       ->capture_default_str();
@@ -57,7 +57,7 @@ void add_panel(CLI::App& app, int& exit_code) {
       ->check(CLI::ValidIPV4)
       ->capture_default_str();
   verb->footer("Example: towbench panel --port 8080");
-  verb->callback([options, &exit_code] { exit_code = execute(*options); });
+  verb->callback([options, &exit_code] { exit_code = execute_panel(*options); });
 }
 
 }  // namespace towbench::harness

@@ -22,7 +22,7 @@
 namespace towbench::harness {
 namespace {
 
-struct Options {
+struct ReplayOptions {
   std::string folder;
   std::string out;
   std::string carrier = "in-process";
@@ -105,7 +105,7 @@ int compare(const std::filesystem::path& recorded, const RunResult& run) {
 }
 
 // The smallest run that fails in the same way, as a run folder of its own.
-int shrink_run(const ExperimentFixture& fixture, std::uint64_t seed, const Options& options) {
+int shrink_run(const ExperimentFixture& fixture, std::uint64_t seed, const ReplayOptions& options) {
   const auto shrunk = shrink(fixture, seed);
   RunOptions run_options;
   run_options.out = options.out.empty() ? "runs" : options.out;
@@ -130,7 +130,8 @@ int shrink_run(const ExperimentFixture& fixture, std::uint64_t seed, const Optio
 }
 
 // What a run by the wall clock heard decides what it did: it is played again from that.
-int replay_inputs(const ExperimentFixture& fixture, std::uint64_t seed, const Options& options) {
+int replay_inputs(const ExperimentFixture& fixture, std::uint64_t seed,
+                  const ReplayOptions& options) {
   if (options.carrier != "in-process") {
     throw FixtureError({"command line", 0, "--carrier"}, '"' + options.carrier + '"',
                        "nothing: a run by the wall clock is replayed from what its sides heard");
@@ -145,7 +146,7 @@ int replay_inputs(const ExperimentFixture& fixture, std::uint64_t seed, const Op
   return exit_code;
 }
 
-int execute(const Options& options) {
+int execute_replay(const ReplayOptions& options) {
   const std::filesystem::path folder = options.folder;
   const auto recorded = recorded_in(folder);
   const auto fixture = load_experiment(recorded.experiment);
@@ -174,7 +175,7 @@ int execute(const Options& options) {
 }  // namespace
 
 void add_replay(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReplayOptions>();
   auto* verb = app.add_subcommand("replay", "run a folder's inputs again and compare the records");
   verb->add_option("folder", options->folder, "a complete run folder")->required();
   verb->add_option("--out", options->out, "keep the replayed run below this folder");
@@ -182,7 +183,7 @@ void add_replay(CLI::App& app, int& exit_code) {
   verb->add_flag("--shrink", options->shrink,
                  "instead: find the smallest run that breaks the same requirement, and run it");
   verb->footer("Example: towbench replay runs/20250131T120000Z-circle-1a2b3c4d");
-  verb->callback([options, &exit_code] { exit_code = execute(*options); });
+  verb->callback([options, &exit_code] { exit_code = execute_replay(*options); });
 }
 
 }  // namespace towbench::harness

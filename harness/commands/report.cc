@@ -14,7 +14,7 @@
 namespace towbench::harness {
 namespace {
 
-struct Options {
+struct ReportOptions {
   std::vector<std::string> folders;
   std::string combined;
 };
@@ -28,7 +28,7 @@ int tell(const ReportResult& written) {
   return kExitPass;
 }
 
-int execute(const Options& options) {
+int execute_report(const ReportOptions& options) {
   if (!options.combined.empty()) {
     const std::vector<std::filesystem::path> folders(options.folders.begin(),
                                                      options.folders.end());
@@ -44,12 +44,12 @@ int execute(const Options& options) {
 }  // namespace
 
 void add_report(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportOptions>();
   auto* verb = app.add_subcommand("report", "write the report of a run folder again");
   verb->add_option("folder", options->folders, "run folders")->required();
   verb->add_option("--combined", options->combined, "one page about all of them, written to FILE");
   verb->footer("Example: towbench report runs/20250131T120000Z-circle-1a2b3c4d");
-  verb->callback([options, &exit_code] { exit_code = execute(*options); });
+  verb->callback([options, &exit_code] { exit_code = execute_report(*options); });
 }
 
 }  // namespace towbench::harness

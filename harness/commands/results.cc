@@ -23,7 +23,7 @@
 namespace towbench::harness {
 namespace {
 
-struct Options {
+struct ResultsOptions {
   std::string out = "results.md";
   std::string work = "identified";
   std::uint64_t seed = 1;
@@ -61,7 +61,7 @@ void measure_tracking(const Bench& bench, Results& results) {
       tracked(bench.wet, bench.controller, {0.05, 0.15, 0.25, 0.35, 0.45, 0.55}, fast);
 }
 
-void identify_machine(const Bench& bench, const Options& options, StudyProgress& progress,
+void identify_machine(const Bench& bench, const ResultsOptions& options, StudyProgress& progress,
                       Results& results) {
   const procedures::Machine machine(bench.dry, bench.controller, options.seed, bench.watchers);
   procedures::ChainOptions chain;
@@ -101,7 +101,7 @@ procedures::TowOutcome tow_once(const procedures::TowLoads& loads,
   return outcome;
 }
 
-void tow_everything(const Bench& bench, const Options& options, StudyProgress& progress,
+void tow_everything(const Bench& bench, const ResultsOptions& options, StudyProgress& progress,
                     Results& results) {
   const auto rigs = fixtures_directory() / "rigs";
   const procedures::TowLoads loads(bench.dry, bench.controller, options.seed, rigs, bench.watchers);
@@ -140,7 +140,7 @@ int code_of(const Results& results) {
   return kExitPass;
 }
 
-int execute(const Options& options) {
+int execute_results(const ResultsOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const auto fixtures = fixtures_directory();
   SourceFiles sources;
@@ -173,7 +173,7 @@ int execute(const Options& options) {
 }  // namespace
 
 void add_results(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ResultsOptions>();
   auto* verb = app.add_subcommand("results", "the thesis's tables: thesis, bench, truth");
   verb->add_option("--out", options->out, "file to write");
   verb->add_option("--work", options->work, "folder of the identification; what is done stays");
@@ -181,7 +181,7 @@ void add_results(CLI::App& app, int& exit_code) {
   verb->footer(
       "Example: towbench results --out docs/results.md\n"
       "Exit: 0 written, 4 written, but an experiment was refused or its data are no good.");
-  verb->callback([options, &exit_code] { exit_code = execute(*options); });
+  verb->callback([options, &exit_code] { exit_code = execute_results(*options); });
 }
 
 }  // namespace towbench::harness

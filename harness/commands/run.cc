@@ -19,7 +19,7 @@
 namespace towbench::harness {
 namespace {
 
-struct Options {
+struct RunVerbOptions {
   std::vector<std::string> experiments;
   std::vector<std::string> faults;
   std::string fault_plan;
@@ -33,7 +33,7 @@ nlohmann::json result_of(const RunResult& run) {
   return result;
 }
 
-FaultPlan plan_of(const Options& options) {
+FaultPlan plan_of(const RunVerbOptions& options) {
   FaultPlan plan;
   if (!options.fault_plan.empty()) {
     plan = read_fault_plan(FixtureFile::load(options.fault_plan));
@@ -46,7 +46,7 @@ FaultPlan plan_of(const Options& options) {
   return plan;
 }
 
-int execute(const Options& options) {
+int execute_run(const RunVerbOptions& options) {
   // All fixtures first: a slip in the last file is told before the first run.
   std::vector<ExperimentFixture> fixtures;
   const auto plan = plan_of(options);
@@ -89,7 +89,7 @@ int execute(const Options& options) {
 }  // namespace
 
 void add_run(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunVerbOptions>();
   auto* verb = app.add_subcommand("run", "run experiments and judge them");
   verb->add_option("experiment", options->experiments,
                    "name of an experiment of fixtures/experiments, or a path")
@@ -102,7 +102,7 @@ void add_run(CLI::App& app, int& exit_code) {
   verb->footer(
       "Example: towbench run trapezoid-400 --carrier local --out runs\n"
       "         towbench run trapezoid-400 --fault \"encoder.y frozen phase=cruise after=0.5s\"");
-  verb->callback([options, &exit_code] { exit_code = execute(*options); });
+  verb->callback([options, &exit_code] { exit_code = execute_run(*options); });
 }
 
 }  // namespace towbench::harness

@@ -26,7 +26,7 @@ namespace {
 
 using procedures::ProcedureOutcome;
 
-struct Options {
+struct TowOptions {
   std::string rig;
   std::string controller;
   std::vector<std::string> only;
@@ -101,7 +101,7 @@ int code_of(const procedures::TowOutcome& outcome, const std::vector<Recovery>& 
   return kExitPass;
 }
 
-int execute(const Options& options) {
+int execute_tow(const TowOptions& options) {
   const auto fixtures = fixtures_directory();
   const auto named = [&](const std::string& given, const char* folder, const char* standard) {
     return given.empty() ? fixtures / folder / standard : std::filesystem::path(given);
@@ -167,7 +167,7 @@ int execute(const Options& options) {
 }  // namespace
 
 void add_tow(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TowOptions>();
   auto* verb = app.add_subcommand("tow", "the tow experiments of chapter 8, judged");
   verb->add_option("rig", options->rig, "machine; fixtures/rigs/tow-dry.toml if not given")
       ->check(CLI::ExistingFile);
@@ -186,7 +186,7 @@ void add_tow(CLI::App& app, int& exit_code) {
       "Writes estimates.json, report.html. Exit: 0 all recovered, 1 an estimate misses the\n"
       "emulated water by more than its demand allows or is too unsure, 2 bad arguments, 4 an\n"
       "experiment was refused or its data are no good.");
-  verb->callback([options, &exit_code] { exit_code = execute(*options); });
+  verb->callback([options, &exit_code] { exit_code = execute_tow(*options); });
 }
 
 }  // namespace towbench::harness

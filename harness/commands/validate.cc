@@ -35,7 +35,7 @@ void read_by_kind(const std::filesystem::path& path) {
   }
 }
 
-int execute(const std::vector<std::string>& named) {
+int execute_validate(const std::vector<std::string>& named) {
   std::vector<std::filesystem::path> paths;
   paths.reserve(named.size());
   for (const auto& name : named) {
@@ -68,7 +68,7 @@ void add_validate(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("validate", "check fixtures without running anything");
   verb->add_option("file", *files, "fixtures; all of the project's when none is named");
   verb->footer("Example: towbench validate my-plant.toml");
-  verb->callback([files, &exit_code] { exit_code = execute(*files); });
+  verb->callback([files, &exit_code] { exit_code = execute_validate(*files); });
 }
 
 }  // namespace towbench::harness

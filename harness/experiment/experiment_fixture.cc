@@ -34,7 +34,7 @@ ConsoleStep read_console_step(TableReader& reader) {
 }
 
 emulator::ScheduledEvent read_event(TableReader& reader) {
-  using Kind = emulator::ScheduledEventKind;
+  using EventKind = emulator::ScheduledEventKind;
   double at_s = 0;
   reader.value("at_s", at_s, core::between(0, kLongestRun_s), "when it happens");
   std::size_t kind = 0;
@@ -45,8 +45,8 @@ emulator::ScheduledEvent read_event(TableReader& reader) {
   reader.value("force_N", event.value, core::between(-1000, 1000), "push from then on");
   reader.require("at_s");
   reader.require("do");
-  event.kind = static_cast<Kind>(kind);
-  if (event.kind == Kind::kPushCarriage) {
+  event.kind = static_cast<EventKind>(kind);
+  if (event.kind == EventKind::kPushCarriage) {
     reader.require("axis");
     reader.require("force_N");
   } else if (reader.has("axis") || reader.has("force_N")) {

@@ -23,7 +23,7 @@ namespace {
 using core::Axis;
 using core::Nanoseconds;
 
-constexpr Nanoseconds kReaction_ns = 2 * core::kNanosecondsPerMillisecond;
+constexpr Nanoseconds kBestReaction_ns = 2 * core::kNanosecondsPerMillisecond;
 constexpr Nanoseconds kDetection_ns = 50 * core::kNanosecondsPerMillisecond;
 
 struct Contact {
@@ -85,7 +85,7 @@ DriveTaken drive_taken(const CaseEvidence& evidence) {
   DriveTaken taken;
   for (const auto& arrival : run.lines) {
     if ((arrival.lines & kKill) != 0) {
-      taken = {served_ns(evidence, arrival.served_ns) + kReaction_ns,
+      taken = {served_ns(evidence, arrival.served_ns) + kBestReaction_ns,
                "by requirement: a kill takes the drive away"};
       break;
     }
@@ -157,22 +157,23 @@ Check no_preventable_contact(const CaseEvidence& evidence) {
   // that does not run reacts when it runs again.
   const auto known_ns =
       served_ns(evidence, std::max(could_know_ns(evidence, contact), evidence.cause_ns));
-  if (known_ns == kNever || known_ns + kReaction_ns >= contact.time_ns) {
+  if (known_ns == kNever || known_ns + kBestReaction_ns >= contact.time_ns) {
     unavoidable.reason = "unavoidable: nothing told a running controller in time";
     return unavoidable;
   }
   const auto taken = drive_taken(evidence);
-  if (touches_even_so(evidence, contact, known_ns + kReaction_ns, taken.from_ns)) {
+  if (touches_even_so(evidence, contact, known_ns + kBestReaction_ns, taken.from_ns)) {
     unavoidable.reason = taken.from_ns < contact.time_ns
                              ? fmt::format("{}; full reverse until then touches too", taken.why)
                              : "unavoidable: full reverse from the first evidence on touches too";
     return unavoidable;
   }
-  auto check = failed(kName, kMeaning,
-                      fmt::format("{} touched at {:.4f} s with {:.3f} m/s; full reverse from "
-                                  "{:.4f} s on would have prevented it",
-                                  core::name_of(contact.axis), core::seconds(contact.time_ns),
-                                  contact.speed_m_per_s, core::seconds(known_ns + kReaction_ns)));
+  auto check =
+      failed(kName, kMeaning,
+             fmt::format("{} touched at {:.4f} s with {:.3f} m/s; full reverse from "
+                         "{:.4f} s on would have prevented it",
+                         core::name_of(contact.axis), core::seconds(contact.time_ns),
+                         contact.speed_m_per_s, core::seconds(known_ns + kBestReaction_ns)));
   check.value = contact.speed_m_per_s;
   check.unit = "m/s";
   return check;

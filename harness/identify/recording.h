@@ -13,13 +13,16 @@
 
 namespace towbench::harness::identify {
 
+// AxisRecording::mode while the position loop follows its reference: bbmc::AxisMode::kPosition.
+inline constexpr std::uint8_t kFollowsReference = 2;
+
 struct AxisRecording {
   std::vector<std::int64_t> count;
   std::vector<double> duty_pct;  // as written to the PWM, held until the next row
   std::vector<double> reference_m;
   std::vector<double> reference_velocity_m_per_s;
   std::vector<double> velocity_m_per_s;  // the controller's own estimate
-  std::vector<std::uint8_t> mode;        // bbmc::AxisMode by number
+  std::vector<std::uint8_t> mode;        // bbmc::AxisMode as a number
   std::vector<double> current_A;         // of the amplifier's monitor
 };
 

@@ -10,7 +10,7 @@
 namespace towbench::harness {
 namespace {
 
-std::string read_whole(const std::filesystem::path& path) {
+std::string read_table(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) {
     throw CsvError(fmt::format("{}: cannot be read", path.string()));
@@ -48,7 +48,7 @@ bool parse_row(std::string_view line, std::span<std::vector<double>* const> colu
 }  // namespace
 
 CsvTable CsvTable::load(const std::filesystem::path& path) {
-  const std::string text = read_whole(path);
+  const std::string text = read_table(path);
   CsvTable table;
   table.torn_ = text.empty() || text.back() != '\n';
   std::size_t start = text.find('\n');

@@ -8,7 +8,7 @@
 namespace towbench::harness {
 namespace {
 
-constexpr double kSameTime_s = 1e-9;
+constexpr double kSameMoment_s = 1e-9;
 
 Statistics over(std::span<const double> time_s, std::span<const double> values,
                 const TimeSpan& span) {
@@ -71,11 +71,11 @@ MetricValue edges_missed(const RunData& data, core::Axis axis, const TimeSpan& s
   std::size_t truth_row = 0;
   for (std::size_t i = 0; i < edges.size() && log_time_s[i] <= span.to_s; ++i) {
     seen += edges[i];
-    while (truth_row < sent.size() && truth_time_s[truth_row] < log_time_s[i] - kSameTime_s) {
+    while (truth_row < sent.size() && truth_time_s[truth_row] < log_time_s[i] - kSameMoment_s) {
       ++truth_row;
     }
     if (truth_row < sent.size() &&
-        std::fabs(truth_time_s[truth_row] - log_time_s[i]) <= kSameTime_s) {
+        std::fabs(truth_time_s[truth_row] - log_time_s[i]) <= kSameMoment_s) {
       missed = {sent[truth_row] - seen, missed.samples + 1};
     }
   }

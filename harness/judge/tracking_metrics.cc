@@ -7,7 +7,7 @@
 namespace towbench::harness {
 namespace {
 
-constexpr double kSameTime_s = 1e-9;
+constexpr double kSameRow_s = 1e-9;
 
 Statistics tracking_error(const RunData& data, core::Axis axis, const TimeSpan& span) {
   const auto time_s = data.log.column("time_s");
@@ -54,11 +54,11 @@ std::vector<CarriageSample> carriage_samples(const RunData& data, core::Axis axi
   std::size_t truth_row = 0;
   for (std::size_t i = 0; i < log_time_s.size(); ++i) {
     while (truth_row < truth_time_s.size() &&
-           truth_time_s[truth_row] < log_time_s[i] - kSameTime_s) {
+           truth_time_s[truth_row] < log_time_s[i] - kSameRow_s) {
       ++truth_row;
     }
     const bool matched = truth_row < truth_time_s.size() &&
-                         std::fabs(truth_time_s[truth_row] - log_time_s[i]) <= kSameTime_s;
+                         std::fabs(truth_time_s[truth_row] - log_time_s[i]) <= kSameRow_s;
     if (state[i] != kStatePosition || !matched) {
       following = following && state[i] == kStatePosition;
       continue;

@@ -8,7 +8,7 @@
 namespace towbench::harness::report {
 namespace {
 
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kEmptyCell = std::numeric_limits<double>::quiet_NaN();
 
 std::string_view trimmed(std::string_view cell) {
   while (!cell.empty() && (cell.front() == ' ' || cell.front() == '\t')) {
@@ -31,13 +31,13 @@ std::string_view take(std::string_view& rest, char separator) {
 double number_in(std::string_view cell, std::size_t& refused_cells) {
   cell = trimmed(cell);
   if (cell.empty()) {
-    return kMissing;
+    return kEmptyCell;
   }
-  double value = kMissing;
+  double value = kEmptyCell;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc{} || end != cell.data() + cell.size()) {
     ++refused_cells;
-    return kMissing;
+    return kEmptyCell;
   }
   return value;
 }

@@ -15,8 +15,8 @@
 namespace towbench::harness::report {
 namespace {
 
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-constexpr auto kFollowing = static_cast<double>(bbmc::AxisMode::kPosition);
+constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
+constexpr auto kFollowsPosition = static_cast<double>(bbmc::AxisMode::kPosition);
 
 // Rows whose time is a number above all times before it: what can be drawn over time.
 std::vector<std::size_t> rows_in_order(const std::vector<double>& time_s) {
@@ -38,7 +38,7 @@ std::vector<double> picked(const std::vector<double>& values,
   result.reserve(rows.size());
   for (const std::size_t row : rows) {
     // An infinity cannot be drawn to scale; like a missing value it leaves a gap.
-    result.push_back(std::isfinite(values[row]) ? values[row] : kMissing);
+    result.push_back(std::isfinite(values[row]) ? values[row] : kGap);
   }
   return result;
 }
@@ -54,7 +54,7 @@ std::vector<double> resampled(const std::vector<double>& time_s, const std::vect
       ++next;
     }
     if (next == time_s.size() || (next == 0 && time_s[0] > t_s)) {
-      result.push_back(kMissing);
+      result.push_back(kGap);
     } else if (time_s[next] == t_s) {
       result.push_back(values[next]);
     } else {
@@ -69,7 +69,7 @@ void blank_before(std::size_t row, core::Axis axis, PlotTable& table) {
   for (PlotColumn& column : table.columns) {
     for (const char* quantity : {"position_m", "reference_m", "carriage_m"}) {
       if (column.name == fmt::format("{}_{}", core::name_of(axis), quantity)) {
-        std::fill_n(column.values.begin(), row, kMissing);
+        std::fill_n(column.values.begin(), row, kGap);
       }
     }
   }
@@ -162,9 +162,9 @@ void add_error(PlotTable& table, core::Axis axis, std::string_view measured,
   if (reference == nullptr || actual == nullptr) {
     return;
   }
-  std::vector<double> difference(table.rows, kMissing);
+  std::vector<double> difference(table.rows, kGap);
   for (std::size_t row = 0; row < table.rows; ++row) {
-    if (state == nullptr || (*state)[row] == kFollowing) {
+    if (state == nullptr || (*state)[row] == kFollowsPosition) {
       difference[row] = (*reference)[row] - (*actual)[row];
     }
   }

@@ -7,7 +7,7 @@
 namespace towbench::protocol {
 namespace {
 
-constexpr std::uint8_t kFirst = 0x80;
+constexpr std::uint8_t kFirstFdSegment = 0x80;
 constexpr std::size_t kLengthSize = 2;
 
 }  // namespace
@@ -31,7 +31,7 @@ bool send_fd_segmented(std::span<const std::byte> payload, std::uint32_t id,
     CanFrame frame{.id = id, .is_fd = true};
     frame.size =
         static_cast<std::uint8_t>(is_last ? last_fd_segment_of(payload.size()) : kCanFdDataSize);
-    frame.data[0] = static_cast<std::uint8_t>((i == 0 ? kFirst : 0U) | (segments - 1 - i));
+    frame.data[0] = static_cast<std::uint8_t>((i == 0 ? kFirstFdSegment : 0U) | (segments - 1 - i));
     for (std::size_t j = 1; j < frame.size; ++j) {
       frame.data[j] = std::to_integer<std::uint8_t>(bytes[i * kCanFdSegmentSize + j - 1]);
     }
@@ -42,8 +42,8 @@ bool send_fd_segmented(std::span<const std::byte> payload, std::uint32_t id,
 
 std::span<const std::byte> CanFdReassembler::take(const CanFrame& frame,
                                                   LinkCounts& counts) noexcept {
-  const bool is_first = frame.size > 0 && (frame.data[0] & kFirst) != 0;
-  const std::size_t following = frame.data[0] & ~unsigned{kFirst};
+  const bool is_first = frame.size > 0 && (frame.data[0] & kFirstFdSegment) != 0;
+  const std::size_t following = frame.data[0] & ~unsigned{kFirstFdSegment};
   const bool is_next = following_ > 0 && following + 1 == following_;
   // A new message cuts the one before off; anything else that is not next has no place.
   if (is_first) {

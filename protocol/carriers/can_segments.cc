@@ -7,7 +7,7 @@
 namespace towbench::protocol {
 namespace {
 
-constexpr std::uint8_t kFirst = 0x80;
+constexpr std::uint8_t kFirstSegment = 0x80;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ bool send_segmented(std::span<const std::byte> payload, std::uint32_t id,
   const std::size_t segments = segments_of(payload.size());
   for (std::size_t i = 0; i < segments; ++i) {
     CanFrame frame{.id = id, .size = kCanDataSize};
-    frame.data[0] = static_cast<std::uint8_t>((i == 0 ? kFirst : 0U) | (segments - 1 - i));
+    frame.data[0] = static_cast<std::uint8_t>((i == 0 ? kFirstSegment : 0U) | (segments - 1 - i));
     for (std::size_t j = 0; j < kCanSegmentSize; ++j) {
       frame.data[1 + j] = std::to_integer<std::uint8_t>(bytes[i * kCanSegmentSize + j]);
     }
@@ -36,8 +36,8 @@ bool send_segmented(std::span<const std::byte> payload, std::uint32_t id,
 
 std::span<const std::byte> CanReassembler::take(const CanFrame& frame,
                                                 LinkCounts& counts) noexcept {
-  const bool is_first = frame.size > 0 && (frame.data[0] & kFirst) != 0;
-  const std::size_t following = frame.data[0] & ~unsigned{kFirst};
+  const bool is_first = frame.size > 0 && (frame.data[0] & kFirstSegment) != 0;
+  const std::size_t following = frame.data[0] & ~unsigned{kFirstSegment};
   const bool is_next = following_ > 0 && following + 1 == following_;
   // A new message cuts the one before off; anything else that is not next has no place.
   if (is_first) {

@@ -14,13 +14,13 @@
 namespace towbench::protocol {
 namespace {
 
-constexpr const char* kConsumer = "towbench encoder";
+constexpr const char* kEdgeConsumer = "towbench encoder";
 
 unsigned lines_of(bool with_index) noexcept {
   return with_index ? kEncoderChannelsAndIndex : kEncoderChannels;
 }
 
-std::string reason_of(int error) {
+std::string edge_reason(int error) {
   return std::strerror(error);  // NOLINT(concurrency-mt-unsafe): set-up has one thread
 }
 
@@ -51,7 +51,7 @@ class Chip {
 std::string trouble_with(const Chip& chip, const EdgePlace& place) {
   gpiochip_info about{};
   if (!chip.call(GPIO_GET_CHIPINFO_IOCTL, about)) {
-    return "is no GPIO chip (" + reason_of(errno) + ")";
+    return "is no GPIO chip (" + edge_reason(errno) + ")";
   }
   const unsigned count = lines_of(place.with_index);
   if (about.lines < count || about.lines - count < place.first_line) {
@@ -77,7 +77,7 @@ CarrierResult<RequestedLines> RequestedLines::request(const EdgePlace& place, Us
   };
   const Chip chip(place.chip);
   if (!chip.is_open()) {
-    return refuse("no such GPIO chip, or no right to open it (" + reason_of(errno) + ")");
+    return refuse("no such GPIO chip, or no right to open it (" + edge_reason(errno) + ")");
   }
   if (const auto trouble = trouble_with(chip, place); !trouble.empty()) {
     return refuse(trouble);
@@ -87,7 +87,7 @@ CarrierResult<RequestedLines> RequestedLines::request(const EdgePlace& place, Us
   for (unsigned i = 0; i < request.num_lines; ++i) {
     request.offsets[i] = place.first_line + i;
   }
-  std::strncpy(request.consumer, kConsumer, sizeof request.consumer - 1);
+  std::strncpy(request.consumer, kEdgeConsumer, sizeof request.consumer - 1);
   if (use == Use::kReadEdges) {
     request.config.flags =
         GPIO_V2_LINE_FLAG_INPUT | GPIO_V2_LINE_FLAG_EDGE_RISING | GPIO_V2_LINE_FLAG_EDGE_FALLING;
@@ -97,11 +97,11 @@ CarrierResult<RequestedLines> RequestedLines::request(const EdgePlace& place, Us
   }
   if (!chip.call(GPIO_V2_GET_LINE_IOCTL, request) || request.fd < 0) {
     return refuse((use == Use::kReadEdges ? "gives no edges: " : "cannot drive its lines: ") +
-                  reason_of(errno));
+                  edge_reason(errno));
   }
   if (::fcntl(request.fd, F_SETFL, O_NONBLOCK) != 0) {
     ::close(request.fd);
-    return refuse("cannot be read without waiting: " + reason_of(errno));
+    return refuse("cannot be read without waiting: " + edge_reason(errno));
   }
   return RequestedLines(request.fd);
 }

@@ -13,7 +13,7 @@
 namespace towbench::protocol {
 namespace {
 
-constexpr const char* kConsumer = "towbench";
+constexpr const char* kLineConsumer = "towbench";
 constexpr unsigned kAllLines = kInputLineCount + kOutputLineCount;
 
 core::Nanoseconds monotonic_now() noexcept {
@@ -22,7 +22,7 @@ core::Nanoseconds monotonic_now() noexcept {
   return now.tv_sec * core::kNanosecondsPerSecond + now.tv_nsec;
 }
 
-std::string reason_of(int error) {
+std::string line_reason(int error) {
   return std::strerror(error);  // NOLINT(concurrency-mt-unsafe): set-up has one thread
 }
 
@@ -66,12 +66,12 @@ class GpioLines::Chip {
       return trouble;
     }
     const std::array<int, kInputLineCount> inactive{};
-    if (::gpiod_line_request_bulk_output(&driven_, kConsumer, inactive.data()) != 0) {
-      return "cannot drive its lines: " + reason_of(errno);
+    if (::gpiod_line_request_bulk_output(&driven_, kLineConsumer, inactive.data()) != 0) {
+      return "cannot drive its lines: " + line_reason(errno);
     }
     drives_ = true;
-    if (::gpiod_line_request_bulk_both_edges_events(&heard_, kConsumer) != 0) {
-      return "gives no edge events: " + reason_of(errno);
+    if (::gpiod_line_request_bulk_both_edges_events(&heard_, kLineConsumer) != 0) {
+      return "gives no edge events: " + line_reason(errno);
     }
     return {};
   }
@@ -137,7 +137,7 @@ class GpioLines::Chip {
       const unsigned number = first_line + group.first + i;
       gpiod_line* line = ::gpiod_chip_get_line(chip_, number);
       if (line == nullptr) {
-        return "line " + std::to_string(number) + ": " + reason_of(errno);
+        return "line " + std::to_string(number) + ": " + line_reason(errno);
       }
       if (::gpiod_line_is_used(line)) {
         const char* holder = ::gpiod_line_consumer(line);
@@ -166,7 +166,7 @@ CarrierResult<std::unique_ptr<GpioLines>> GpioLines::open(const GpioPlace& place
   };
   gpiod_chip* opened = ::gpiod_chip_open_lookup(place.chip.c_str());
   if (opened == nullptr) {
-    return refuse("no such GPIO chip, or no right to open it (" + reason_of(errno) + ")");
+    return refuse("no such GPIO chip, or no right to open it (" + line_reason(errno) + ")");
   }
   auto chip = std::make_unique<Chip>(opened);
   if (const auto trouble = chip->take(place, side); !trouble.empty()) {

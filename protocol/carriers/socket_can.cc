@@ -30,7 +30,7 @@ using core::ErrorCode;
 
 constexpr std::size_t kBatch = 64;
 
-ErrorCode code_of(int error) noexcept {
+ErrorCode can_error(int error) noexcept {
   return error == ENETDOWN || error == ENODEV || error == ENXIO ? ErrorCode::kPeerClosed
                                                                 : ErrorCode::kTransportFailed;
 }
@@ -189,7 +189,7 @@ core::Status SocketCan::send(std::span<const CanFrame> frames) noexcept {
       continue;
     }
     if (errno != ENOBUFS && errno != EAGAIN) {
-      return core::failure(code_of(errno));
+      return core::failure(can_error(errno));
     }
     // The interface's queue is full. The socket stays writable meanwhile, so there is nothing to
     // wait on but time.
@@ -232,7 +232,7 @@ core::Result<std::size_t> SocketCan::receive(std::span<CanFrame> into,
       ::recvmmsg(descriptor_, batch.messages.data(), static_cast<unsigned>(room), flags, nullptr);
   if (came < 0) {
     const bool nothing = errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR;
-    return nothing ? core::Result<std::size_t>(0U) : core::failure(code_of(errno));
+    return nothing ? core::Result<std::size_t>(0U) : core::failure(can_error(errno));
   }
   std::uint32_t dropped = last_dropped_;
   std::size_t size = 0;
@@ -249,7 +249,8 @@ core::Result<std::size_t> SocketCan::receive(std::span<CanFrame> into,
       CanFrame& ours = into[size++];
       ours.id = frame.can_id & CAN_SFF_MASK;
       ours.is_fd = batch.messages[i].msg_len != CAN_MTU;
-      ours.size = std::min<std::uint8_t>(frame.len, ours.is_fd ? kCanFdDataSize : kCanDataSize);
+      const std::size_t largest = ours.is_fd ? kCanFdDataSize : kCanDataSize;
+      ours.size = static_cast<std::uint8_t>(std::min<std::size_t>(frame.len, largest));
       ours.data = {};
       std::copy_n(frame.data, ours.size, ours.data.begin());
     }

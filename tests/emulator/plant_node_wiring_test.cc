@@ -8,7 +8,7 @@ namespace {
 using core::Axis;
 using protocol::InputLine;
 
-constexpr core::Nanoseconds kMs = core::kNanosecondsPerMillisecond;
+constexpr core::Nanoseconds kMillisecond = core::kNanosecondsPerMillisecond;
 
 ScheduledEvent rewire(core::Nanoseconds time_ns, InputLine line, WireCondition condition) {
   return {.time_ns = time_ns,
@@ -20,13 +20,14 @@ ScheduledEvent rewire(core::Nanoseconds time_ns, InputLine line, WireCondition c
 TEST(PlantNodeWiring, AKillSwitchWithABrokenWireIsNotSeenButStillCutsInHardware) {
   RigParameters rig = rig_starting_at(1.0, 0.3);
   rig.kill_switch.cuts_amplifiers = true;
-  ScriptedController c(rig, {rewire(0, InputLine::kKillSwitch, WireCondition::kStuckLow),
-                             {.time_ns = 5 * kMs, .kind = ScheduledEventKind::kPressKillSwitch}});
+  ScriptedController c(
+      rig, {rewire(0, InputLine::kKillSwitch, WireCondition::kStuckLow),
+            {.time_ns = 5 * kMillisecond, .kind = ScheduledEventKind::kPressKillSwitch}});
   c.greet();
   c.enable();
   c.drive(Axis::kY, 300);
   c.peer.forget();
-  c.run_for(20 * kMs);
+  c.run_for(20 * kMillisecond);
   EXPECT_TRUE(c.peer.all<protocol::DigitalInputs>().empty());
   EXPECT_EQ(c.peer.truth.back().axes[Axis::kY].current_A, 0.0);
 }
@@ -37,7 +38,7 @@ TEST(PlantNodeWiring, AShortedHallLineIsActiveAtThatNanosecondAndGoesBackWhenMen
                         rewire(7'000'000, InputLine::kHallXMax, WireCondition::kIntact)});
   c.greet();
   c.peer.forget();
-  c.run_for(20 * kMs);
+  c.run_for(20 * kMillisecond);
   const auto inputs = c.peer.all<protocol::DigitalInputs>();
   ASSERT_EQ(inputs.size(), 2U);
   EXPECT_EQ(inputs[0].change_ns, 1'500'001);
@@ -47,13 +48,14 @@ TEST(PlantNodeWiring, AShortedHallLineIsActiveAtThatNanosecondAndGoesBackWhenMen
 }
 
 TEST(PlantNodeWiring, AnInvertedLineReportsEachChangeTheOtherWayRound) {
-  ScriptedController c(rig_starting_at(1.0, 0.3),
-                       {rewire(1 * kMs, InputLine::kKillSwitch, WireCondition::kInverted),
-                        {.time_ns = 2 * kMs, .kind = ScheduledEventKind::kPressKillSwitch},
-                        {.time_ns = 3 * kMs, .kind = ScheduledEventKind::kReleaseKillSwitch}});
+  ScriptedController c(
+      rig_starting_at(1.0, 0.3),
+      {rewire(1 * kMillisecond, InputLine::kKillSwitch, WireCondition::kInverted),
+       {.time_ns = 2 * kMillisecond, .kind = ScheduledEventKind::kPressKillSwitch},
+       {.time_ns = 3 * kMillisecond, .kind = ScheduledEventKind::kReleaseKillSwitch}});
   c.greet();
   c.peer.forget();
-  c.run_for(5 * kMs);
+  c.run_for(5 * kMillisecond);
   const auto inputs = c.peer.all<protocol::DigitalInputs>();
   ASSERT_EQ(inputs.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -62,7 +64,7 @@ TEST(PlantNodeWiring, AnInvertedLineReportsEachChangeTheOtherWayRound) {
 }
 
 TEST(PlantNodeWiring, ADeadEncoderWireLeavesTheTrueCountAndTheEdgesSentApart) {
-  ScriptedController c(rig_starting_at(1.0, 0.3), {{.time_ns = 50 * kMs,
+  ScriptedController c(rig_starting_at(1.0, 0.3), {{.time_ns = 50 * kMillisecond,
                                                     .kind = ScheduledEventKind::kRewireEncoder,
                                                     .axis = Axis::kY,
                                                     .encoder_line = protocol::EncoderLine::kA,
@@ -70,7 +72,7 @@ TEST(PlantNodeWiring, ADeadEncoderWireLeavesTheTrueCountAndTheEdgesSentApart) {
   c.greet();
   c.enable();
   c.drive(Axis::kY, 300);
-  c.run_for(200 * kMs);
+  c.run_for(200 * kMillisecond);
   std::int64_t sent = 0;
   for (const auto& m : c.peer.all<EdgeInterval>()) {
     for (const protocol::EncoderEdge edge : m.edges) {

@@ -12,14 +12,14 @@
 namespace towbench::protocol {
 namespace {
 
-std::span<const std::byte> bytes_of(std::string_view text) {
+std::span<const std::byte> text_bytes(std::string_view text) {
   return std::as_bytes(std::span(text.data(), text.size()));
 }
 
 // The check value of CRC-32/ISCSI in the catalogue of parametrised CRC algorithms.
 TEST(Crc, MatchesTheCatalogueCheckValue) {
-  EXPECT_EQ(crc32c(bytes_of("123456789")), 0xe3069283U);
-  EXPECT_EQ(crc32c_by_table(bytes_of("123456789")), 0xe3069283U);
+  EXPECT_EQ(crc32c(text_bytes("123456789")), 0xe3069283U);
+  EXPECT_EQ(crc32c_by_table(text_bytes("123456789")), 0xe3069283U);
   EXPECT_EQ(crc32c({}), 0U);
 }
 

@@ -45,7 +45,7 @@ class LocalSocketTest : public testing::Test {
   std::filesystem::path path_;
 };
 
-std::span<const std::byte> bytes_of(std::string_view text) {
+std::span<const std::byte> sent_bytes(std::string_view text) {
   return std::as_bytes(std::span(text.data(), text.size()));
 }
 
@@ -71,9 +71,9 @@ TEST_F(LocalSocketTest, CarriesBytesBothWays) {
   ASSERT_TRUE(client.has_value());
   auto end = server->accept(kSoon_ns);
   ASSERT_TRUE(end.has_value());
-  ASSERT_TRUE((*client)->write(bytes_of("duty")).has_value());
+  ASSERT_TRUE((*client)->write(sent_bytes("duty")).has_value());
   EXPECT_EQ(read_text(**end), "duty");
-  ASSERT_TRUE((*end)->write(bytes_of("edges")).has_value());
+  ASSERT_TRUE((*end)->write(sent_bytes("edges")).has_value());
   EXPECT_EQ(read_text(**client), "edges");
 }
 
@@ -177,7 +177,7 @@ TEST_F(LocalSocketTest, ReadsNothingInTimeAndAtOnceWithoutATimeout) {
 
 TEST_F(LocalSocketTest, DeliversWhatWasSentBeforeTheEndAndThenTheEnd) {
   auto ends = LocalSocket::pair();
-  ASSERT_TRUE(ends->second->write(bytes_of("last")).has_value());
+  ASSERT_TRUE(ends->second->write(sent_bytes("last")).has_value());
   ends->second.reset();
   EXPECT_EQ(read_text(*ends->first), "last");
   EXPECT_EQ(read_error(*ends->first), ErrorCode::kPeerClosed);
@@ -186,7 +186,7 @@ TEST_F(LocalSocketTest, DeliversWhatWasSentBeforeTheEndAndThenTheEnd) {
 TEST_F(LocalSocketTest, WritingToAPeerThatHasGoneIsAnErrorAndNotASignal) {
   auto ends = LocalSocket::pair();
   ends->second.reset();
-  const auto status = ends->first->write(bytes_of("x"));
+  const auto status = ends->first->write(sent_bytes("x"));
   ASSERT_FALSE(status.has_value());
   EXPECT_EQ(status.error(), ErrorCode::kPeerClosed);
 }
@@ -221,7 +221,7 @@ TEST_F(LocalSocketTest, TakesOverAnInheritedDescriptor) {
   auto mine = LocalSocket::adopt(ends[0]);
   auto theirs = LocalSocket::adopt(ends[1]);
   ASSERT_TRUE(mine.has_value() && theirs.has_value());
-  ASSERT_TRUE((*mine)->write(bytes_of("hello")).has_value());
+  ASSERT_TRUE((*mine)->write(sent_bytes("hello")).has_value());
   EXPECT_EQ(read_text(**theirs), "hello");
   EXPECT_FALSE(LocalSocket::adopt(-1).has_value());
 }

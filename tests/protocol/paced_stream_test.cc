@@ -8,7 +8,7 @@
 namespace towbench::protocol {
 namespace {
 
-class FakeClock final : public WireClock {
+class StreamClock final : public WireClock {
  public:
   core::Nanoseconds now_ns() noexcept override { return time_ns; }
   void wait_until(core::Nanoseconds until_ns) noexcept override {
@@ -20,7 +20,7 @@ class FakeClock final : public WireClock {
 // Hands over bursts at the times they are due; waiting for one moves the clock.
 class BurstyLine final : public ByteStream {
  public:
-  explicit BurstyLine(FakeClock& clock) : clock_(clock) {}
+  explicit BurstyLine(StreamClock& clock) : clock_(clock) {}
   core::Status write(std::span<const std::byte> /*bytes*/) noexcept override { return {}; }
   core::Result<std::size_t> read_some(std::span<std::byte> into,
                                       core::Nanoseconds timeout_ns) noexcept override {
@@ -48,7 +48,7 @@ class BurstyLine final : public ByteStream {
   std::deque<Burst> bursts;
 
  private:
-  FakeClock& clock_;
+  StreamClock& clock_;
 };
 
 TEST(WirePacer, KeepsTheRateExactOverAnyLength) {
@@ -68,7 +68,7 @@ TEST(WirePacer, StartsAfreshAfterAnIdleTime) {
 }
 
 TEST(PacedStream, SpreadsABurstOverItsWireTime) {
-  FakeClock clock;
+  StreamClock clock;
   BurstyLine line(clock);
   line.bursts = {{1'000, 3}, {2'000'000, 1}};
   PacedStream stream(line, clock, 1'000'000, 10);
@@ -83,7 +83,7 @@ TEST(PacedStream, SpreadsABurstOverItsWireTime) {
 }
 
 TEST(PacedStream, DeliversNothingBeforeItsTimeAndKeepsToTheTimeout) {
-  FakeClock clock;
+  StreamClock clock;
   BurstyLine line(clock);
   line.bursts = {{0, 1}, {core::kNanosecondsPerSecond, 1}};
   PacedStream stream(line, clock, 1'000, 10);  // 10 ms a byte
@@ -97,7 +97,7 @@ TEST(PacedStream, DeliversNothingBeforeItsTimeAndKeepsToTheTimeout) {
 }
 
 TEST(PacedStream, TheEndComesAfterTheBytesThatAreUnderWay) {
-  FakeClock clock;
+  StreamClock clock;
   BurstyLine line(clock);
   line.bursts = {{0, 20'000}};  // more than the stream holds at once
   PacedStream stream(line, clock, 1'000'000, 10);

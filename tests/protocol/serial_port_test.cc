@@ -19,7 +19,7 @@ using core::ErrorCode;
 using core::kNanosecondsPerMillisecond;
 
 constexpr std::uint32_t kBaud = 921'600;
-constexpr core::Nanoseconds kSoon_ns = 5 * core::kNanosecondsPerSecond;
+constexpr core::Nanoseconds kPortSoon_ns = 5 * core::kNanosecondsPerSecond;
 
 std::unique_ptr<SerialPort> open(const std::filesystem::path& path, std::uint32_t baud = kBaud) {
   auto port = SerialPort::open(path, baud);
@@ -143,7 +143,7 @@ TEST(SerialPort, NoticesThatItWasUnpluggedAndOpensAgainWhenItIsBack) {
     const auto port = open(link);
     EXPECT_EQ(port->read_some(bytes, 0).value(), 0U);
     pty.unplug();
-    EXPECT_EQ(port->read_some(bytes, kSoon_ns).error(), ErrorCode::kPeerClosed);
+    EXPECT_EQ(port->read_some(bytes, kPortSoon_ns).error(), ErrorCode::kPeerClosed);
     EXPECT_EQ(port->write(bytes).error(), ErrorCode::kPeerClosed);
   }
   EXPECT_NE(refusal(link), "") << "still away";
@@ -154,7 +154,7 @@ TEST(SerialPort, NoticesThatItWasUnpluggedAndOpensAgainWhenItIsBack) {
     const auto port = open(link);
     FarEnd end(pty);
     ASSERT_TRUE(end.write(bytes).has_value());
-    EXPECT_EQ(port->read_some(bytes, kSoon_ns).value(), bytes.size());
+    EXPECT_EQ(port->read_some(bytes, kPortSoon_ns).value(), bytes.size());
   }
   std::filesystem::remove(link);
 }

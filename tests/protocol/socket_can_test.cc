@@ -23,7 +23,7 @@ namespace {
 
 using core::ErrorCode;
 
-constexpr core::Nanoseconds kShort_ns = 50 * core::kNanosecondsPerMillisecond;
+constexpr core::Nanoseconds kCanShort_ns = 50 * core::kNanosecondsPerMillisecond;
 
 // Another node, with frames that we would never send.
 class RawNode {
@@ -72,7 +72,7 @@ class SocketCanTest : public testing::Test {
   }
   std::vector<CanFrame> received(SocketCan& port) const {
     std::array<CanFrame, 64> frames;
-    const auto size = port.receive(frames, kShort_ns);
+    const auto size = port.receive(frames, kCanShort_ns);
     return size ? std::vector<CanFrame>(frames.begin(),
                                         frames.begin() + static_cast<std::ptrdiff_t>(*size))
                 : std::vector<CanFrame>{};
@@ -143,7 +143,7 @@ TEST_F(SocketCanTest, BusOffEndsTheSocketAfterWhatCameBeforeIt) {
   bus.send(CAN_ERR_FLAG | CAN_ERR_BUSOFF);
   EXPECT_EQ(received(*near_).size(), 1U);
   std::array<CanFrame, 4> frames;
-  EXPECT_EQ(near_->receive(frames, kShort_ns).error(), ErrorCode::kTransportFailed);
+  EXPECT_EQ(near_->receive(frames, kCanShort_ns).error(), ErrorCode::kTransportFailed);
   EXPECT_EQ(near_->send(frames).error(), ErrorCode::kTransportFailed);
   // The interface has restarted; a new run opens it anew.
   bus.send(CAN_ERR_FLAG | CAN_ERR_RESTARTED);
@@ -164,7 +164,7 @@ TEST_F(SocketCanTest, AnInterfaceThatGoesDownIsAClosedPeer) {
   };
   ASSERT_TRUE(down(false));
   std::array<CanFrame, 1> frames;
-  EXPECT_EQ(near_->receive(frames, kShort_ns).error(), ErrorCode::kPeerClosed);
+  EXPECT_EQ(near_->receive(frames, kCanShort_ns).error(), ErrorCode::kPeerClosed);
   EXPECT_EQ(near_->send(frames).error(), ErrorCode::kPeerClosed);
   const auto refused = SocketCan::open("vcan0", CanDirection::kToPlant);
   ASSERT_TRUE(down(true));

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-double limited(double value, double limit) {
+double limited_to(double value, double limit) {
   return std::clamp(value, -limit, limit);
 }
 
@@ -35,8 +35,9 @@ AxisOracle::Margins AxisOracle::margins(const State& y) const {
       m[1] = p_.current_limit_A + y[0];
       break;
     case Drive::kCurrentHeld:
-      m[0] = drive_sign_ *
-             (limited(p_.amplifier.voltage_gain_V_per_V * in_.command_V, limit_V_) - terminal_V(y));
+      m[0] =
+          drive_sign_ *
+          (limited_to(p_.amplifier.voltage_gain_V_per_V * in_.command_V, limit_V_) - terminal_V(y));
       break;
     case Drive::kDiodes:
       m[0] = drive_sign_ * y[0];
@@ -150,7 +151,7 @@ void AxisOracle::settle_rest() {
 void AxisOracle::begin(const Input& input) {
   in_ = input;
   limit_V_ = p_.amplifier.output_limit_ratio * in_.supply_V;
-  set_point_A_ = limited(p_.amplifier_gain_A_per_V * in_.command_V, p_.current_limit_A);
+  set_point_A_ = limited_to(p_.amplifier_gain_A_per_V * in_.command_V, p_.current_limit_A);
   const bool was_off = drive_ == Drive::kOpen || drive_ == Drive::kDiodes;
   if (!in_.enabled) {
     if (!was_off) {

@@ -28,7 +28,7 @@ constexpr OptionSpec target(std::string_view name, CountsOf axis) noexcept {
           .meaning = "position"};
 }
 
-enum Option : std::size_t { kY, kX, kGotoFast };
+enum GotoOption : std::size_t { kY, kX, kGotoFast };
 constexpr std::array kGotoOptions{target("Y", CountsOf::kY), target("X", CountsOf::kX), kFast};
 
 enum HomeOption : std::size_t { kHomeFast };

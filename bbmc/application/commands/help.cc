@@ -9,8 +9,8 @@ namespace {
 
 using core::ErrorCode;
 
-enum Option : std::size_t { kTopic };
-constexpr std::array<OptionSpec, 1> kOptions{{
+enum HelpOption : std::size_t { kTopic };
+constexpr std::array<OptionSpec, 1> kHelpOptions{{
     {.name = "COMMAND",
      .kind = OptionKind::kChoice,
      .presence = Presence::kOptional,
@@ -20,7 +20,7 @@ constexpr std::array<OptionSpec, 1> kOptions{{
 }};
 
 std::string_view chosen(std::size_t index) noexcept {
-  std::string_view rest = kOptions[kTopic].choices;
+  std::string_view rest = kHelpOptions[kTopic].choices;
   for (; index > 0; --index) {
     rest.remove_prefix(rest.find('|') + 1);
   }
@@ -37,7 +37,7 @@ ErrorCode help(CommandContext& context, const Arguments& arguments) {
 
 const CommandSpec& help_command() noexcept {
   static constexpr CommandSpec kCommand{
-      .word = "help", .options = kOptions, .handler = help, .meaning = "lists the commands"};
+      .word = "help", .options = kHelpOptions, .handler = help, .meaning = "lists the commands"};
   return kCommand;
 }
 

@@ -13,7 +13,7 @@ namespace {
 using core::Axis;
 using core::ErrorCode;
 
-enum PointOption : std::size_t { kY, kX };
+enum PointOption : std::size_t { kPointY, kPointX };
 
 constexpr OptionSpec coordinate(std::string_view name, CountsOf axis) noexcept {
   return {.name = name,
@@ -26,7 +26,8 @@ constexpr OptionSpec coordinate(std::string_view name, CountsOf axis) noexcept {
 constexpr std::array kPointOptions{coordinate("Y", CountsOf::kY), coordinate("X", CountsOf::kX)};
 
 ErrorCode add(CommandContext& context, const Arguments& arguments) {
-  if (!context.settings.way_points.push_back({{arguments.number(kY), arguments.number(kX)}})) {
+  if (!context.settings.way_points.push_back(
+          {{arguments.number(kPointY), arguments.number(kPointX)}})) {
     context.why.text("the path has ").integer(kMaxWayPoints).text(" points, which is all it holds");
     return ErrorCode::kRequestOutOfRange;
   }

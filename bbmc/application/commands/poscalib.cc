@@ -7,6 +7,7 @@
 
 namespace towbench::bbmc {
 namespace {
+namespace poscalib {
 
 using core::ErrorCode;
 
@@ -59,13 +60,14 @@ ErrorCode run(CommandContext& context, const Arguments& arguments) {
   return ErrorCode::kNone;
 }
 
+}  // namespace poscalib
 }  // namespace
 
 const CommandSpec& poscalib_command() noexcept {
   static constexpr CommandSpec kCommand{
       .word = "poscalib",
-      .options = kOptions,
-      .handler = run,
+      .options = poscalib::kOptions,
+      .handler = poscalib::run,
       .meaning = "finds out where the axes stand, by the switches"};
   return kCommand;
 }

@@ -6,6 +6,7 @@
 
 namespace towbench::bbmc {
 namespace {
+namespace rmpi_break_away {
 
 using core::ErrorCode;
 
@@ -73,13 +74,14 @@ ErrorCode run(CommandContext& context, const Arguments& arguments) {
   return drive(context, axis, *program, stop_speed_count_per_s);
 }
 
+}  // namespace rmpi_break_away
 }  // namespace
 
 const CommandSpec& rmpi_break_away_command() noexcept {
   static constexpr CommandSpec kCommand{.word = "rmpi",
                                         .sub = "break",
-                                        .options = kOptions,
-                                        .handler = run,
+                                        .options = rmpi_break_away::kOptions,
+                                        .handler = rmpi_break_away::run,
                                         .meaning = "raises the duty until the axis moves"};
   return kCommand;
 }

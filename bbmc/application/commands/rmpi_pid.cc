@@ -6,6 +6,7 @@
 
 namespace towbench::bbmc {
 namespace {
+namespace rmpi_pid {
 
 using core::ErrorCode;
 
@@ -54,13 +55,14 @@ ErrorCode run(CommandContext& context, const Arguments& arguments) {
   return ErrorCode::kNone;
 }
 
+}  // namespace rmpi_pid
 }  // namespace
 
 const CommandSpec& rmpi_pid_command() noexcept {
   static constexpr CommandSpec kCommand{.word = "rmpi",
                                         .sub = "pid",
-                                        .options = kOptions,
-                                        .handler = run,
+                                        .options = rmpi_pid::kOptions,
+                                        .handler = rmpi_pid::run,
                                         .meaning = "finds PID gains by letting the axis oscillate"};
   return kCommand;
 }

@@ -7,6 +7,7 @@
 
 namespace towbench::bbmc {
 namespace {
+namespace rmpi_pulses {
 
 using core::ErrorCode;
 
@@ -112,13 +113,14 @@ ErrorCode run(CommandContext& context, const Arguments& arguments) {
   return drive(context, arguments.axis(kDof), DutyProgram(*program, arguments.number(kRest)));
 }
 
+}  // namespace rmpi_pulses
 }  // namespace
 
 const CommandSpec& rmpi_pulses_command() noexcept {
   static constexpr CommandSpec kCommand{.word = "rmpi",
                                         .sub = "si",
-                                        .options = kOptions,
-                                        .handler = run,
+                                        .options = rmpi_pulses::kOptions,
+                                        .handler = rmpi_pulses::run,
                                         .meaning = "square-wave pulses in open loop"};
   return kCommand;
 }

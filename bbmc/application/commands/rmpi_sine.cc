@@ -5,6 +5,7 @@
 
 namespace towbench::bbmc {
 namespace {
+namespace rmpi_sine {
 
 using core::ErrorCode;
 
@@ -46,13 +47,14 @@ ErrorCode run(CommandContext& context, const Arguments& arguments) {
   return drive(context, arguments.axis(kDof), DutyProgram(*program, arguments.number(kRest)));
 }
 
+}  // namespace rmpi_sine
 }  // namespace
 
 const CommandSpec& rmpi_sine_command() noexcept {
   static constexpr CommandSpec kCommand{.word = "rmpi",
                                         .sub = "sine",
-                                        .options = kOptions,
-                                        .handler = run,
+                                        .options = rmpi_sine::kOptions,
+                                        .handler = rmpi_sine::run,
                                         .meaning = "sine of duty in open loop"};
   return kCommand;
 }

@@ -7,6 +7,7 @@
 
 namespace towbench::bbmc {
 namespace {
+namespace run_sinusoid {
 
 using core::ErrorCode;
 
@@ -95,13 +96,14 @@ ErrorCode run_sinusoid(CommandContext& context, const Arguments& arguments) {
   return apply_gains(context, arguments, kGains, axis);
 }
 
+}  // namespace run_sinusoid
 }  // namespace
 
 const CommandSpec& run_sinusoid_command() noexcept {
   static constexpr CommandSpec kCommand{.word = "run",
                                         .sub = "-sinus",
-                                        .options = kOptions,
-                                        .handler = run_sinusoid,
+                                        .options = run_sinusoid::kOptions,
+                                        .handler = run_sinusoid::run_sinusoid,
                                         .meaning = "sinusoid on one axis"};
   return kCommand;
 }

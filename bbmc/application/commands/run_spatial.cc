@@ -8,6 +8,7 @@
 
 namespace towbench::bbmc {
 namespace {
+namespace run_spatial {
 
 using core::ErrorCode;
 
@@ -85,13 +86,14 @@ ErrorCode run_spatial(CommandContext& context, const Arguments& arguments) {
   return ErrorCode::kNone;
 }
 
+}  // namespace run_spatial
 }  // namespace
 
 const CommandSpec& run_spatial_command() noexcept {
   static constexpr CommandSpec kCommand{.word = "run",
                                         .sub = "-spatial",
-                                        .options = kOptions,
-                                        .handler = run_spatial,
+                                        .options = run_spatial::kOptions,
+                                        .handler = run_spatial::run_spatial,
                                         .meaning = "sinusoid in space: y goes, x swings"};
   return kCommand;
 }

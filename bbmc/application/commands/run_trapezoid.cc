@@ -7,6 +7,7 @@
 
 namespace towbench::bbmc {
 namespace {
+namespace run_trapezoid {
 
 using core::ErrorCode;
 
@@ -111,14 +112,15 @@ ErrorCode run_trapezoid(CommandContext& context, const Arguments& arguments) {
   return apply_gains(context, arguments, kGains, axis);
 }
 
+}  // namespace run_trapezoid
 }  // namespace
 
 const CommandSpec& run_trapezoid_command() noexcept {
   static constexpr CommandSpec kCommand{.word = "run",
                                         .sub = "-trapez",
                                         .is_default = true,
-                                        .options = kOptions,
-                                        .handler = run_trapezoid,
+                                        .options = run_trapezoid::kOptions,
+                                        .handler = run_trapezoid::run_trapezoid,
                                         .meaning = "trapezoidal speed profile on one axis"};
   return kCommand;
 }

@@ -25,11 +25,11 @@ ErrorCode test_gpio(CommandContext& context, const Arguments& /*arguments*/) {
   return ErrorCode::kNone;
 }
 
-enum QeiOption : std::size_t { kDof };
+enum QeiOption : std::size_t { kQeiDof };
 constexpr std::array<OptionSpec, 1> kQeiOptions{{kDofRequired}};
 
 ErrorCode test_qei(CommandContext& context, const Arguments& arguments) {
-  const core::Axis axis = arguments.axis(kDof);
+  const core::Axis axis = arguments.axis(kQeiDof);
   Eqep::Reading reading;
   if (const core::Status read = context.devices.encoder(axis).read(reading); !read) {
     context.why.text("eqep ").text(core::name_of(axis));
@@ -47,7 +47,7 @@ ErrorCode test_qei(CommandContext& context, const Arguments& arguments) {
 }
 
 ErrorCode test_pwm(CommandContext& context, const Arguments& arguments) {
-  const core::Axis axis = arguments.axis(kDof);
+  const core::Axis axis = arguments.axis(kQeiDof);
   Ehrpwm::Reading reading;
   if (const core::Status read = context.devices.pwm(axis).read(reading); !read) {
     context.why.text("ehrpwm ").text(core::name_of(axis));

@@ -17,7 +17,7 @@ constexpr bool is_digit(char c) noexcept {
   return c >= '0' && c <= '9';
 }
 
-constexpr double power_of_ten(int exponent) noexcept {
+constexpr double exact_power_of_ten(int exponent) noexcept {
   double power = 1.0;
   for (int i = 0; i < exponent; ++i) {
     power *= 10.0;
@@ -75,10 +75,10 @@ struct Scanner {
 double scaled(std::uint64_t mantissa, int exponent) noexcept {
   auto value = static_cast<double>(mantissa);
   for (; exponent > 0; exponent -= std::min(exponent, kExactExponent)) {
-    value *= power_of_ten(std::min(exponent, kExactExponent));
+    value *= exact_power_of_ten(std::min(exponent, kExactExponent));
   }
   for (; exponent < 0; exponent += std::min(-exponent, kExactExponent)) {
-    value /= power_of_ten(std::min(-exponent, kExactExponent));
+    value /= exact_power_of_ten(std::min(-exponent, kExactExponent));
   }
   return value;
 }

@@ -17,7 +17,7 @@ constexpr char kEscape = 0x1b;
 constexpr char kDelete = 0x7f;
 constexpr std::string_view kBell = "\a";
 
-constexpr bool is_printable(char c) noexcept {
+constexpr bool is_kept(char c) noexcept {
   return c >= ' ' && c <= '~';
 }
 
@@ -40,7 +40,7 @@ LineEditor::Event LineEditor::feed(char byte, TextWriter& screen) noexcept {
     feed_escape(byte, screen);
     return Event::kNone;
   }
-  if (is_printable(byte)) {
+  if (is_kept(byte)) {
     insert(byte, screen);
     return Event::kNone;
   }

@@ -10,8 +10,7 @@ namespace {
 
 using core::Axis;
 
-constexpr std::uint8_t kFollowsReference = 2;  // bbmc::AxisMode::kPosition
-constexpr double kAtSpeed = 0.98;              // of the path's highest speed
+constexpr double kAtSpeed = 0.98;  // of the path's highest speed
 
 struct Row {
   core::PerAxis<double> velocity{};

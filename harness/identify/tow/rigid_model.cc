@@ -30,7 +30,6 @@ std::vector<SteadyForce> steady_forces(const Recording& tow, core::Axis axis, do
 // Over the ramps, with friction held.
 double mass_from_ramps(std::span<const Recording> tows, core::Axis axis, double scale,
                        const RigidModel& model) {
-  constexpr std::uint8_t kFollowsReference = 2;
   double forces = 0;
   double squares = 0;
   for (const auto& tow : tows) {

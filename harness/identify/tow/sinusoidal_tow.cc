@@ -8,8 +8,6 @@
 namespace towbench::harness::identify {
 namespace {
 
-constexpr std::uint8_t kFollowsReference = 2;  // bbmc::AxisMode::kPosition
-
 std::size_t first_moving(const Recording& run, core::Axis axis) {
   const auto& log = run.axes[axis];
   std::size_t row = 1;

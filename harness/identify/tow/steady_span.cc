@@ -5,7 +5,6 @@
 namespace towbench::harness::identify {
 namespace {
 
-constexpr std::uint8_t kFollowsReference = 2;  // bbmc::AxisMode::kPosition
 constexpr double kShortest_s = 0.3;
 // Far below what a ramp changes in a row, far above rounding.
 constexpr double kSameSpeed = 1e-6;

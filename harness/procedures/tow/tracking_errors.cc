@@ -7,7 +7,6 @@ namespace towbench::harness::procedures {
 
 TrackingErrors tracking_errors(const identify::Recording& run, core::Axis axis, std::size_t first,
                                std::size_t last) {
-  constexpr std::uint8_t kFollowsReference = 2;  // bbmc::AxisMode::kPosition
   const auto& log = run.axes[axis];
   TrackingErrors errors;
   for (std::size_t i = first; i < last; ++i) {

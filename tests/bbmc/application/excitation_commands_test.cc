@@ -16,7 +16,7 @@ using ::testing::StartsWith;
 
 constexpr std::string_view kOk = "ok\r\n";
 
-double count_of(Session& session, core::Axis axis) {
+double excited_count(Session& session, core::Axis axis) {
   return static_cast<double>(session.status().axes[axis].count);
 }
 
@@ -32,7 +32,7 @@ TEST(Rmpi, PulsesMoveTheAxisAndTheLogShowsTheirDutyAndNoOther) {
     on += duty_pct < -1 ? 1 : 0;
   }
   EXPECT_NEAR(on, 600, 3);
-  EXPECT_LT(count_of(session, core::Axis::kY), 600'000);
+  EXPECT_LT(excited_count(session, core::Axis::kY), 600'000);
 }
 
 TEST(Rmpi, EveryOtherExcitationRunsToItsEnd) {

@@ -13,21 +13,21 @@ using ::testing::HasSubstr;
 using testing::Session;
 using ::testing::StartsWith;
 
-constexpr std::string_view kOk = "ok\r\n";
+constexpr std::string_view kMotionOk = "ok\r\n";
 
-double count_of(Session& session, core::Axis axis) {
+double commanded_count(Session& session, core::Axis axis) {
   return static_cast<double>(session.status().axes[axis].count);
 }
 
 TEST(Run, ATrapezoidGoesItsDistanceAndSaysDone) {
   Session session;
   session.calibrate();
-  const double before = count_of(session, core::Axis::kY);
+  const double before = commanded_count(session, core::Axis::kY);
   const std::string reply =
       session.enter("run -trapez y --speed 0.3m/s --distance 50cm --wait 100ms");
   EXPECT_THAT(reply, AllOf(StartsWith("moving for 2.07s\r\n"), EndsWith("done\r\nok\r\n")));
-  EXPECT_NEAR(count_of(session, core::Axis::kY) - before, 0.5 * 445'345, 500);
-  EXPECT_NEAR(count_of(session, core::Axis::kX), 250'000, 50);
+  EXPECT_NEAR(commanded_count(session, core::Axis::kY) - before, 0.5 * 445'345, 500);
+  EXPECT_NEAR(commanded_count(session, core::Axis::kX), 250'000, 50);
 }
 
 TEST(Run, TheShortestFormsMeanWhatTheyMeantInBbmc05) {
@@ -43,8 +43,8 @@ TEST(Run, ACircleComesBackToWhereItBegan) {
   session.calibrate();
   const std::string reply = session.enter("run -circle --radius 5cm --period 4s --turns 1");
   EXPECT_THAT(reply, AllOf(StartsWith("moving for 5.50s\r\n"), EndsWith("done\r\nok\r\n")));
-  EXPECT_NEAR(count_of(session, core::Axis::kY), 600'000, 500);
-  EXPECT_NEAR(count_of(session, core::Axis::kX), 250'000, 500);
+  EXPECT_NEAR(commanded_count(session, core::Axis::kY), 600'000, 500);
+  EXPECT_NEAR(commanded_count(session, core::Axis::kX), 250'000, 500);
   // On its way it was there: both rows of the log reach across the circle.
   double farthest = 0;
   for (const DataLogRow& row : session.system().data_log().rows()) {
@@ -73,8 +73,8 @@ TEST(Run, ASpatialSinusoidEndsOnBothAxesAtOnce) {
   session.calibrate();
   EXPECT_THAT(session.enter("run -spatial --distance 40cm --speed 0.1 --amplitude 2cm --waves 3"),
               AllOf(StartsWith("moving for 5.00s"), EndsWith("done\r\nok\r\n")));
-  EXPECT_NEAR(count_of(session, core::Axis::kY) - 600'000, 0.4 * 445'345, 500);
-  EXPECT_NEAR(count_of(session, core::Axis::kX), 250'000, 500);
+  EXPECT_NEAR(commanded_count(session, core::Axis::kY) - 600'000, 0.4 * 445'345, 500);
+  EXPECT_NEAR(commanded_count(session, core::Axis::kX), 250'000, 500);
   int crossings = 0;
   double before = 0;
   for (const DataLogRow& row : session.system().data_log().rows()) {
@@ -91,13 +91,13 @@ TEST(Path, RunsStraightThroughItsPointsAndRestsInEach) {
   Session session;
   session.calibrate();
   EXPECT_THAT(session.enter("run -path"), StartsWith("error 203: "));
-  EXPECT_EQ(session.enter("path add 640000 250000"), kOk);
-  EXPECT_EQ(session.enter("path add 620000 280000"), kOk);
-  EXPECT_EQ(session.enter("path add 1.4m 0.35m"), kOk);
+  EXPECT_EQ(session.enter("path add 640000 250000"), kMotionOk);
+  EXPECT_EQ(session.enter("path add 620000 280000"), kMotionOk);
+  EXPECT_EQ(session.enter("path add 1.4m 0.35m"), kMotionOk);
   EXPECT_THAT(session.enter("path print"), HasSubstr("3 points"));
   EXPECT_THAT(session.enter("run -path --speed 0.1m/s --dwell 0.2s"), EndsWith("done\r\nok\r\n"));
-  EXPECT_NEAR(count_of(session, core::Axis::kY), 1.4 * 445'345, 200);
-  EXPECT_NEAR(count_of(session, core::Axis::kX), 0.35 * 742'241, 200);
+  EXPECT_NEAR(commanded_count(session, core::Axis::kY), 1.4 * 445'345, 200);
+  EXPECT_NEAR(commanded_count(session, core::Axis::kX), 0.35 * 742'241, 200);
   // On the second line both axes are at the same share of it: x against y is a straight line.
   for (const DataLogRow& row : session.system().data_log().rows()) {
     const double y = row.axes[core::Axis::kY].reference_count;
@@ -109,9 +109,9 @@ TEST(Path, RunsStraightThroughItsPointsAndRestsInEach) {
       ASSERT_NEAR((x - 250'000) / 30'000, (640'000 - y) / 20'000, 1e-6);
     }
   }
-  EXPECT_EQ(session.enter("path clear"), kOk);
+  EXPECT_EQ(session.enter("path clear"), kMotionOk);
   for (std::size_t i = 0; i < kMaxWayPoints; ++i) {
-    EXPECT_EQ(session.enter("path add 600000 250000"), kOk);
+    EXPECT_EQ(session.enter("path add 600000 250000"), kMotionOk);
   }
   EXPECT_THAT(session.enter("path add 600000 250000"), StartsWith("error 202: "));
 }
@@ -136,15 +136,15 @@ TEST(Run, ARefusedAnswerEndsTheCommandAndChangesNothing) {
   EXPECT_EQ(session.system().configuration().axes[core::Axis::kY].gains, before);
   EXPECT_TRUE(session.system().at_rest());
   EXPECT_EQ(session.status().motions_ended, 0);
-  EXPECT_EQ(session.enter("perf reset"), kOk);
+  EXPECT_EQ(session.enter("perf reset"), kMotionOk);
 }
 
 TEST(Goto, GoesToBothPlacesInCountsOrMetres) {
   Session session;
   session.calibrate();
   EXPECT_THAT(session.enter("goto 640000 240000 -f"), EndsWith("done\r\nok\r\n"));
-  EXPECT_NEAR(count_of(session, core::Axis::kY), 640'000, 1);
-  EXPECT_NEAR(count_of(session, core::Axis::kX), 240'000, 1);
+  EXPECT_NEAR(commanded_count(session, core::Axis::kY), 640'000, 1);
+  EXPECT_NEAR(commanded_count(session, core::Axis::kX), 240'000, 1);
   EXPECT_THAT(session.enter("goto 1.40m 0.33m"), EndsWith("done\r\nok\r\n"));
   EXPECT_NEAR(session.status().axes[core::Axis::kY].position_m, 1.40, 5e-6);
   EXPECT_NEAR(session.status().axes[core::Axis::kX].position_m, 0.33, 5e-6);

@@ -15,7 +15,7 @@ using ::testing::Not;
 using testing::Session;
 using ::testing::StartsWith;
 
-constexpr std::string_view kOk = "ok\r\n";
+constexpr std::string_view kServiceOk = "ok\r\n";
 
 TEST(Reset, TheKillSwitchLatchesUntilItIsReleasedAndReset) {
   Session session;
@@ -30,14 +30,14 @@ TEST(Reset, TheKillSwitchLatchesUntilItIsReleasedAndReset) {
   session.machine().set_line(Line::kKillSwitch, false);
   session.run(0.1);
   EXPECT_THAT(session.enter("run"), AllOf(StartsWith("error 204: "), HasSubstr("fault 300")));
-  EXPECT_EQ(session.enter("reset"), kOk);
+  EXPECT_EQ(session.enter("reset"), kServiceOk);
   EXPECT_THAT(session.enter("reset"), HasSubstr("no fault is latched"));
 }
 
 TEST(Quit, IsRequestedOnce) {
   Session session;
   EXPECT_FALSE(session.application().quit_requested());
-  EXPECT_EQ(session.enter("quit"), kOk);
+  EXPECT_EQ(session.enter("quit"), kServiceOk);
   EXPECT_TRUE(session.application().quit_requested());
 }
 

@@ -50,7 +50,7 @@ void print_speeds() {
   }
 }
 
-void print_circle() {
+void print_circle_of_each_law() {
   fmt::print(
       "\n| circle, r = 0.20 m, T = 7 s | Y, motor | X, motor | carriage across the path | its RMS "
       "|\n| --- | ---: | ---: | ---: | ---: |\n");
@@ -66,7 +66,7 @@ void print_circle() {
 
 void print_results() {
   print_speeds();
-  print_circle();
+  print_circle_of_each_law();
 }
 
 }  // namespace towbench::tests

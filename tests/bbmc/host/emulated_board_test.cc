@@ -95,7 +95,7 @@ TEST_F(EmulatedBoardTest, ReportsAMissingChangeOfLines) {
 }
 
 TEST_F(EmulatedBoardTest, SendsEachWrittenDutyOnceWithAscendingNumbers) {
-  struct Plant final : protocol::MessageSink {
+  struct DutyRecorder final : protocol::MessageSink {
     using MessageSink::on;
     void on(const protocol::PwmDuty& duty) noexcept override { duties.push_back(duty); }
     std::vector<protocol::PwmDuty> duties;

@@ -33,11 +33,11 @@ bbmc::AxisConfiguration nominal_y() {
   return bbmc::Configuration().axes[core::Axis::kY];
 }
 
-class Axis {
+class BrakedAxis {
  public:
   // `built` as it is, whatever the controller was told.
-  Axis(double speed_m_per_s, double carriage_m_per_s,
-       const bbmc::AxisConfiguration& built = nominal_y())
+  BrakedAxis(double speed_m_per_s, double carriage_m_per_s,
+             const bbmc::AxisConfiguration& built = nominal_y())
       : settings_(nominal_y()),
         speed_rad_per_s_(speed_m_per_s / settings_.m_per_rad()),
         limit_Nm_(settings_.drive.torque_limit_Nm()),
@@ -106,8 +106,8 @@ class Axis {
 };
 
 // A carriage that is 0.28 m/s faster than its motor, nearly one swing later.
-Axis swinging_axis() {
-  Axis axis(0.5, 0.28);
+BrakedAxis swinging_axis() {
+  BrakedAxis axis(0.5, 0.28);
   const double swing_ms = 1e3 / axis.settings().braking.held_motor_chain_Hz;
   axis.cruise(static_cast<int>(swing_ms) - 20);
   return axis;
@@ -126,9 +126,9 @@ TEST(EndAhead, WhereTheRoomIsShortTheMotorTurnsBack) {
   constexpr double kSpeed_m_per_s = 0.057;
   constexpr double kLate_s = 4e-3;
   const double left_m = kYMinRoom_m - kLate_s * kSpeed_m_per_s;
-  Axis told(kSpeed_m_per_s, 0, built);
+  BrakedAxis told(kSpeed_m_per_s, 0, built);
   told.cruise(300);
-  Axis untold(kSpeed_m_per_s, 0, built);
+  BrakedAxis untold(kSpeed_m_per_s, 0, built);
   untold.cruise(300);
   const double with_m = told.stop(true, 1, kYMinRoom_m).furthest_m;
   const double without_m = untold.stop(false).furthest_m;
@@ -138,16 +138,16 @@ TEST(EndAhead, WhereTheRoomIsShortTheMotorTurnsBack) {
 
 TEST(EndAhead, ChangesNothingWhereTheWayIsLongEnough) {
   for (const double speed_m_per_s : {0.05, 0.2, 0.5}) {
-    Axis told(speed_m_per_s, 0);
+    BrakedAxis told(speed_m_per_s, 0);
     told.cruise(300);
-    Axis untold(speed_m_per_s, 0);
+    BrakedAxis untold(speed_m_per_s, 0);
     untold.cruise(300);
     EXPECT_EQ(told.stop(true).torques_Nm, untold.stop(false).torques_Nm) << speed_m_per_s;
   }
 }
 
 TEST(ThrownMotor, IsNoDriveThatPushes) {
-  Axis axis(0.2, 0);
+  BrakedAxis axis(0.2, 0);
   axis.cruise(300);
   axis.skip(-0.024);
   const Stop stop = axis.stop(true);
@@ -157,7 +157,7 @@ TEST(ThrownMotor, IsNoDriveThatPushes) {
 
 TEST(ThrownMotor, ADriveThatPushesIsGivenUp) {
   for (const double speed_m_per_s : {0.1, 0.3}) {
-    Axis axis(speed_m_per_s, 0);
+    BrakedAxis axis(speed_m_per_s, 0);
     axis.cruise(300);
     const Stop stop = axis.stop(true, -1);
     ASSERT_TRUE(stop.gave_up_ms);

@@ -21,20 +21,20 @@ namespace {
 using bbmc::BrakeState;
 using core::kNanosecondsPerMillisecond;
 
-struct Stop {
+struct LateStop {
   double furthest_m = 0;       // of the carriage, from where the brake begins
   double fastest_m_per_s = 0;  // of the motor, later than 0.3 s
 };
 
 // Cruise for 0.2 s, then brake for 0.6 s with a speed that is `delay_ms` old; `told_ms` is what the
 // brake is told of that.
-Stop stop(core::Axis axis, double speed_m_per_s, int delay_ms, int told_ms) {
+LateStop stop(core::Axis axis, double speed_m_per_s, int delay_ms, int told_ms) {
   const bbmc::AxisConfiguration settings = bbmc::Configuration().axes[axis];
   bbmc::Brake brake(settings);
   bbmc::DeadReckoning reckoning(settings);
   TwoBodies bodies(settings, speed_m_per_s);
   std::deque<double> told(static_cast<std::size_t>(delay_ms) + 1, bodies.rotor_rad_per_s());
-  Stop result;
+  LateStop result;
   double torque_Nm = bodies.friction_Nm();
   double begun_rad = 0;
   for (int ms = 1; ms <= 800; ++ms) {
@@ -70,9 +70,9 @@ class LateBraking : public ::testing::TestWithParam<core::Axis> {};
 
 TEST_P(LateBraking, StopsWhereAPromptSpeedWouldAndComesToRest) {
   for (const double speed_m_per_s : {0.05, 0.2, 0.5}) {
-    const Stop prompt = stop(GetParam(), speed_m_per_s, 0, 0);
+    const LateStop prompt = stop(GetParam(), speed_m_per_s, 0, 0);
     for (const int delay_ms : {4, 8, 16}) {
-      const Stop late = stop(GetParam(), speed_m_per_s, delay_ms, delay_ms);
+      const LateStop late = stop(GetParam(), speed_m_per_s, delay_ms, delay_ms);
       EXPECT_GT(late.furthest_m, 0.5 * prompt.furthest_m)
           << speed_m_per_s << " m/s " << delay_ms << " ms";
       EXPECT_LT(late.furthest_m, 1.05 * prompt.furthest_m)

@@ -47,7 +47,7 @@ enum Term : std::size_t {
 };
 using Powers = std::array<double, kTermCount>;
 
-struct Balance {
+struct MechanicalBalance {
   std::array<double, kTermCount> work_J{};
   double stored_J = 0;
   [[nodiscard]] double residual_J() const {
@@ -75,10 +75,10 @@ Powers powers_of(const AxisParameters& axis, const Constants& c, const AxisState
           c.damping * slip * slip};
 }
 
-Balance balance_over(const AxisParameters& axis, double tick_s) {
+MechanicalBalance mechanical_balance(const AxisParameters& axis, double tick_s) {
   const Constants c = constants_of(axis);
   Bench bench(axis, 2.0, tick_s);
-  Balance balance;
+  MechanicalBalance balance;
   const double at_start_J = stored_J(axis, c, bench.plant.state());
   const int ticks = static_cast<int>(std::lround(3.0 / tick_s));
   for (int k = 0; k < ticks; ++k) {
@@ -107,8 +107,8 @@ Balance balance_over(const AxisParameters& axis, double tick_s) {
 
 TEST(Energy, ClosesToAMillionthAndTheResidualFallsWithTheSquareOfTheTick) {
   const AxisParameters axis = nominal_y();
-  const Balance coarse = balance_over(axis, 2e-5);
-  const Balance fine = balance_over(axis, 1e-5);
+  const MechanicalBalance coarse = mechanical_balance(axis, 2e-5);
+  const MechanicalBalance fine = mechanical_balance(axis, 1e-5);
   const double turnover_J = fine.work_J[kCopper] + fine.work_J[kMotorFriction] +
                             fine.work_J[kCarriageFriction] + fine.work_J[kChainDamping];
   RecordProperty("turnover_J", std::to_string(turnover_J));
@@ -120,7 +120,7 @@ TEST(Energy, ClosesToAMillionthAndTheResidualFallsWithTheSquareOfTheTick) {
 }
 
 TEST(Energy, EveryDissipativeTermOnlyTakes) {
-  const Balance b = balance_over(nominal_y(), 1e-5);
+  const MechanicalBalance b = mechanical_balance(nominal_y(), 1e-5);
   for (const Term term : {kCopper, kMotorFriction, kCarriageFriction, kChainDamping}) {
     EXPECT_GT(b.work_J[term], 0.0) << term;
   }

@@ -12,7 +12,7 @@ namespace {
 
 using core::Axis;
 
-PlaneVector plane(double x, double y) {
+PlaneVector in_plane(double x, double y) {
   PlaneVector v;
   v[Axis::kX] = x;
   v[Axis::kY] = y;
@@ -22,7 +22,7 @@ PlaneVector plane(double x, double y) {
 PlaneVector random_velocity(core::Random& random) {
   const double speed = 0.6 * random.uniform();
   const double direction = 2.0 * std::numbers::pi * random.uniform();
-  return plane(speed * std::cos(direction), speed * std::sin(direction));
+  return in_plane(speed * std::cos(direction), speed * std::sin(direction));
 }
 
 constexpr WaterBodyParameters kCylinder{
@@ -45,7 +45,7 @@ TEST(BodyDrag, BrakesARoundBodyExactlyAgainstItsMotion) {
 TEST(BodyDrag, IsTheSameForARoundBodyAtAnyYaw) {
   WaterBodyParameters turned = kCylinder;
   turned.yaw_deg = 37.0;
-  const PlaneVector v = plane(0.2, -0.4);
+  const PlaneVector v = in_plane(0.2, -0.4);
   for (const Axis axis : core::kAxes) {
     EXPECT_NEAR(BodyDrag(kCylinder)(v)[axis], BodyDrag(turned)(v)[axis], 1e-15);
   }
@@ -64,7 +64,7 @@ TEST(BodyDrag, TurnsWithBodyAndMotionTurnedTogether) {
     const double c = std::cos(turn_deg * std::numbers::pi / 180.0);
     const double s = std::sin(turn_deg * std::numbers::pi / 180.0);
     const auto rotated = [&](const PlaneVector& v) {
-      return plane(c * v[Axis::kX] - s * v[Axis::kY], s * v[Axis::kX] + c * v[Axis::kY]);
+      return in_plane(c * v[Axis::kX] - s * v[Axis::kY], s * v[Axis::kX] + c * v[Axis::kY]);
     };
     const PlaneVector v = random_velocity(random);
     const PlaneVector expected = rotated(BodyDrag(body)(v));
@@ -83,7 +83,7 @@ TEST(BodyDrag, OfAnElongatedBodyAtAnAngleIsTheSumOfAlongAndAcross) {
                              .quadratic_drag_N_s2_per_m2 = 2.0,
                              .across_drag_ratio = kRatio,
                              .yaw_deg = static_cast<double>(beta_deg)};
-    const PlaneVector force = BodyDrag(body)(plane(0.0, kSpeed));
+    const PlaneVector force = BodyDrag(body)(in_plane(0.0, kSpeed));
     const double beta = beta_deg * std::numbers::pi / 180.0;
     const double along = std::cos(beta) * std::cos(beta) + kRatio * std::sin(beta) * std::sin(beta);
     EXPECT_NEAR(force[Axis::kY], -2.0 * kSpeed * kSpeed * along, 1e-14) << beta_deg;
@@ -112,8 +112,8 @@ TEST(BodyDrag, IsNoneOutOfTheWaterAndNoneAtRest) {
   WaterBodyParameters dry = kCylinder;
   dry.in_water = false;
   for (const Axis axis : core::kAxes) {
-    EXPECT_EQ(BodyDrag(dry)(plane(0.3, 0.5))[axis], 0.0);
-    EXPECT_EQ(BodyDrag(kCylinder)(plane(0.0, 0.0))[axis], 0.0);
+    EXPECT_EQ(BodyDrag(dry)(in_plane(0.3, 0.5))[axis], 0.0);
+    EXPECT_EQ(BodyDrag(kCylinder)(in_plane(0.0, 0.0))[axis], 0.0);
   }
 }
 

@@ -119,7 +119,7 @@ Diagnosis with_input(double scale, Eigen::Index shift) {
     run.input_N.tail(n - shift) = run.input_N.head(n - shift).eval();
   }
   request.runs = {run};
-  return diagnose(request);
+  return harness::diagnose::diagnose(request);
 }
 
 // A bench's log begins before its counter is preset.

@@ -16,18 +16,18 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
-constexpr double kTurn = 6.283185307179586;
+constexpr double kOneTurn = 6.283185307179586;
 constexpr double kMotor_kg = 2;
 constexpr double kLoad_kg = 6;
 constexpr double kHeld_Hz = 4;
 constexpr double kViscous_N_s_per_m = 5;
-constexpr double kAmplitude_m = 0.02;
+constexpr double kSwing_m = 0.02;
 constexpr Index kFrom = 1500;
-constexpr Index kRows = 3000;
+constexpr Index kSamples = 3000;
 
 NominalModel swinging() {
   NominalModel m;
-  const double w = kTurn * kHeld_Hz;
+  const double w = kOneTurn * kHeld_Hz;
   m.mass_kg = kMotor_kg + kLoad_kg;
   m.viscous_N_s_per_m = kViscous_N_s_per_m;
   m.chain = {.motor_kg = kMotor_kg,
@@ -45,7 +45,7 @@ struct Response {
 };
 
 Response response_at(const NominalModel& m, double frequency_Hz) {
-  const Complex p(0, kTurn * frequency_Hz);
+  const Complex p(0, kOneTurn * frequency_Hz);
   const Complex chain = m.chain.stiffness_N_per_m + m.chain.damping_N_s_per_m * p;
   const Complex resists = kLoad_kg * p * p + kViscous_N_s_per_m * p;
   return {chain * resists / (chain + resists), chain / (chain + resists)};
@@ -54,27 +54,27 @@ Response response_at(const NominalModel& m, double frequency_Hz) {
 VectorXd wave(Complex amplitude, double frequency_Hz) {
   VectorXd out(6000);
   for (Index i = 0; i < out.size(); ++i) {
-    out[i] =
-        (amplitude * std::polar(1.0, kTurn * frequency_Hz * 1e-3 * static_cast<double>(i))).real();
+    out[i] = (amplitude * std::polar(1.0, kOneTurn * frequency_Hz * 1e-3 * static_cast<double>(i)))
+                 .real();
   }
   return out;
 }
 
 // A motor that is moved as a sine, and the force that this takes; `extra_N` more on the motor.
 Signals moved_at(const NominalModel& m, double frequency_Hz, double extra_N = 0) {
-  const Complex p(0, kTurn * frequency_Hz);
+  const Complex p(0, kOneTurn * frequency_Hz);
   Run run;
   run.period_s = 1e-3;
-  run.position_m = wave(kAmplitude_m, frequency_Hz);
+  run.position_m = wave(kSwing_m, frequency_Hz);
   run.input_N =
-      wave(kAmplitude_m * (kMotor_kg * p * p + response_at(m, frequency_Hz).chain_N) + extra_N,
+      wave(kSwing_m * (kMotor_kg * p * p + response_at(m, frequency_Hz).chain_N) + extra_N,
            frequency_Hz);
   run.missing.assign(6000, 0);
   return make_signals(run, {.cutoff_Hz = 14, .smoothing_Hz = 35}, stated_baseline(m));
 }
 
 VectorXd middle(const VectorXd& x) {
-  return x.segment(kFrom, kRows);
+  return x.segment(kFrom, kSamples);
 }
 
 double worst(const VectorXd& x) {
@@ -90,7 +90,7 @@ class ElasticAxis : public testing::TestWithParam<double> {};
 TEST_P(ElasticAxis, SeesTheLoadWhereTheClosedFormHasIt) {
   const NominalModel m = swinging();
   const Signals s = moved_at(m, GetParam());
-  const VectorXd truth = wave(kAmplitude_m * response_at(m, GetParam()).load, GetParam());
+  const VectorXd truth = wave(kSwing_m * response_at(m, GetParam()).load, GetParam());
   EXPECT_LT(worst(s.load->motion.position_m - truth), 0.01 * worst(truth));
 }
 
@@ -130,7 +130,7 @@ TEST_P(ElasticAxis, HasAForceOnTheMotorInTheLoadsLawAsItsColumnSays) {
   const VectorXd left = left_of(m, pushed) - left_of(m, alone);
   const VectorXd sure =
       (pushed.load->known.array() == 1 && alone.load->known.array() == 1).cast<double>();
-  const Complex p(0, kTurn * GetParam());
+  const Complex p(0, kOneTurn * GetParam());
   const Complex chain = m.chain.stiffness_N_per_m + m.chain.damping_N_s_per_m * p;
   const Complex law = 1.0 + (kLoad_kg * p * p + kViscous_N_s_per_m * p) / chain;
   // Far above the mode the load hardly goes, and which way is not known.

@@ -106,7 +106,7 @@ Diagnosis diagnose_emps() {
   request.model.input_is_held = false;  // the published baseline has no hold
   request.runs = {emps_run("DATA_EMPS.csv")};
   request.holdout = {emps_run("DATA_EMPS_PULSES.csv")};
-  return diagnose(request);
+  return harness::diagnose::diagnose(request);
 }
 
 bool names(const Cause& cause, const std::set<std::string>& wanted) {

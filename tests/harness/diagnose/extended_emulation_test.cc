@@ -23,14 +23,14 @@ using namespace harness;
 namespace fs = std::filesystem;
 
 constexpr const char* kPlant = "fixtures/plants/macs-nominal.toml";
-constexpr const char* kExercise = "fixtures/diagnosis/exercise-y.toml";
+constexpr const char* kMotion = "fixtures/diagnosis/exercise-y.toml";
 
 // The exercise without its slow motions: there the load sticks and slips, and where in a cycle it
 // is hangs on its whole past, so that no two machines can be set beside each other.
 // `first_m`: how far its first motion goes.
 fs::path brisk_exercise(const fs::path& folder, const char* name, const char* first_m = "0.9m") {
   constexpr double kSlidesThroughout_m_per_s = 0.1;
-  ExperimentFixture fixture = load_experiment(kExercise);
+  ExperimentFixture fixture = load_experiment(kMotion);
   std::erase_if(fixture.experiment.console, [](const ConsoleStep& step) {
     const auto at = step.send.find("--speed ");
     return at != std::string::npos &&

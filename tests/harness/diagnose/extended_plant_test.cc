@@ -16,11 +16,11 @@ namespace {
 using namespace harness;
 using namespace harness::diagnose;
 
-constexpr const char* kPlant = "fixtures/plants/macs-nominal.toml";
+constexpr const char* kMacsPlant = "fixtures/plants/macs-nominal.toml";
 
 class ExtendedPlantFile : public testing::Test {
  protected:
-  ExtendedPlantFile() : plant_(load_plant_model(kPlant, "y")) {
+  ExtendedPlantFile() : plant_(load_plant_model(kMacsPlant, "y")) {
     d_.context.model = plant_.model;
     d_.context.stroke_min_m = 1;
     d_.context.stroke_max_m = 2;

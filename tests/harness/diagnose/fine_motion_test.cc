@@ -16,7 +16,7 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr Index kRows = 12'000;
+constexpr Index kLongRows = 12'000;
 constexpr double kPeriod_s = 1e-3;
 constexpr double kStep_m = 5e-6;
 constexpr double kMass_kg = 8;
@@ -25,7 +25,7 @@ constexpr double kCoulomb_N = 1.5;
 
 // Slow to and fro with a fast part on it, too small for the encoder to follow its acceleration.
 struct ClosedForm {
-  ArrayXd t_s = ArrayXd::LinSpaced(kRows, 0, (kRows - 1) * kPeriod_s);
+  ArrayXd t_s = ArrayXd::LinSpaced(kLongRows, 0, (kLongRows - 1) * kPeriod_s);
   ArrayXd position_m = part(0, 0.2, 0.4) + part(0, 2e-6, 31);
   ArrayXd speed_m_per_s = part(1, 0.2, 0.4) + part(1, 2e-6, 31);
   ArrayXd acceleration_m_per_s2 = part(2, 0.2, 0.4) + part(2, 2e-6, 31);
@@ -54,23 +54,23 @@ std::vector<Run> logged(const ClosedForm& truth) {
   run.position_m = ((truth.position_m / kStep_m).floor() + 0.5) * kStep_m;
   run.input_N = kMass_kg * truth.acceleration_m_per_s2 + kViscous_N_s_per_m * truth.speed_m_per_s +
                 kCoulomb_N * truth.speed_m_per_s.sign();
-  run.missing.assign(static_cast<std::size_t>(kRows), 0);
+  run.missing.assign(static_cast<std::size_t>(kLongRows), 0);
   return {run};
 }
 
-bool everywhere(Index /*row*/, Index /*rows*/) {
+bool at_every_row(Index /*row*/, Index /*rows*/) {
   return true;
 }
 
 Dataset dataset_of(const std::vector<Run>& runs) {
   return make_dataset(runs, choose_conditioning(runs, model()), stated_baseline(model()),
-                      everywhere);
+                      at_every_row);
 }
 
 // Away from the ends, where filters begin.
 double rms_off(const VectorXd& found, const ArrayXd& truth) {
-  const Index border = kRows / 10;
-  return std::sqrt((found.array() - truth).segment(border, kRows - 2 * border).square().mean());
+  const Index border = kLongRows / 10;
+  return std::sqrt((found.array() - truth).segment(border, kLongRows - 2 * border).square().mean());
 }
 
 TEST(FineMotion, HasLessOfTheEncodersStepsThanTheMeasuredOne) {

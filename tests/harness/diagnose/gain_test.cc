@@ -13,12 +13,12 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr Index kRows = 1200;
-const std::vector<Index> kOneRun{0, kRows};
+constexpr Index kGainRows = 1200;
+const std::vector<Index> kOneRun{0, kGainRows};
 
 VectorXd noise(core::Random& random) {
-  VectorXd out(kRows);
-  for (Index i = 0; i < kRows; ++i) {
+  VectorXd out(kGainRows);
+  for (Index i = 0; i < kGainRows; ++i) {
     out[i] = random.gaussian();
   }
   return out;
@@ -26,7 +26,7 @@ VectorXd noise(core::Random& random) {
 
 // As a clip does: three peaks, six standard deviations high.
 VectorXd three_peaks() {
-  VectorXd force = VectorXd::Zero(kRows);
+  VectorXd force = VectorXd::Zero(kGainRows);
   for (const Index from : {100, 550, 1000}) {
     force.segment(from, 8).setConstant(6);
   }
@@ -43,8 +43,8 @@ TEST(GainOnThisMotion, IsCertainThoughAnotherMotionMightHaveHadNoPeaks) {
 
 // Half of what is taken was there: as much is lost as gained, and a bound above zero is wrong.
 TEST(GainOnThisMotion, IsWrongOnceInTwoHundredTimes) {
-  VectorXd taken(kRows);
-  for (Index i = 0; i < kRows; ++i) {
+  VectorXd taken(kGainRows);
+  for (Index i = 0; i < kGainRows; ++i) {
     taken[i] = 0.3 * std::sin(0.05 * static_cast<double>(i));
   }
   core::Random random(2);

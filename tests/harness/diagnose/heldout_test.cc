@@ -12,7 +12,7 @@ namespace {
 
 using namespace harness::diagnose;
 
-bool everywhere(Eigen::Index /*row*/, Eigen::Index /*rows*/) {
+bool on_all_rows(Eigen::Index /*row*/, Eigen::Index /*rows*/) {
   return true;
 }
 
@@ -37,9 +37,9 @@ Gains gains_of_memory() {
   const Run other = run_of(axis, make_hidden_log(axis, 2));
   const Conditioning conditioning;
   const Dataset fit =
-      make_dataset({first}, conditioning, stated_baseline(nominal_of(axis)), everywhere);
+      make_dataset({first}, conditioning, stated_baseline(nominal_of(axis)), on_all_rows);
   const Dataset unseen =
-      make_dataset({other}, conditioning, stated_baseline(nominal_of(axis)), everywhere);
+      make_dataset({other}, conditioning, stated_baseline(nominal_of(axis)), on_all_rows);
   const Context context = make_context(nominal_of(axis), fit);
   const auto terms = memorising_terms();
   const FittedModel plain{{}, weigh(fit, context, {}, {}, 0, 1).coefficients};
@@ -61,7 +61,7 @@ TEST(HeldOut, AnUnchangedResidualGainsNothing) {
   HiddenAxis axis;
   axis.duration_s = 10;
   const Dataset data = make_dataset({run_of(axis, make_hidden_log(axis, 1))}, {},
-                                    stated_baseline(nominal_of(axis)), everywhere);
+                                    stated_baseline(nominal_of(axis)), on_all_rows);
   const Context context = make_context(nominal_of(axis), data);
   const HeldOut judge(data, context, kSameSession);
   const Eigen::VectorXd r = judge.residual({{}, weigh(data, context, {}, {}, 0, 1).coefficients});

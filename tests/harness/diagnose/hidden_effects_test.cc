@@ -12,16 +12,16 @@
 namespace towbench::tests {
 namespace {
 
-bool holds(const std::vector<std::string>& names, const std::string& name) {
+bool is_among(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 void expect_named_alone(const HiddenAxis& axis) {
   const auto all = named(diagnose_hidden(axis, 1));
   EXPECT_TRUE(std::any_of(all.begin(), all.end(),
-                          [&](const auto& names) { return holds(names, axis.effect); }));
+                          [&](const auto& names) { return is_among(names, axis.effect); }));
   for (const auto& names : all) {
-    EXPECT_TRUE(holds(names, axis.effect)) << "named beside it: " << names.front();
+    EXPECT_TRUE(is_among(names, axis.effect)) << "named beside it: " << names.front();
   }
 }
 

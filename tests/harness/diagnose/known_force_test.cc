@@ -10,7 +10,7 @@ namespace {
 
 using namespace harness::diagnose;
 
-constexpr double kTurn = 6.283185307179586;
+constexpr double kTwoPi = 6.283185307179586;
 constexpr KnownForce kPush{.force_N = 5, .from_s = 8, .to_s = 20};
 
 NominalModel stated() {
@@ -24,7 +24,7 @@ NominalModel stated() {
 // F_true = M a + B v + C sgn v - push, logged as if the amplifier gave `ratio` times as much.
 Run pushed_run(double ratio, double heavier) {
   const NominalModel m = stated();
-  const double w = kTurn * 0.25;
+  const double w = kTwoPi * 0.25;
   Run run;
   run.period_s = 1e-3;
   run.position_m.resize(28000);

@@ -16,7 +16,7 @@ namespace {
 
 using namespace harness::diagnose;
 
-bool everywhere(Eigen::Index /*row*/, Eigen::Index /*rows*/) {
+bool in_all_rows(Eigen::Index /*row*/, Eigen::Index /*rows*/) {
   return true;
 }
 
@@ -25,7 +25,7 @@ double added_by_twins(std::uint64_t seed) {
   const std::vector<Run> runs{run_of(nothing_hidden, make_hidden_log(nothing_hidden, seed))};
   const NominalModel model = nominal_of(nothing_hidden);
   const Dataset data =
-      make_dataset(runs, choose_conditioning(runs, model), stated_baseline(model), everywhere);
+      make_dataset(runs, choose_conditioning(runs, model), stated_baseline(model), in_all_rows);
   const Evidence e = weigh(data, make_context(model, data), {}, {find_control_law(runs.front())},
                            kTwinRounds, seed);
   return e.corrected.norm() / e.residual.norm();

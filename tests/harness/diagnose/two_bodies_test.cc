@@ -10,14 +10,14 @@ namespace {
 
 using namespace harness::diagnose;
 
-constexpr double kTurn = 6.283185307179586;
+constexpr double kFullTurn = 6.283185307179586;
 
 NominalModel frictionless(double held_Hz, double damping_ratio) {
   NominalModel m;
   m.mass_kg = 8;
   m.chain.motor_kg = 2;
   const double load_kg = m.mass_kg - m.chain.motor_kg;
-  const double w = kTurn * held_Hz;
+  const double w = kFullTurn * held_Hz;
   m.chain.stiffness_N_per_m = load_kg * w * w;
   m.chain.damping_N_s_per_m = 2 * damping_ratio * load_kg * w;
   return m;
@@ -34,7 +34,7 @@ TEST(TwoBodies, ALoadOnAHeldMotorSwingsAndDecaysAsTheModeSays) {
   const double h = 2.5e-4;
   const int steps = 4000;
   for (int i = 0; i < steps; ++i) bodies.step_load(load, {0, 0}, h);
-  const double w = kTurn * 4;
+  const double w = kFullTurn * 4;
   const double z = 0.05;
   const double wd = w * std::sqrt(1 - z * z);
   const double t = steps * h;

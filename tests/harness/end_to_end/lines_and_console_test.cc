@@ -8,6 +8,7 @@
 
 #include "harness/bench/pty_line.h"
 #include "tests/harness/end_to_end/run_support.h"
+#include "tests/support/program_output.h"
 
 namespace towbench::harness {
 namespace {
@@ -15,29 +16,13 @@ namespace {
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
-struct Output {
-  int code = -1;
-  std::string text;  // stdout and stderr
-};
-
-Output shell(const std::string& command) {
-  Output output;
-  std::FILE* pipe = popen(("{ " + command + "; } 2>&1").c_str(), "r");
-  std::array<char, 4096> bytes{};
-  for (std::size_t count = 0; (count = fread(bytes.data(), 1, bytes.size(), pipe)) > 0;) {
-    output.text.append(bytes.data(), count);
-  }
-  output.code = WEXITSTATUS(pclose(pipe));
-  return output;
-}
-
-Output towbench(const std::string& arguments) {
-  return shell(std::string(TOWBENCH_PROGRAM) + " " + arguments);
+tests::ProgramOutput typed(const std::string& arguments) {
+  return tests::output_of(std::string(TOWBENCH_PROGRAM) + " " + arguments);
 }
 
 TEST(EncoderLinesOption, AnExperimentThatIsTooFastIsRefusedWithBothRates) {
   const auto output =
-      towbench("run trapezoid-400 --encoder-lines gpiochip0+9:index@20000,sim:gpiochip0+9:index");
+      typed("run trapezoid-400 --encoder-lines gpiochip0+9:index@20000,sim:gpiochip0+9:index");
   EXPECT_EQ(output.code, kExitBadInput);
   EXPECT_THAT(output.text, ContainsRegex("1[78][0-9]000 edges/s at its fastest .* the lines carry "
                                          "20000 edges/s .as rated."));
@@ -47,20 +32,20 @@ TEST(EncoderLinesOption, AnExperimentThatIsTooFastIsRefusedWithBothRates) {
 TEST(EncoderLinesOption, WhatIsNoPairOfPlacesIsRefused) {
   for (const char* text : {"gpiochip0", "gpiochip0,", "gpiochip0@0,gpiochip1",
                            "sim:gpiochip0,gpiochip0", "gpiochip0:index,sim:gpiochip0"}) {
-    const auto output = towbench(std::string("run circle --encoder-lines ") + text);
+    const auto output = typed(std::string("run circle --encoder-lines ") + text);
     EXPECT_EQ(output.code, kExitBadInput) << text << output.text;
     EXPECT_THAT(output.text, HasSubstr("--encoder-lines")) << text;
   }
 }
 
 TEST(EncoderLinesOption, AControllerThatExpectsAnIndexIsNotRunWithoutOne) {
-  const auto output = towbench("run circle --encoder-lines gpiochip0+9,sim:gpiochip0+9");
+  const auto output = typed("run circle --encoder-lines gpiochip0+9,sim:gpiochip0+9");
   EXPECT_EQ(output.code, kExitBadInput);
   EXPECT_THAT(output.text, HasSubstr("no index for a controller that expects one"));
 }
 
 TEST(EncoderLinesOption, FaultsAreRefusedBecauseTheirTwinHasOtherBits) {
-  const auto output = towbench(
+  const auto output = typed(
       "run wall-clock-window --encoder-lines gpiochip0+9:index,sim:gpiochip0+9:index --fault "
       "\"encoder.y "
       "frozen at=1s\"");
@@ -69,7 +54,7 @@ TEST(EncoderLinesOption, FaultsAreRefusedBecauseTheirTwinHasOtherBits) {
 }
 
 TEST(LinesOption, ADebounceInLockstepIsRefused) {
-  const auto output = towbench("run circle --lines gpiochip0~5,sim:gpiochip0");
+  const auto output = typed("run circle --lines gpiochip0~5,sim:gpiochip0");
   EXPECT_EQ(output.code, kExitBadInput);
   EXPECT_THAT(output.text, HasSubstr("host's clock"));
 }
@@ -77,19 +62,19 @@ TEST(LinesOption, ADebounceInLockstepIsRefused) {
 TEST(SerialConsole, ASessionIsTypedAtTheFarEndOfTheLine) {
   const PtyLine line;
   const auto output =
-      shell("python3 tests/carriers/typing_operator.py " + line.far_end() +
-            " 'reset poscalib y 0.449092m' 'reset poscalib x 0.336819m'"
-            " 'run -trapez y --distance 0.02m --speed 0.05m/s' quit & operator=$!; " +
-            TOWBENCH_PROGRAM +
-            " control --controller fixtures/controllers/bbmc-tuned.toml"
-            " --rig fixtures/rigs/macs-nominal.toml --fast --console serial:" +
-            line.near_end() + " && wait $operator");
+      tests::output_of("python3 tests/carriers/typing_operator.py " + line.far_end() +
+                       " 'reset poscalib y 0.449092m' 'reset poscalib x 0.336819m'"
+                       " 'run -trapez y --distance 0.02m --speed 0.05m/s' quit & operator=$!; " +
+                       TOWBENCH_PROGRAM +
+                       " control --controller fixtures/controllers/bbmc-tuned.toml"
+                       " --rig fixtures/rigs/macs-nominal.toml --fast --console serial:" +
+                       line.near_end() + " && wait $operator");
   EXPECT_EQ(output.code, 0) << output.text;
   EXPECT_THAT(output.text, HasSubstr("moving for 1.20s\r\ndone\r\nok"));
 }
 
 TEST(SerialConsole, WhatIsNoSerialLineIsRefused) {
-  const auto output = towbench(
+  const auto output = typed(
       "control --controller fixtures/controllers/bbmc-tuned.toml"
       " --rig fixtures/rigs/macs-nominal.toml --console can:vcan0");
   EXPECT_EQ(output.code, kExitBadInput);

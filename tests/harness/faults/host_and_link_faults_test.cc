@@ -8,7 +8,7 @@
 namespace towbench::harness {
 namespace {
 
-constexpr const char* kMid = "trapezoid-400";
+constexpr const char* kMotion = "trapezoid-400";
 constexpr const char* kSlowRate = "../motions/open-loop-y-10hz";
 
 std::unique_ptr<CaseRecord> run_of(const std::string& experiment, const std::string& words) {
@@ -24,7 +24,7 @@ TEST(StoppedHost, IsNoticedAtTheFirstExchangeAfterwardsWhateverTheControlRate) {
     const char* experiment;
     double from_s;
   };
-  for (const auto& [experiment, from_s] : {Rate{kMid, 2.0}, Rate{kSlowRate, 0.4}}) {
+  for (const auto& [experiment, from_s] : {Rate{kMotion, 2.0}, Rate{kSlowRate, 0.4}}) {
     const auto run =
         run_of(experiment, fmt::format("host stopped_process at={}s length=50ms", from_s));
     const auto* fault = run->first_fault();
@@ -35,12 +35,12 @@ TEST(StoppedHost, IsNoticedAtTheFirstExchangeAfterwardsWhateverTheControlRate) {
 }
 
 TEST(StoppedHost, ShorterThanTwentyMillisecondsIsBorne) {
-  EXPECT_EQ(run_of(kMid, "host late_tick at=2s delay=19ms")->first_fault(), nullptr);
+  EXPECT_EQ(run_of(kMotion, "host late_tick at=2s delay=19ms")->first_fault(), nullptr);
 }
 
 // A clock that goes back would keep the next control tick waiting with the last duty on.
 TEST(ClockStep, BackTakesTheDriveAwayAtOnce) {
-  for (const char* experiment : {kMid, kSlowRate}) {
+  for (const char* experiment : {kMotion, kSlowRate}) {
     const auto run = run_of(experiment, "host clock_step at=0.5s step=-20ms");
     const auto* fault = run->first_fault();
     ASSERT_NE(fault, nullptr) << experiment;
@@ -51,7 +51,7 @@ TEST(ClockStep, BackTakesTheDriveAwayAtOnce) {
 }
 
 TEST(ClockStep, AheadLooksLikeMeasurementsThatAreTooOld) {
-  const auto run = run_of(kMid, "host clock_step at=2s step=0.1s");
+  const auto run = run_of(kMotion, "host clock_step at=2s step=0.1s");
   const auto* fault = run->first_fault();
   ASSERT_NE(fault, nullptr);
   EXPECT_EQ(fault->code, core::ErrorCode::kFaultLinkLost);
@@ -64,7 +64,7 @@ TEST(EndOfALink, LatchesLinkLostAndRemovesTheDrive) {
         "link.to_controller peer_restart at=2s",
         "link.to_controller baud_mismatch at=2s ratio=0.125",
         "link.to_plant baud_mismatch at=2s ratio=8"}) {
-    const auto run = run_of(kMid, words);
+    const auto run = run_of(kMotion, words);
     const auto* fault = run->first_fault();
     ASSERT_NE(fault, nullptr) << words;
     EXPECT_TRUE(fault->code == core::ErrorCode::kFaultLinkLost ||
@@ -76,12 +76,12 @@ TEST(EndOfALink, LatchesLinkLostAndRemovesTheDrive) {
 }
 
 TEST(BaudMismatch, WithinWhatAUartBearsHasNoEffect) {
-  EXPECT_FALSE(stage(kMid).carry_out("link.to_controller baud_mismatch at=2s ratio=0.97").fired);
+  EXPECT_FALSE(stage(kMotion).carry_out("link.to_controller baud_mismatch at=2s ratio=0.97").fired);
 }
 
 // What a bus does to the data is done without a bus too: the same motion, not the same bits.
 TEST(CanFrames, CarryAFaultFreeRunThatDiffersFromTheEdgesOnlyInWhatIsMeasured) {
-  auto& mid = stage(kMid);
+  auto& mid = stage(kMotion);
   const auto framed = run_twin(mid.plain, 1, true);
   ASSERT_EQ(framed->log.size(), mid.twin->log.size());
   EXPECT_EQ(framed->first_fault(), nullptr);

@@ -45,7 +45,7 @@ class Person final : public RunTap {
   std::size_t next_ = 0;
 };
 
-std::string text_of(const std::filesystem::path& file) {
+std::string contents_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
@@ -77,7 +77,7 @@ class DrivenRun : public ::testing::Test {
   }
   static void expect_same_bits(const RunResult& a, const RunResult& b) {
     for (const char* file : {"log.csv", "truth.csv", "events.jsonl"}) {
-      EXPECT_EQ(text_of(a.folder / file), text_of(b.folder / file)) << file;
+      EXPECT_EQ(contents_of(a.folder / file), contents_of(b.folder / file)) << file;
     }
   }
 
@@ -148,8 +148,8 @@ TEST_F(DrivenRun, AHandThatDoesNothingLeavesTheVerdictOfTheBudgets) {
   RunOptions options;
   options.out = out_;
   const auto plain = run_experiment(load_experiment("fixtures/experiments/circle.toml"), options);
-  EXPECT_EQ(text_of(first.folder / "log.csv"), text_of(plain.folder / "log.csv"));
-  EXPECT_EQ(text_of(first.folder / "truth.csv"), text_of(plain.folder / "truth.csv"));
+  EXPECT_EQ(contents_of(first.folder / "log.csv"), contents_of(plain.folder / "log.csv"));
+  EXPECT_EQ(contents_of(first.folder / "truth.csv"), contents_of(plain.folder / "truth.csv"));
 }
 
 TEST_F(DrivenRun, WhatCannotBeDoneIsRefusedInWords) {

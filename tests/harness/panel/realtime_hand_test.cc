@@ -51,7 +51,7 @@ class Typist final : public RunTap {
   int stage_ = 0;
 };
 
-std::string text_of(const fs::path& file) {
+std::string written_in(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
@@ -80,14 +80,14 @@ TEST(RealtimeHand, WhatIsTypedByTheWallClockIsWrittenDownAndReplaysToTheLastBit)
   ASSERT_TRUE(result.complete) << result.reason;
   EXPECT_EQ(typist.tap().folder(), result.folder);
   EXPECT_THAT(typist.tap().take_console(), HasSubstr("amplifier"));
-  const auto events = text_of(result.folder / "events.jsonl");
+  const auto events = written_in(result.folder / "events.jsonl");
   EXPECT_THAT(events, HasSubstr(R"("side":"hand","kind":"typed")"));
   EXPECT_THAT(events, HasSubstr(R"("side":"hand","kind":"finished")"));
 
   const auto written = load_experiment(result.folder / "inputs/experiments/wall-clock-window.toml");
   const auto again = replay_by_inputs(written, seed, result.folder, out);
   for (const char* file : {"log.csv", "truth.csv", "events.jsonl"}) {
-    EXPECT_EQ(text_of(result.folder / file), text_of(again.folder / file)) << file;
+    EXPECT_EQ(written_in(result.folder / file), written_in(again.folder / file)) << file;
   }
   fs::remove_all(out);
 }

@@ -8,7 +8,7 @@
 namespace towbench::tests {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kForceTurn = 2 * std::numbers::pi;
 constexpr double kMotorTurnsPerMetre = 111.336;
 constexpr double kSprocket_m = 0.05;
 constexpr double kDuration_s = 30;
@@ -34,9 +34,9 @@ double HiddenForce::friction_N(const BodyState& s) const {
   if (is("quadratic_drag")) return size_ * 8.0 * speed * speed;
   if (is("cubic_viscous")) return size_ * 25.0 * speed * speed * speed;
   if (is("load_dependent_friction")) return size_ * 0.10 * std::abs(s.drive_N);
-  if (is("position_friction")) return size_ * 0.35 * std::sin(kTurn * (s.x_m / 0.7 + phase_));
+  if (is("position_friction")) return size_ * 0.35 * std::sin(kForceTurn * (s.x_m / 0.7 + phase_));
   if (is("position_viscous")) {
-    return size_ * 2.0 * speed * std::cos(kTurn * (s.x_m / 0.9 + 0.1 * phase_));
+    return size_ * 2.0 * speed * std::cos(kForceTurn * (s.x_m / 0.9 + 0.1 * phase_));
   }
   if (is("thermal_drift")) return size_ * 0.5 * std::exp(-s.t_s / (0.4 * kDuration_s));
   return 0;
@@ -44,20 +44,21 @@ double HiddenForce::friction_N(const BodyState& s) const {
 
 double HiddenForce::force_N(const BodyState& s) const {
   if (is("constant_bias") || is("coulomb_asymmetry")) return sign_ * size_ * 0.4;
-  if (is("position_force")) return size_ * 0.35 * std::sin(kTurn * (s.x_m / 0.4 + phase_));
+  if (is("position_force")) return size_ * 0.35 * std::sin(kForceTurn * (s.x_m / 0.4 + phase_));
   if (is("cable_spring")) return -size_ * 1.2 * (s.x_m - 0.5);
   if (is("torque_ripple")) {
-    return size_ * 0.35 * std::cos(kTurn * (kMotorTurnsPerMetre * s.x_m + phase_));
+    return size_ * 0.35 * std::cos(kForceTurn * (kMotorTurnsPerMetre * s.x_m + phase_));
   }
   if (is("sprocket_eccentricity")) {
-    return -size_ * 0.08 * s.drive_N * std::cos(s.x_m / kSprocket_m + kTurn * phase_);
+    return -size_ * 0.08 * s.drive_N * std::cos(s.x_m / kSprocket_m + kForceTurn * phase_);
   }
-  if (is("periodic_force")) return size_ * 0.3 * std::sin(kTurn * ((1.3 + 4 * phase_) * s.t_s));
+  if (is("periodic_force"))
+    return size_ * 0.3 * std::sin(kForceTurn * ((1.3 + 4 * phase_) * s.t_s));
   if (is("chain_polygon")) {
     // x is the sprocket's; the carriage moves x + e sin(k x), so its mass feels e (a k cos - v^2
     // k^2 sin).
     const double k = 19 / kSprocket_m;
-    const double angle = k * s.x_m + kTurn * phase_;
+    const double angle = k * s.x_m + kForceTurn * phase_;
     const double e = size_ * 6e-5;
     return -8.387 * e *
            (s.a_m_per_s2 * k * std::cos(angle) -
@@ -65,7 +66,7 @@ double HiddenForce::force_N(const BodyState& s) const {
   }
   if (is("outside")) {
     // A detent field that fades with speed and sits at one end only: no member of the library.
-    return size_ * 0.9 * std::sin(kTurn * s.x_m / 0.031) *
+    return size_ * 0.9 * std::sin(kForceTurn * s.x_m / 0.031) *
            std::exp(-std::pow((s.x_m - 0.35) / 0.12, 2)) * std::exp(-std::abs(s.v_m_per_s) / 0.15);
   }
   return 0;
@@ -102,7 +103,7 @@ double HiddenForce::lag_s() const {
 
 double HiddenForce::read_m(double x_m) const {
   if (is("encoder_eccentricity")) {
-    return x_m + size_ * 1.5e-5 * std::sin(kTurn * (kMotorTurnsPerMetre * x_m + phase_));
+    return x_m + size_ * 1.5e-5 * std::sin(kForceTurn * (kMotorTurnsPerMetre * x_m + phase_));
   }
   if (is("encoder_count_loss")) return x_m * (1 - 0.08 * size_);
   return x_m;
