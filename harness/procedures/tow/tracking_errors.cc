@@ -10,7 +10,7 @@ TrackingErrors tracking_errors(const identify::Recording& run, core::Axis axis, 
   const auto& log = run.axes[axis];
   TrackingErrors errors;
   for (std::size_t i = first; i < last; ++i) {
-    if (log.mode[i] != kFollowsReference) {
+    if (log.mode[i] != identify::kFollowsReference) {
       continue;
     }
     const double error = log.reference_m[i] - run.position_m(axis, i);
