@@ -62,6 +62,11 @@ function(towbench_library name)
   endif()
 endfunction()
 
+# towbench_program(TARGET): what a user starts lies in bin/, beside its siblings (harness/commands/sibling.cc).
+function(towbench_program target)
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+endfunction()
+
 # towbench_test(NAME DEPENDS targets...): one GoogleTest program of the calling folder.
 function(towbench_test name)
   cmake_parse_arguments(arg "" "" "DEPENDS;EXCLUDE" ${ARGN})

@@ -75,7 +75,7 @@ echo "armhf: $lines lines of duty and figures, the same to the last bit"
 against_emulator() {
   local log=$1
   shift
-  "$build/harness/towbench-bench" emulate --rig fixtures/rigs/macs-nominal.toml --carrier "local:$out/plant" \
+  "$build/bin/towbench-bench" emulate --rig fixtures/rigs/macs-nominal.toml --carrier "local:$out/plant" \
     --patience 60 >"$log.plant" 2>&1 &
   local plant=$! i
   for ((i = 0; i < 600; ++i)); do

@@ -2,11 +2,11 @@
 # Configures and builds one preset, quietly unless it fails. Sourced by ./towbench; expects $root.
 
 # shellcheck disable=SC2034,SC2154  # used by ./towbench; set by it
-bench_program=$root/build/release/harness/towbench-bench
+bench_program=$root/build/release/bin/towbench-bench
 # shellcheck disable=SC2034  # used by ./towbench
-panel_program=$root/build/release/harness/towbench-panel
+panel_program=$root/build/release/bin/towbench-panel
 # shellcheck disable=SC2034  # used by ./towbench
-study_program=$root/build/release/harness/towbench-study
+study_program=$root/build/release/bin/towbench-study
 
 # What one clone has compiled serves the next one, wherever it lies.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1

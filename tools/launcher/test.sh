@@ -197,7 +197,7 @@ stage_panel_cost() {
   browser=$(sh "$here/find_browser.sh") || { failed=$((failed + 1)); return 1; }
   sh "$here/install.sh" "$work/packages"
   count env CHROMIUM="$browser" node "$work/packages/measure_panel.mjs" \
-    "$root/build/release/harness/towbench-bench" "$root" "$work/runs" "${TOWBENCH_BLOCKS:-25}"
+    "$root/build/release/bin/towbench-bench" "$root" "$work/runs" "${TOWBENCH_BLOCKS:-25}"
 }
 
 # report_of LOG STATUS: what a script with exit code 99 for "skipped" has found.
@@ -240,8 +240,8 @@ stage_step_cost() {
 
 stage_campaign() {
   build_preset release release towbench-bench
-  count "$root/build/release/harness/towbench-bench" campaign standard --fresh --out "$root/build/campaign"
-  count "$root/build/release/harness/towbench-bench" campaign log-full --fresh --out "$root/build/campaign-log-full"
+  count "$root/build/release/bin/towbench-bench" campaign standard --fresh --out "$root/build/campaign"
+  count "$root/build/release/bin/towbench-bench" campaign log-full --fresh --out "$root/build/campaign-log-full"
 }
 
 stage_mutants() {
@@ -259,7 +259,7 @@ stage_slurm() {
     fi
   done
   build_preset release release towbench-bench
-  "$root/tests/slurm/slurm_test.sh" "$root/build/release/harness/towbench-bench" "$root" || status=$?
+  "$root/tests/slurm/slurm_test.sh" "$root/build/release/bin/towbench-bench" "$root" || status=$?
   if ((status == 99)); then
     skip_reason='there is no Slurm to be had here (see above)'
   elif ((status == 0)); then
