@@ -12,7 +12,7 @@ bare_forbidden='iostream fstream sstream ostream istream iomanip locale regex fi
   memory_resource iosfwd format random chrono'
 
 # shellcheck disable=SC2016  # the awk program is not for the shell
-find core protocol emulator board bbmc harness tests benchmarks \
+find core protocol emulator board bbmc harness study tests benchmarks \
   \( -name '*.h' -o -name '*.cc' \) -type f 2>/dev/null | sort | xargs awk -v forbidden="$bare_forbidden" '
   BEGIN {
     rules = "tools/include_rules.txt"
