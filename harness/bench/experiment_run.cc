@@ -25,6 +25,7 @@
 #include "harness/faults/record_faults.h"
 #include "harness/fixtures/canonical_hash.h"
 #include "harness/fixtures/fixture_error.h"
+#include "harness/proof/run_manifest.h"
 #include "harness/realtime/realtime_plant.h"
 #include "harness/realtime/run_timing.h"
 #include "harness/realtime/wall_clock_carrier.h"
@@ -114,6 +115,7 @@ class Run {
     } else {
       write_incomplete(folder_, fixture_, identity_, outcome);
     }
+    write_manifest(folder_);
     result.outcome = outcome;
     return result;
   }

@@ -61,8 +61,8 @@ int execute_demo(const ExperimentOptions& options) {
     std::fprintf(stderr, "towbench: no report: %s\n", written.error().c_str());
     return graver(exit_code, kExitRuntime);
   }
-  std::printf("%s\n", written->c_str());
-  return exit_code;
+  std::printf("%s\n", written->page.c_str());
+  return written->contradictions.empty() ? exit_code : graver(exit_code, kExitInvalid);
 }
 
 }  // namespace

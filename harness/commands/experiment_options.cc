@@ -6,6 +6,7 @@
 
 #include "harness/bench/firmware_run.h"
 #include "harness/commands/encoder_option.h"
+#include "harness/commands/exit_codes.h"
 #include "harness/commands/progress_line.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_error.h"
@@ -94,6 +95,18 @@ void check_load(const ExperimentFixture& fixture, const RunOptions& options) {
   }
 }
 
+// The record of a run is read back by its report: what does not agree is no result.
+int tell_of_trouble(const ReportResult& written) {
+  if (!written) {
+    std::fprintf(stderr, "towbench: no report: %s\n", written.error().c_str());
+    return kExitRuntime;
+  }
+  for (const auto& sentence : written->contradictions) {
+    std::fprintf(stderr, "towbench: %s\n", sentence.c_str());
+  }
+  return written->contradictions.empty() ? kExitPass : kExitInvalid;
+}
+
 }  // namespace
 
 RunResult run_with_options(const ExperimentFixture& fixture, const ExperimentOptions& options) {
@@ -125,10 +138,7 @@ RunResult run_with_options(const ExperimentFixture& fixture, const ExperimentOpt
     std::fputs(result.timing.c_str(), stdout);
   }
   if (!options.no_report) {
-    if (const auto written = write_report(result.folder); !written) {
-      std::fprintf(stderr, "towbench: no report: %s\n", written.error().c_str());
-      result.exit_code = result.exit_code == kExitPass ? kExitRuntime : result.exit_code;
-    }
+    result.exit_code = graver(result.exit_code, tell_of_trouble(write_report(result.folder)));
   }
   return result;
 }

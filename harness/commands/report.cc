@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "harness/commands/command.h"
+#include "harness/commands/exit_codes.h"
 #include "harness/judge/check.h"
 
 namespace towbench::harness {
@@ -24,8 +25,11 @@ int tell(const ReportResult& written) {
     std::fprintf(stderr, "towbench: no report: %s\n", written.error().c_str());
     return kExitRuntime;
   }
-  std::printf("%s\n", written->c_str());
-  return kExitPass;
+  for (const auto& sentence : written->contradictions) {
+    std::fprintf(stderr, "towbench: %s\n", sentence.c_str());
+  }
+  std::printf("%s\n", written->page.c_str());
+  return written->contradictions.empty() ? kExitPass : kExitInvalid;
 }
 
 int execute_report(const ReportOptions& options) {
@@ -36,7 +40,7 @@ int execute_report(const ReportOptions& options) {
   }
   int exit_code = kExitPass;
   for (const auto& folder : options.folders) {
-    exit_code = std::max(exit_code, tell(write_report(folder)));
+    exit_code = graver(exit_code, tell(write_report(folder)));
   }
   return exit_code;
 }

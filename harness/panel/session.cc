@@ -163,6 +163,10 @@ void Session::run(std::uint64_t seed) {
     over.verdict = result.complete ? std::string(name_of(result.judgement.verdict)) : "";
     over.reason = result.complete ? first_trouble(result.judgement) : result.reason;
     over.timing = result.timing;
+    if (written && !written->contradictions.empty()) {
+      over.verdict = std::string(name_of(Verdict::kInvalid));
+      over.reason = written->contradictions.front();
+    }
     if (!written) {
       over.reason += (over.reason.empty() ? "no report: " : "; no report: ") + written.error();
     }

@@ -109,6 +109,10 @@ std::string check_row(const Json& check) {
 
 std::string checks_section(const RunContents& run, int level) {
   std::string html = "<section class=\"checks\">\n" + heading(level, "Budgets and checks");
+  if (!run.contradictions.empty()) {
+    return html + missing_note("Not shown: the folder does not agree with itself.") +
+           "</section>\n";
+  }
   const Json& checks = member(run.result, "checks");
   if (!checks.is_array() || checks.empty()) {
     return html + missing_note("No check was judged in this run.") + "</section>\n";

@@ -68,7 +68,7 @@ void append_run(const RunContents& run, std::size_t index, int level, std::size_
                 Parts& parts) {
   const std::vector<NumberedEvent> events = listed_events(run);
   const PlotTable table = plot_table(run);
-  parts.body += verdict_section(run, verdict_of(run.result));
+  parts.body += verdict_section(run, verdict_of(run));
   parts.body += checks_section(run, level);
   parts.body += plots_section(table, index, level);
   parts.body += events_section(run, events, level);
@@ -137,7 +137,7 @@ std::string document(const std::string& title, const Parts& parts) {
 }
 
 std::string summary_row(const RunContents& run, std::size_t index) {
-  const Verdict verdict = verdict_of(run.result);
+  const Verdict verdict = verdict_of(run);
   const std::optional<double> time_s = number_at(run.result, "simulated_time_s");
   const std::optional<double> factor = number_at(run.result, "real_time_factor");
   return fmt::format(
@@ -157,7 +157,7 @@ std::string summary(std::span<const RunContents> runs) {
   VerdictKind worst = VerdictKind::kPass;
   std::string rows;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const VerdictKind kind = verdict_of(runs[i].result).kind;
+    const VerdictKind kind = verdict_of(runs[i]).kind;
     passed += kind == VerdictKind::kPass ? 1U : 0U;
     worst = std::max(worst, kind);
     rows += summary_row(runs[i], i + 1);

@@ -56,6 +56,7 @@ std::string provenance_section(const RunContents& run, int level) {
   html += entry("Replay with", "./towbench replay runs/" + run.folder_name, true);
   html += entry("Experiment", text_at(experiment, "name"));
   html += entry("Experiment file", text_at(experiment, "file"), true);
+  html += entry("Origin", std::string(sentence_for(run.origin)));
   html += entry("Started", text_at(result, "started_utc"));
   for (const char* key : {"clock", "carrier", "fidelity", "seed", "control_rate_Hz"}) {
     std::string term = key;

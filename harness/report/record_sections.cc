@@ -36,6 +36,10 @@ std::string summary(int level, std::string_view title, const std::string& extent
 }  // namespace
 
 std::string metrics_section(const RunContents& run, int level) {
+  if (!run.contradictions.empty()) {
+    return "<section>\n" + heading(level, "All metrics") +
+           missing_note("Not shown: the folder does not agree with itself.") + "</section>\n";
+  }
   const Json& metrics = member(run.metrics, "metrics");
   if (!metrics.is_array() || metrics.empty()) {
     return "<section>\n" + heading(level, "All metrics") +

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "harness/report/agreement.h"
+
 namespace towbench::harness::report {
 namespace {
 
@@ -112,6 +114,9 @@ RunContents read_run(const std::filesystem::path& run_folder) {
   run.log = read_table(folder / "log.csv", run.remarks);
   run.truth = read_table(folder / "truth.csv", run.remarks);
   run.timing = read_table(folder / "timing.csv", run.remarks);
+  auto agreement = agreement_of(folder, run.result, run.metrics);
+  run.origin = agreement.origin;
+  run.contradictions = std::move(agreement.contradictions);
   return run;
 }
 

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/proof/run_manifest.h"
 #include "harness/report/csv_table.h"
 
 namespace towbench::harness::report {
@@ -22,6 +23,9 @@ struct RunContents {
   std::optional<CsvTable> log;
   std::optional<CsvTable> truth;
   std::optional<CsvTable> timing;
+  Origin origin = Origin::kUnknown;
+  // What the folder says of itself that is not so (agreement.h), in sentences.
+  std::vector<std::string> contradictions;
   std::vector<std::string> remarks;  // what was missing, cut or unreadable, in sentences
 };
 

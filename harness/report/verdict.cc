@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "harness/report/run_contents.h"
-
 namespace towbench::harness::report {
 namespace {
 
@@ -82,6 +80,13 @@ Verdict verdict_of(const nlohmann::json& result) {
     return {kind_of(word), sentence.empty() ? "No reason was recorded." : sentence};
   }
   return {VerdictKind::kInvalid, "The result carries no verdict that this page knows."};
+}
+
+Verdict verdict_of(const RunContents& run) {
+  return run.contradictions.empty()
+             ? verdict_of(run.result)
+             : Verdict{VerdictKind::kInvalid,
+                       "This folder does not agree with itself: what it claims is not shown."};
 }
 
 std::string_view word_of(VerdictKind kind) {

@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/report/run_contents.h"
+
 namespace towbench::harness::report {
 
 // From best to worst.
@@ -20,6 +22,8 @@ struct Verdict {
 // `result` is result.json, or null when there is none. A PASS needs status "complete", at least one
 // check, and every check a PASS; a result that contradicts itself is INVALID.
 [[nodiscard]] Verdict verdict_of(const nlohmann::json& result);
+// The same of a whole folder: one that does not agree with itself is INVALID, whatever it claims.
+[[nodiscard]] Verdict verdict_of(const RunContents& run);
 
 [[nodiscard]] std::string_view word_of(VerdictKind kind);    // "PASS"
 [[nodiscard]] std::string_view symbol_of(VerdictKind kind);  // a sign that needs no colour

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "harness/report/html.h"
@@ -16,6 +18,18 @@ std::string fact(std::string_view term, const std::string& value) {
 std::string quantity_at(const nlohmann::json& object, std::string_view key, std::string_view unit) {
   const std::optional<double> value = number_at(object, key);
   return value ? readable_quantity(*value, unit) : std::string{};
+}
+
+std::string list_of(const std::vector<std::string>& sentences) {
+  constexpr std::size_t kMost = 30;
+  std::string items;
+  for (std::size_t i = 0; i < std::min(sentences.size(), kMost); ++i) {
+    items += fmt::format("<li>{}</li>\n", escaped(sentences[i]));
+  }
+  if (sentences.size() > kMost) {
+    items += fmt::format("<li>and {} more</li>\n", sentences.size() - kMost);
+  }
+  return items.empty() ? items : "<ul class=\"remarks\">\n" + items + "</ul>\n";
 }
 
 }  // namespace
@@ -37,13 +51,7 @@ std::string verdict_section(const RunContents& run, const Verdict& verdict) {
       "<div><p class=\"word\">{}</p>\n<p>{}</p></div>\n</div>\n",
       class_of(verdict.kind), word_of(verdict.kind), symbol_of(verdict.kind), word_of(verdict.kind),
       escaped(verdict.sentence));
-  if (!run.remarks.empty()) {
-    html += "<ul class=\"remarks\">\n";
-    for (const std::string& remark : run.remarks) {
-      html += fmt::format("<li>{}</li>\n", escaped(remark));
-    }
-    html += "</ul>\n";
-  }
+  html += list_of(run.contradictions) + list_of(run.remarks);
   const nlohmann::json& result = run.result;
   const std::optional<double> factor = number_at(result, "real_time_factor");
   html += "<dl class=\"facts\">\n";

@@ -30,6 +30,6 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", written.error().c_str());
     return 1;
   }
-  std::puts(written->string().c_str());
+  std::puts(written->page.string().c_str());
   return 0;
 }

@@ -30,7 +30,7 @@ class Report : public ::testing::Test {
   std::string page_of(const fs::path& run_folder) {
     const ReportResult written = write_report(run_folder);
     EXPECT_TRUE(written) << (written ? "" : written.error());
-    return written ? test::read_text(*written) : std::string{};
+    return written ? test::read_text(written->page) : std::string{};
   }
 
  private:
@@ -58,9 +58,9 @@ TEST_F(Report, IsTheSameBytesForTheSameFolder) {
 }
 
 TEST_F(Report, ShowsVerdictAndNumbersWithoutItsScript) {
-  test::write_synthetic_run(folder(), {.rows = 500});
+  test::write_synthetic_run(folder(), {});
   expect_parts(page_of(folder()),
-               {"data-verdict=\"PASS\"", "y tracking error peak", "0.4\u00a0mm", "≤ 1\u00a0mm",
+               {"data-verdict=\"PASS\"", "y tracking error peak", "0.401\u00a0mm", "≤ 1\u00a0mm",
                 "9f86d081884c7d65", "./towbench replay runs/run"});
 }
 
@@ -124,6 +124,7 @@ TEST_F(Report, OfAKilledRunReadsWhatBothSidesLeft) {
   result.erase("verdict");
   test::write_text(folder() / "result.json", result.dump());
   fs::remove(folder() / "metrics.json");
+  fs::remove(folder() / "manifest.json");
   fs::rename(folder() / "events.jsonl", folder() / "plant_events.jsonl");
   const std::string log = test::read_text(folder() / "log.csv");
   test::write_text(folder() / "log.csv", log.substr(0, log.size() - 7));
@@ -150,8 +151,8 @@ TEST_F(Report, RefusesAFolderThatDoesNotExist) {
 }
 
 TEST_F(Report, OfSeveralRunsShowsTheWorstVerdictAndEveryRun) {
-  test::write_synthetic_run(folder("a"), {.rows = 50, .title = "first"});
-  test::SyntheticRun second{.rows = 50, .title = "second"};
+  test::write_synthetic_run(folder("a"), {.rows = 500, .title = "first"});
+  test::SyntheticRun second{.rows = 500, .title = "second"};
   auto result = test::synthetic_result(second);
   result["verdict"] = "FAIL";
   result["checks"][0]["verdict"] = "FAIL";
@@ -159,7 +160,7 @@ TEST_F(Report, OfSeveralRunsShowsTheWorstVerdictAndEveryRun) {
   const std::array folders{folder("a"), folder("b")};
   const ReportResult written = write_combined_report(folders, folder("all.html"));
   ASSERT_TRUE(written);
-  const std::string page = test::read_text(*written);
+  const std::string page = test::read_text(written->page);
   EXPECT_LT(page.find("data-verdict=\"FAIL\""), page.find("data-verdict=\"PASS\""));
   expect_parts(page, {"1 of 2 runs passed.", "href=\"#run-2\"", "id=\"run-2\"", "first", "second"});
 }
