@@ -14,9 +14,11 @@
 #include "harness/bench/experiment_run.h"
 #include "harness/bench/wall_clock_replay.h"
 #include "harness/commands/command.h"
+#include "harness/commands/exit_codes.h"
 #include "harness/commands/experiment_options.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/faults/shrink.h"
+#include "harness/proof/run_manifest.h"
 #include "harness/record/temporary_folder.h"
 
 namespace towbench::harness {
@@ -104,6 +106,28 @@ int compare(const std::filesystem::path& recorded, const RunResult& run) {
   return exit_code;
 }
 
+nlohmann::json result_in(const std::filesystem::path& folder) {
+  std::ifstream stream(folder / "result.json");
+  return nlohmann::json::parse(stream, nullptr, false);
+}
+
+// What was claimed of the run against what is judged of it now, from the inputs in the folder.
+int compare_verdicts(const std::filesystem::path& recorded, const RunResult& run) {
+  if (!run.complete) {
+    return kExitRuntime;
+  }
+  const auto claimed = result_in(recorded);
+  const auto judged = result_in(run.folder);
+  for (const char* member : {"verdict", "checks", "hashes"}) {
+    if (claimed.value(member, nlohmann::json()) != judged.value(member, nlohmann::json())) {
+      std::printf("result.json differs in its %s\n", member);
+      return kExitFail;
+    }
+  }
+  std::printf("%-13s identical\n", "verdict");
+  return kExitPass;
+}
+
 // The smallest run that fails in the same way, as a run folder of its own.
 int shrink_run(const ExperimentFixture& fixture, std::uint64_t seed, const ReplayOptions& options) {
   const auto shrunk = shrink(fixture, seed);
@@ -146,9 +170,27 @@ int replay_inputs(const ExperimentFixture& fixture, std::uint64_t seed,
   return exit_code;
 }
 
+// A record that was changed has nothing to compare with. Says so, and false.
+bool is_as_recorded(const std::filesystem::path& folder) {
+  auto manifest = check_manifest(folder);
+  if (!manifest.present) {
+    manifest.problems.emplace_back("manifest.json is missing: the record cannot be checked.");
+  }
+  for (const auto& problem : manifest.problems) {
+    std::fprintf(stderr, "towbench: %s\n", problem.c_str());
+  }
+  if (manifest.problems.empty() && manifest.origin == Origin::kUnknown) {
+    std::printf("origin: %s\n", std::string(sentence_for(manifest.origin)).c_str());
+  }
+  return manifest.problems.empty();
+}
+
 int execute_replay(const ReplayOptions& options) {
   const std::filesystem::path folder = options.folder;
   const auto recorded = recorded_in(folder);
+  if (!is_as_recorded(folder)) {
+    return kExitInvalid;
+  }
   const auto fixture = load_experiment(recorded.experiment);
   if (options.shrink && !recorded.by_wall_clock) {
     return shrink_run(fixture, recorded.seed, options);
@@ -163,7 +205,7 @@ int execute_replay(const ReplayOptions& options) {
   choose_carrier(options.carrier, run_options);
   run_options.watchers.stop = &stop_requested();
   const auto run = run_experiment(fixture, run_options);
-  const int exit_code = compare(folder, run);
+  const int exit_code = graver(compare(folder, run), compare_verdicts(folder, run));
   if (temporary) {
     std::filesystem::remove_all(run_options.out);
   } else {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/panel/panel_json.h"
+#include "harness/proof/run_manifest.h"
 
 namespace towbench::harness {
 namespace {
@@ -55,6 +56,17 @@ json diagnosis_json(const fs::path& folder, const std::string& name) {
           {"report", fs::is_regular_file(folder / "report.html", ignored)}};
 }
 
+// A list names many folders: of each it checks the one file that it shows. Its page checks them
+// all.
+std::string verdict_in(const fs::path& folder, const json& result) {
+  if (text_of(result, "status") != "complete") {
+    return {};
+  }
+  const auto manifest =
+      check_manifest(folder, [](const std::string& name) { return name == "result.json"; });
+  return manifest.present && manifest.problems.empty() ? text_of(result, "verdict") : "INVALID";
+}
+
 // Nothing for a folder that holds nothing to look at.
 json folder_json(const fs::path& folder) {
   const auto name = folder.filename().string();
@@ -78,7 +90,7 @@ json folder_json(const fs::path& folder) {
           {"experiment", experiment.is_object() ? text_of(experiment, "name") : ""},
           {"title", experiment.is_object() ? text_of(experiment, "title") : ""},
           {"status", text_of(result, "status")},
-          {"verdict", text_of(result, "verdict")},
+          {"verdict", verdict_in(folder, result)},
           {"started_utc", text_of(result, "started_utc")}};
 }
 

@@ -25,14 +25,18 @@ bool is_listed(const std::string& name) {
   return name != kManifestFile && name != "report.html" && !name.ends_with(".part");
 }
 
-Digests digests_in(const fs::path& folder) {
+bool every_file(const std::string&) {
+  return true;
+}
+
+Digests digests_in(const fs::path& folder, const FileChoice& chosen) {
   Digests digests;
   std::error_code error;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const auto name = entry->path().lexically_relative(folder).generic_string();
     std::error_code ignored;
-    if (is_listed(name) && !entry->is_directory(ignored)) {
+    if (is_listed(name) && chosen(name) && !entry->is_directory(ignored)) {
       digests[name] = digest_of(entry->path());
     }
   }
@@ -99,8 +103,12 @@ std::string difference(const std::string& name, const FileDigest& recorded,
   return name + " holds other bytes than were recorded: its SHA-256 differs.";
 }
 
-void compare_files(const json& files, const Digests& found, std::vector<std::string>& problems) {
+void compare_files(const json& files, const Digests& found, const FileChoice& chosen,
+                   std::vector<std::string>& problems) {
   for (const auto& [name, entry] : files.items()) {
+    if (!chosen(name)) {
+      continue;
+    }
     const auto file = found.find(name);
     if (file == found.end()) {
       problems.push_back(name + " was recorded and is missing.");
@@ -131,7 +139,7 @@ Origin check_signature(const json& manifest, std::vector<std::string>& problems)
 }  // namespace
 
 void write_manifest(const fs::path& folder) {
-  const auto files = files_json(digests_in(folder));
+  const auto files = files_json(digests_in(folder, every_file));
   const json manifest{{"schema", kSchema}, {"files", files}, {"signature", signature_json(files)}};
   const auto target = folder / kManifestFile;
   auto unfinished = target;
@@ -150,6 +158,10 @@ void write_manifest(const fs::path& folder) {
 }
 
 ManifestCheck check_manifest(const fs::path& folder) {
+  return check_manifest(folder, every_file);
+}
+
+ManifestCheck check_manifest(const fs::path& folder, const FileChoice& chosen) {
   ManifestCheck check;
   const auto manifest = read_manifest(folder / kManifestFile);
   if (!manifest) {
@@ -161,7 +173,7 @@ ManifestCheck check_manifest(const fs::path& folder) {
     check.problems.emplace_back("manifest.json cannot be read as a manifest.");
     return check;
   }
-  compare_files(manifest->at("files"), digests_in(folder), check.problems);
+  compare_files(manifest->at("files"), digests_in(folder, chosen), chosen, check.problems);
   check.origin = check_signature(*manifest, check.problems);
   return check;
 }

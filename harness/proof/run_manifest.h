@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,10 @@ void write_manifest(const std::filesystem::path& folder);
 
 // Reads every file. A missing manifest is no problem of its own here; `present` says it.
 [[nodiscard]] ManifestCheck check_manifest(const std::filesystem::path& folder);
+// The same of some files only, named relative to the folder: no other is opened.
+using FileChoice = std::function<bool(const std::string& name)>;
+[[nodiscard]] ManifestCheck check_manifest(const std::filesystem::path& folder,
+                                           const FileChoice& chosen);
 
 [[nodiscard]] std::string_view sentence_for(Origin origin) noexcept;
 

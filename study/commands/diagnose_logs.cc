@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "harness/commands/fixture_paths.h"
+#include "harness/proof/run_manifest.h"
 #include "harness/record/line_writer.h"
 #include "study/commands/leave_on_signal.h"
 #include "study/diagnose/column_map.h"
@@ -17,9 +18,27 @@
 namespace towbench::harness {
 namespace {
 
+// What the plant did is not opened, not even for its hash.
+void refuse_changed(const std::filesystem::path& folder) {
+  const auto manifest = check_manifest(folder, [](const std::string& name) {
+    return name == "log.csv" || name == "result.json" || name.starts_with("inputs/");
+  });
+  if (!manifest.present && std::filesystem::exists(folder / "result.json")) {
+    throw UnusableData(folder.string() +
+                       ": manifest.json is missing: the record cannot be checked");
+  }
+  if (!manifest.problems.empty()) {
+    throw UnusableData(folder.string() + ": " + manifest.problems.front());
+  }
+}
+
 // A run folder of the bench stands for the log in it.
 std::filesystem::path log_of(const std::filesystem::path& given) {
-  return std::filesystem::is_directory(given) ? given / "log.csv" : given;
+  if (!std::filesystem::is_directory(given)) {
+    return given;
+  }
+  refuse_changed(given);
+  return given / "log.csv";
 }
 
 void refuse_fatal(const diagnose::Findings& findings) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/proof/run_manifest.h"
 #include "tests/harness/end_to_end/run_support.h"
 #include "tests/support/program_output.h"
 
@@ -93,6 +94,10 @@ TEST(CommandLine, ReplaySaysIdenticalAndNamesTheFirstLineThatIsNot) {
   const auto line_3 = log.find('\n', log.find('\n') + 1) + 1;
   log[line_3] = '7';
   std::ofstream(folder / "log.csv", std::ios::binary) << log;
+  const auto changed = towbench("replay " + folder.string());
+  EXPECT_EQ(changed.code, kExitInvalid);
+  EXPECT_THAT(changed.text, HasSubstr("log.csv holds other bytes than were recorded"));
+  write_manifest(folder);  // on purpose, with the key
   const auto other = towbench("replay " + folder.string());
   EXPECT_EQ(other.code, kExitFail);
   EXPECT_THAT(other.text, HasSubstr("log.csv differs at line 3"));
