@@ -187,7 +187,7 @@ std::vector<json> load_results(const std::filesystem::path& folder, const std::s
   if (std::filesystem::is_directory(folder)) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
       const auto name = entry.path().filename().string();
-      if (name.starts_with("results") && name.ends_with(".jsonl")) {
+      if (name.starts_with("results") && name.ends_with(".jsonl") && entry.is_regular_file()) {
         files.push_back(entry.path());
       }
     }

@@ -15,6 +15,7 @@
 #include "harness/campaign/campaign_report.h"
 #include "harness/campaign/drawn_machines.h"
 #include "harness/campaign/kept_runs.h"
+#include "harness/campaign/results_file.h"
 #include "harness/campaign/slurm_array.h"
 #include "harness/campaign/worker_pool.h"
 #include "harness/commands/command.h"
@@ -126,15 +127,10 @@ void run_here(const CampaignOptions& options, const Campaign& campaign,
                            ? options.workers
                            : std::max<std::size_t>(1, std::thread::hardware_concurrency());
   // Appends: what an interrupted campaign left is kept.
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> results(std::fopen(file.c_str(), "a"),
-                                                          &std::fclose);
-  if (!results) {
-    throw std::runtime_error(file.string() + " cannot be written");
-  }
+  ResultsFile results(file);
   Progress progress(cases.size(), !options.quiet);
   run_in_workers(campaign, cases, workers, stop_requested(), [&](const std::string& line) {
-    std::fprintf(results.get(), "%s\n", line.c_str());
-    std::fflush(results.get());
+    results.append(line);
     progress.step();
   });
   if (!options.quiet && progress.done() > 0) {
@@ -222,14 +218,15 @@ int keep_one(const CampaignOptions& options, const Campaign& campaign,
 
 // All results there are, as matrix.md, with the runs that are worth keeping.
 int report_all(const CampaignOptions& options, const Campaign& campaign,
-               const std::vector<CampaignCase>& all, bool whole) {
+               const std::vector<CampaignCase>& all, const Shard& shard) {
+  const bool whole = shard.of == 1 && options.only.empty();
   const std::filesystem::path folder = options.out;
   const auto results = load_results(folder, campaign.fingerprint);
   auto sum = summary_of(results);
   CampaignReport report;
   report.title = campaign.title;
   report.refused = campaign.refused;
-  sum.missing = whole && all.size() > sum.cases ? all.size() - sum.cases : 0;
+  sum.missing = left_over(all, options, shard, results).size();
   report.sum = sum;
   report.again = [&](const nlohmann::json& line) { return command_of(campaign, line, folder); };
   report.keep_command = keep_command(options);
@@ -272,7 +269,7 @@ int execute_campaign(const CampaignOptions& options) {
     const auto results = load_results(folder, campaign.fingerprint);
     run_here(options, campaign, left_over(all, options, shard, results), shard);
   }
-  return report_all(options, campaign, all, shard.of == 1 && options.only.empty());
+  return report_all(options, campaign, all, shard);
 }
 
 }  // namespace

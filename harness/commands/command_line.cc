@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "harness/commands/command.h"
+#include "harness/commands/exit_codes.h"
 #include "harness/fixtures/fixture_error.h"
 #include "harness/fixtures/nearest_key.h"
 #include "harness/judge/check.h"
@@ -60,11 +61,21 @@ int parse_and_run(std::span<const AddVerb> add_verbs, int argc, char** argv) {
   return exit_code;
 }
 
+// What could not be printed was not told: a result that nobody has is no success.
+int finish_output() {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) {
+    return kExitPass;
+  }
+  std::fputs("towbench: standard output cannot be written\n", stderr);
+  return kExitRuntime;
+}
+
 }  // namespace
 
 int run_command_line(std::span<const AddVerb> verbs, int argc, char** argv) noexcept {
   try {
-    return parse_and_run(verbs, argc, argv);
+    const int exit_code = parse_and_run(verbs, argc, argv);
+    return graver(exit_code, finish_output());
   } catch (const FixtureError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return kExitBadInput;

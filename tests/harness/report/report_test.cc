@@ -60,7 +60,7 @@ TEST_F(Report, IsTheSameBytesForTheSameFolder) {
 TEST_F(Report, ShowsVerdictAndNumbersWithoutItsScript) {
   test::write_synthetic_run(folder(), {});
   expect_parts(page_of(folder()),
-               {"data-verdict=\"PASS\"", "y tracking error peak", "0.402\u00a0mm", "≤ 1\u00a0mm",
+               {"data-verdict=\"PASS\"", "y tracking error peak", "0.4021\u00a0mm", "≤ 1\u00a0mm",
                 "9f86d081884c7d65", "./towbench replay runs/run"});
 }
 
