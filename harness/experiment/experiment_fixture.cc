@@ -22,6 +22,11 @@ ConsoleStep read_console_step(TableReader& reader) {
     step.at_s = at_s;
   }
   reader.text("send", step.send, "what is typed, without the end of line");
+  // The script's check looks for one answer: that of a second line would go unheard.
+  if (step.send.find_first_of("\r\n") != std::string::npos) {
+    throw FixtureError(reader.place_of("send"), "text with an end of line",
+                       "one line; a [[console]] step for each");
+  }
   reader.text("expect", step.expect, "part of what the console must answer");
   std::size_t wait = 0;
   reader.choice("wait", wait, {"none", "idle"});
@@ -88,6 +93,17 @@ EvaluationWindow read_window(TableReader& reader) {
     throw FixtureError(reader.place_of("to_s"), std::to_string(window.to_s), "a time after from_s");
   }
   return window;
+}
+
+// Budgets name their window: of two with one name the second would be used by none.
+void add_window(TableReader& reader, std::vector<EvaluationWindow>& windows) {
+  auto added = read_window(reader);
+  if (std::any_of(windows.begin(), windows.end(),
+                  [&](const EvaluationWindow& other) { return other.name == added.name; })) {
+    throw FixtureError(reader.place_of("name"), '"' + added.name + '"',
+                       "a name that no other window has; \"whole\" is the whole run");
+  }
+  windows.push_back(std::move(added));
 }
 
 Budget read_budget(TableReader& reader, const std::vector<EvaluationWindow>& windows) {
@@ -160,7 +176,7 @@ Experiment read_script(TableReader& reader) {
                    [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; });
   experiment.windows.emplace_back();
   for (auto& window : reader.tables("window")) {
-    experiment.windows.push_back(read_window(window));
+    add_window(window, experiment.windows);
   }
   for (auto& budget : reader.tables("budget")) {
     experiment.budgets.push_back(read_budget(budget, experiment.windows));
