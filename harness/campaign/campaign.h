@@ -80,6 +80,9 @@ struct CampaignCase {
 [[nodiscard]] Campaign load_campaign(const std::filesystem::path& path, std::uint64_t seeds);
 // The same list in the same order, on every machine.
 [[nodiscard]] std::vector<CampaignCase> cases_of(const Campaign& campaign);
+// The entries that ask for something that none of their motions has, in words. What was asked for
+// and not tried is no pass.
+[[nodiscard]] std::vector<std::string> entries_without_cases(const Campaign& campaign);
 [[nodiscard]] FaultPlan plan_of(const CampaignCase& one);
 // One line of JSON without its end.
 [[nodiscard]] std::string run_campaign_case(const Campaign& campaign, const CampaignCase& one);

@@ -26,12 +26,18 @@ double moment_of(const std::vector<PhaseSpan>& fitting, core::Random& random) {
   return core::seconds(span.from_ns + static_cast<core::Nanoseconds>(random.uniform() * length_ns));
 }
 
+std::string name_of_entry(const CampaignEntry& entry) {
+  return fmt::format("[[inject]] {} {} phases \"{}\"", fmt::join(entry.parts, ","),
+                     fmt::join(entry.kinds, ","), fmt::join(entry.phases, ","));
+}
+
 class CaseList {
  public:
   explicit CaseList(const Campaign& campaign) : campaign_(campaign) {}
 
   std::vector<CampaignCase> build() {
     for (const auto& entry : campaign_.entries) {
+      const auto before = cases_.size();
       for (const auto& motion : campaign_.motions) {
         const auto& name = motion.plain.experiment.name;
         const bool wanted =
@@ -41,9 +47,15 @@ class CaseList {
           cross(entry, motion);
         }
       }
+      if (cases_.size() == before) {
+        without_.push_back(name_of_entry(entry));
+      }
     }
     return std::move(cases_);
   }
+
+  // Entries that gave no case, in words.
+  [[nodiscard]] const std::vector<std::string>& without() const noexcept { return without_; }
 
  private:
   void cross(const CampaignEntry& entry, const CampaignMotion& motion) {
@@ -145,12 +157,19 @@ class CaseList {
 
   const Campaign& campaign_;
   std::vector<CampaignCase> cases_;
+  std::vector<std::string> without_;
 };
 
 }  // namespace
 
 std::vector<CampaignCase> cases_of(const Campaign& campaign) {
   return CaseList(campaign).build();
+}
+
+std::vector<std::string> entries_without_cases(const Campaign& campaign) {
+  CaseList list(campaign);
+  (void)list.build();
+  return list.without();
 }
 
 }  // namespace towbench::harness

@@ -19,6 +19,7 @@
 #include "harness/campaign/slurm_array.h"
 #include "harness/campaign/worker_pool.h"
 #include "harness/commands/command.h"
+#include "harness/commands/exit_codes.h"
 #include "harness/commands/fixture_paths.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/record/line_writer.h"
@@ -247,7 +248,12 @@ int report_all(const CampaignOptions& options, const Campaign& campaign,
   if (stop_requested()) {
     return kExitRuntime;
   }
-  return exit_code_of(sum.verdict());
+  int exit_code = exit_code_of(sum.verdict());
+  for (const auto& entry : entries_without_cases(campaign)) {
+    std::printf("INVALID  %s: no motion has such a phase, so nothing was tried\n", entry.c_str());
+    exit_code = graver(exit_code, kExitInvalid);
+  }
+  return exit_code;
 }
 
 int execute_campaign(const CampaignOptions& options) {

@@ -51,6 +51,22 @@ TEST(ResultsFile, AFullDiskEndsTheCampaign) {
   EXPECT_THAT(output.text, HasSubstr("cannot be written"));
 }
 
+// What was asked for and not tried is no pass.
+TEST(EmptyEntry, IsInvalidByName) {
+  const TemporaryFixtures files;
+  const auto file = files.folder() / "two.toml";
+  const auto motion =
+      fs::proximate("fixtures/experiments/trapezoid-400.toml", files.folder()).string();
+  std::ofstream(file) << "schema = 1\nname = \"two\"\nseeds = 1\nmotions = [\"" << motion
+                      << "\"]\n[[inject]]\nparts = [\"encoder.y\"]\nkinds = [\"frozen\"]\n"
+                         "phases = [\"cruise\"]\n[[inject]]\nparts = [\"encoder.y\"]\n"
+                         "kinds = [\"missing_edges\"]\nphases = [\"no_such_phase\"]\n";
+  const auto output = bench("campaign " + file.string() + " --workers 1 --out " +
+                            (files.folder() / "out").string());
+  EXPECT_EQ(output.code, kExitInvalid) << output.text;
+  EXPECT_THAT(output.text, HasSubstr("INVALID  [[inject]] encoder.y missing_edges"));
+}
+
 TEST(StandardOutput, ThatCannotBeWrittenIsNoSuccess) {
   const TemporaryFixtures files;
   for (const std::string& words :
