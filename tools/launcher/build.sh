@@ -100,7 +100,7 @@ forget_if_moved() {
 
 explain_failed_build() {
   local preset=$1 log=$2
-  if grep -qE 'npm (ERR|error)' "$log"; then
+  if grep -q '^FAILED: reports/node_modules' "$log"; then
     echo 'towbench: npm could not fetch the packages of the report (uplot, esbuild, typescript):' \
       'no network, and not in its cache' >&2
   else
