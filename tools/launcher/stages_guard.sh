@@ -3,11 +3,23 @@
 
 stage_lint() { count "$root/tools/lint.sh" "$root"; }
 
-# Tests that take long for what they add are named, each with what it protects, in this file.
-long_tests() { sed -nE 's/^([^ #|]+) *\|.*/\1/p' "$root/tests/long_tests.txt" | paste -sd'|'; }
+# Tests that take long for what they add are named, each with what it protects, in a file.
+names_in() { sed -nE 's/^([^ #]+) *;.*/\1/p' "$root/tests/$1"; }
+long_tests() { names_in long_tests.txt | paste -sd'|'; }
+
+# A line that names no test any more would hide that a test has gone.
+every_long_test_exists() {
+  local all pattern status=0
+  all=$(ctest --test-dir "$build/release" -N)
+  while read -r pattern; do
+    grep -qE "$pattern" <<<"$all" || { echo "tests/long_tests.txt: no test is named $pattern"; status=1; }
+  done < <(names_in long_tests.txt)
+  return "$status"
+}
 
 stage_tests() {
   built release
+  count every_long_test_exists
   run_ctest release . -E "$(long_tests)"
   slowest_tests release >"$build/slowest_tests.txt"
 }
@@ -62,7 +74,7 @@ stage_sanitize_address() {
     ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 run_ctest sanitize tests -E "$left_out" -LE browser
 }
 
-whole_runs() { sed -nE 's/^([^ #|]+) *\|.*/\1/p' "$root/tests/whole_runs.txt" | paste -sd'|'; }
+whole_runs() { names_in whole_runs.txt | paste -sd'|'; }
 
 stage_fuzz() {
   local seconds=10 targets
