@@ -5,11 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "harness/commands/command.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_error.h"
 #include "harness/judge/check.h"
 #include "harness/panel/panel_assets.h"
+#include "harness/panel/panel_command.h"
 #include "harness/panel/session.h"
 #include "harness/panel/web_server.h"
 

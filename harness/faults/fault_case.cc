@@ -6,6 +6,7 @@
 
 #include "harness/faults/built_in_fault.h"
 #include "harness/faults/case_run.h"
+#include "harness/faults/inject.h"
 #include "harness/faults/motion_phases.h"
 #include "harness/faults/requirements.h"
 #include "harness/fixtures/fixture_error.h"

@@ -24,6 +24,13 @@ inline constexpr std::array<TriggerKey, 3> kNumericTriggers{{
     {"speed_m_per_s", FaultTrigger::Kind::kSpeed, core::between(1e-4, 10)},
 }};
 
+// Phases of an axis' motion: rest (no drive), hold (driven, reference stands), accelerate, cruise,
+// decelerate, reverse (about a change of direction), open_loop (a duty is commanded), brake.
+inline constexpr std::array<std::string_view, 8> kPhaseNames{
+    "rest", "hold", "accelerate", "cruise", "decelerate", "reverse", "open_loop", "brake"};
+inline constexpr std::array<std::string_view, 8> kEventNames{
+    "motion", "motion_end", "y_min", "y_max", "x_min", "x_max", "kill_switch", "fault"};
+
 // Throws FixtureError when the fault as a whole cannot be: without a trigger, or built in and with
 // one.
 void check_whole(const Fault& fault, bool has_trigger, const FixtureError::Place& place);

@@ -4,7 +4,6 @@
 
 #include "harness/faults/fault_syntax.h"
 #include "harness/faults/fault_text.h"
-#include "harness/faults/motion_phases.h"
 
 namespace towbench::harness {
 namespace {
@@ -23,17 +22,17 @@ bool read_trigger(TableReader& reader, Trigger& trigger) {
     }
   }
   const auto read_name = [&](const char* key, Trigger::Kind kind,
-                             const std::vector<std::string_view>& names) {
+                             const std::array<std::string_view, 8>& names) {
     std::size_t chosen = 0;
-    reader.choice(key, chosen, names);
+    reader.choice(key, chosen, {names.begin(), names.end()});
     if (reader.has(key)) {
       trigger.kind = kind;
       trigger.name = std::string(names[chosen]);
       ++given;
     }
   };
-  read_name("phase", Trigger::Kind::kPhase, phase_names());
-  read_name("event", Trigger::Kind::kEvent, event_names());
+  read_name("phase", Trigger::Kind::kPhase, kPhaseNames);
+  read_name("event", Trigger::Kind::kEvent, kEventNames);
   if (given > 1) {
     throw FixtureError(reader.place_of("component"), "several triggers", "one");
   }

@@ -6,7 +6,6 @@
 
 #include "harness/faults/fault_syntax.h"
 #include "harness/faults/fault_text.h"
-#include "harness/faults/motion_phases.h"
 #include "harness/fixtures/nearest_key.h"
 
 namespace towbench::harness {
@@ -148,7 +147,7 @@ class WordReader {
     if (key != "phase" && key != "event") {
       return false;
     }
-    const auto names = key == "phase" ? phase_names() : event_names();
+    const auto& names = key == "phase" ? kPhaseNames : kEventNames;
     if (std::find(names.begin(), names.end(), text) == names.end()) {
       refuse(word_, fmt::format("{}", fmt::join(names, ", ")));
     }

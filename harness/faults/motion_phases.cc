@@ -10,11 +10,6 @@ namespace {
 using bbmc::AxisMode;
 using Kind = bbmc::ControllerEvent::Kind;
 
-constexpr std::array<std::string_view, 8> kPhases{"rest",       "hold",    "accelerate", "cruise",
-                                                  "decelerate", "reverse", "open_loop",  "brake"};
-constexpr std::array<std::string_view, 8> kEvents{"motion", "motion_end", "y_min",       "y_max",
-                                                  "x_min",  "x_max",      "kill_switch", "fault"};
-
 std::string_view phase_at(const CaseRecord& run, core::Axis axis, std::size_t i) {
   constexpr double kStands_m_per_s = 1e-6;
   constexpr double kSteady_m_per_s = 1e-7;  // a tick; 0.1 mm/s^2
@@ -94,13 +89,6 @@ std::optional<core::Nanoseconds> crossing(const CaseRecord& twin, double level, 
 }
 
 }  // namespace
-
-std::vector<std::string_view> phase_names() {
-  return {kPhases.begin(), kPhases.end()};
-}
-std::vector<std::string_view> event_names() {
-  return {kEvents.begin(), kEvents.end()};
-}
 
 std::vector<PhaseSpan> phases_of(const CaseRecord& run, core::Axis axis) {
   std::vector<PhaseSpan> spans;

@@ -10,13 +10,7 @@
 
 namespace towbench::harness {
 
-// rest (no drive), hold (driven, reference stands), accelerate, cruise, decelerate, reverse (about
-// a change of direction), open_loop (a duty is commanded), brake.
-[[nodiscard]] std::vector<std::string_view> phase_names();
-// motion, motion_end, y_min, y_max, x_min, x_max, kill_switch, fault.
-[[nodiscard]] std::vector<std::string_view> event_names();
-
-struct PhaseSpan {
+struct PhaseSpan {  // `phase`: one of kPhaseNames
   std::string_view phase;
   core::Nanoseconds from_ns = 0;
   core::Nanoseconds to_ns = 0;

@@ -8,6 +8,7 @@
 #include "harness/faults/carrier_fit.h"
 #include "harness/faults/case_run.h"
 #include "harness/faults/fault_case.h"
+#include "harness/faults/inject.h"
 
 namespace towbench::harness {
 namespace {

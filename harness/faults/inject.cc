@@ -1,4 +1,4 @@
-#include "harness/faults/injection.h"
+#include "harness/faults/inject.h"
 
 #include <algorithm>
 #include <cmath>
