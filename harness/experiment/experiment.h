@@ -11,7 +11,7 @@
 #include "emulator/scheduled_event.h"
 #include "harness/experiment/board_plan.h"
 #include "harness/experiment/hand_act.h"
-#include "harness/faults/fault.h"
+#include "harness/fault_plan/fault.h"
 
 namespace towbench::harness {
 

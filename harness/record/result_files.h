@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/bench/run_outcome.h"
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/judge/judge.h"
+#include "harness/lockstep/run_outcome.h"
 
 namespace towbench::harness {
 

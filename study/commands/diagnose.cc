@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "harness/judge/check.h"
+#include "harness/checks/check.h"
 #include "study/commands/diagnose_active.h"
 #include "study/commands/diagnose_logs.h"
 #include "study/commands/verbs.h"

@@ -7,9 +7,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "harness/commands/fixture_paths.h"
+#include "harness/checks/check.h"
 #include "harness/commands/stop_signal.h"
-#include "harness/judge/check.h"
+#include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
 #include "study/commands/study_progress.h"
 #include "study/commands/verbs.h"
