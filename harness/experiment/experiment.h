@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/scheduled_event.h"
+#include "emulator/faults/scheduled_event.h"
 #include "harness/experiment/board_plan.h"
 #include "harness/experiment/hand_act.h"
 #include "harness/fault_plan/fault.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/result.h"
-#include "emulator/scheduled_event.h"
+#include "emulator/faults/scheduled_event.h"
 #include "harness/link/link_faults.h"
 #include "protocol/carriers/turn_watch.h"
 #include "protocol/message_sink.h"

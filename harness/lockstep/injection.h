@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "emulator/scheduled_event.h"
+#include "emulator/faults/scheduled_event.h"
 #include "harness/link/link_faults.h"
 #include "harness/lockstep/host_schedule.h"
 
