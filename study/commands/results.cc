@@ -41,7 +41,7 @@ std::vector<TrackedSpeed> tracked(const RigFixture& rig, const ControllerFixture
   return all;
 }
 
-struct Bench {
+struct ResultsBench {
   RigFixture dry;
   RigFixture wet;
   ControllerFixture controller;
@@ -49,7 +49,7 @@ struct Bench {
   std::string fingerprint;  // of what is run, apart from the program and the settings
 };
 
-void measure_tracking(const Bench& bench, Results& results) {
+void measure_tracking(const ResultsBench& bench, Results& results) {
   results.slow = tracked(bench.dry, bench.controller,
                          {0.005, 0.010, 0.020, 0.030, 0.040, 0.050, 0.060, 0.070, 0.080, 0.090,
                           0.100, 0.200, 0.300, 0.400},
@@ -61,8 +61,8 @@ void measure_tracking(const Bench& bench, Results& results) {
       tracked(bench.wet, bench.controller, {0.05, 0.15, 0.25, 0.35, 0.45, 0.55}, fast);
 }
 
-void identify_machine(const Bench& bench, const ResultsOptions& options, StudyProgress& progress,
-                      Results& results) {
+void identify_machine(const ResultsBench& bench, const ResultsOptions& options,
+                      StudyProgress& progress, Results& results) {
   const procedures::Machine machine(bench.dry, bench.controller, options.seed, bench.watchers);
   procedures::ChainOptions chain;
   chain.settings = fixtures_directory() / "identification";
@@ -101,8 +101,8 @@ procedures::TowOutcome tow_once(const procedures::TowLoads& loads,
   return outcome;
 }
 
-void tow_everything(const Bench& bench, const ResultsOptions& options, StudyProgress& progress,
-                    Results& results) {
+void tow_everything(const ResultsBench& bench, const ResultsOptions& options,
+                    StudyProgress& progress, Results& results) {
   const auto rigs = fixtures_directory() / "rigs";
   const procedures::TowLoads loads(bench.dry, bench.controller, options.seed, rigs, bench.watchers);
   for (const auto& procedure : procedures::tow_procedures()) {
@@ -144,11 +144,12 @@ int execute_results(const ResultsOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const auto fixtures = fixtures_directory();
   SourceFiles sources;
-  Bench bench{.dry = load_rig(fixtures / "rigs" / "tow-dry.toml", sources),
-              .wet = load_rig(fixtures / "rigs" / "tow-cylinder.toml", sources),
-              .controller = load_controller(fixtures / "controllers" / "bbmc-tuned.toml", sources),
-              .watchers = {.stop = &stop_requested(), .progress = {}},
-              .fingerprint = {}};
+  ResultsBench bench{
+      .dry = load_rig(fixtures / "rigs" / "tow-dry.toml", sources),
+      .wet = load_rig(fixtures / "rigs" / "tow-cylinder.toml", sources),
+      .controller = load_controller(fixtures / "controllers" / "bbmc-tuned.toml", sources),
+      .watchers = {.stop = &stop_requested(), .progress = {}},
+      .fingerprint = {}};
   bench.fingerprint =
       fmt::format("{:016x}-{:016x}-{}", bench.dry.hash, bench.controller.hash, options.seed);
   StudyProgress progress(true);

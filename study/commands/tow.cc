@@ -59,7 +59,7 @@ void tell(const Recovery& r) {
              r.narrow ? "" : " TOO WIDE");
 }
 
-void show_progress(const std::string& what, double share, bool wanted) {
+void show_tow_progress(const std::string& what, double share, bool wanted) {
   if (wanted && isatty(STDERR_FILENO) == 1) {
     std::fprintf(stderr, "\r%s: %.0f %%\033[K", what.c_str(), 100 * share);
     std::fflush(stderr);
@@ -129,7 +129,7 @@ int execute_tow(const TowOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     auto outcome =
         procedure->run({.loads = loads, .settings = settings, .progress = [&](double share) {
-                          show_progress(id, share, !options.quiet);
+                          show_tow_progress(id, share, !options.quiet);
                         }});
     const double wall_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -140,7 +140,7 @@ int execute_tow(const TowOptions& options) {
       each.procedure = id;
     }
     if (!options.quiet && !options.json) {
-      show_progress("", 0, false);
+      show_tow_progress("", 0, false);
       tell(id, std::string(procedure->title()), outcome, wall_s);
       for (const auto& each : judged) {
         tell(each);

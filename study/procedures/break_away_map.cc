@@ -12,7 +12,7 @@
 namespace towbench::harness::procedures {
 namespace {
 
-struct Settings {
+struct BreakAwayMapSettings {
   int repeats = 628;
   double increment_pct = 0.1;
   double step_s = 0.3;
@@ -42,7 +42,7 @@ class BreakAwayMap final : public Procedure {
   [[nodiscard]] std::string_view title() const noexcept override { return "Break-away map"; }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
-    const auto settings = read_settings<Settings>(context.settings, context.axis);
+    const auto settings = read_settings<BreakAwayMapSettings>(context.settings, context.axis);
     const auto& belief = context.machine.configuration().axes[context.axis];
     const auto scale = torque_scale(context);
     // Half as much again as ever believed: friction of a machine nobody has studied.
@@ -77,8 +77,9 @@ class BreakAwayMap final : public Procedure {
   }
 
  private:
-  static identify::Recording play(const ProcedureContext& context, const Settings& settings,
-                                  double place_m, double limit_pct, int repeats, std::size_t done) {
+  static identify::Recording play(const ProcedureContext& context,
+                                  const BreakAwayMapSettings& settings, double place_m,
+                                  double limit_pct, int repeats, std::size_t done) {
     Conversation talk{.name = fmt::format("EXP-OL-1-{}-{}", core::name_of(context.axis), done)};
     talk.start_m = middle_of_tracks(context.machine);
     talk.start_m[context.axis] = place_m;
@@ -96,7 +97,8 @@ class BreakAwayMap final : public Procedure {
     return context.machine.play(talk, studied_configuration(context));
   }
 
-  static ProcedureOutcome judged(const ProcedureContext& context, const Settings& settings,
+  static ProcedureOutcome judged(const ProcedureContext& context,
+                                 const BreakAwayMapSettings& settings,
                                  const std::vector<identify::BreakAway>& all,
                                  const TorqueScale& scale) {
     const auto [low, high] = std::minmax_element(

@@ -14,7 +14,7 @@
 namespace towbench::harness::procedures {
 namespace {
 
-struct Settings {
+struct DriveCalibrationSettings {
   double push_N = 15;
   double speed_m_per_s = 0.05;
   double distance_m = 0.35;
@@ -37,7 +37,7 @@ class DriveCalibration final : public Procedure {
   [[nodiscard]] std::string_view title() const noexcept override { return "K_T and K_amp"; }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
-    const auto settings = read_settings<Settings>(context.settings, context.axis);
+    const auto settings = read_settings<DriveCalibrationSettings>(context.settings, context.axis);
     const auto why = refusal(context, settings);
     if (!why.empty()) {
       return ProcedureOutcome::refused(why);
@@ -76,7 +76,8 @@ class DriveCalibration final : public Procedure {
   }
 
  private:
-  static std::string refusal(const ProcedureContext& context, const Settings& settings) {
+  static std::string refusal(const ProcedureContext& context,
+                             const DriveCalibrationSettings& settings) {
     const auto& plate = context.machine.nameplate(context.axis);
     const auto& belief = context.machine.configuration().axes[context.axis];
     if (!context.machine.has_force_sensor()) {
@@ -112,8 +113,9 @@ class DriveCalibration final : public Procedure {
     }
   }
 
-  static identify::Recording play(const ProcedureContext& context, const Settings& settings,
-                                  double cruise_s, double every_s) {
+  static identify::Recording play(const ProcedureContext& context,
+                                  const DriveCalibrationSettings& settings, double cruise_s,
+                                  double every_s) {
     Conversation talk{.name = fmt::format("EXP-P-1-{}", core::name_of(context.axis))};
     talk.start_m = middle_of_tracks(context.machine);
     talk.start_m[context.axis] -= 0.5 * settings.distance_m;

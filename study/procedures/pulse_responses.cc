@@ -16,7 +16,7 @@
 namespace towbench::harness::procedures {
 namespace {
 
-struct Settings {
+struct PulseResponsesSettings {
   PulseWish wish;
   double start_share = 0.15;
   double knot_spacing_m = 0.3;
@@ -44,7 +44,7 @@ class PulseResponses final : public Procedure {
   [[nodiscard]] std::string_view title() const noexcept override { return "Pulse responses"; }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
-    const auto settings = read_settings<Settings>(context.settings, context.axis);
+    const auto settings = read_settings<PulseResponsesSettings>(context.settings, context.axis);
     const auto track = track_of(context.machine.configuration().axes[context.axis]);
     const double start_m = track.min_m + settings.start_share * track.length_m();
     auto plan = plan_pulses(context, settings.wish, start_m);
@@ -79,8 +79,8 @@ class PulseResponses final : public Procedure {
   // Where that takes it near the voltage limit the supply's sag has a say, which no model here
   // knows: the same with less duty.
   static identify::Recording play_below_saturation(const ProcedureContext& context,
-                                                   const Settings& settings, PulsePlan& plan,
-                                                   double start_m) {
+                                                   const PulseResponsesSettings& settings,
+                                                   PulsePlan& plan, double start_m) {
     constexpr double kMostOfSaturation = 0.8;  // OLS-C-6, of the motor itself
     constexpr int kMostTrials = 4;
     const double most =
@@ -111,8 +111,9 @@ class PulseResponses final : public Procedure {
     return peak;
   }
 
-  static identify::Recording play(const ProcedureContext& context, const Settings& settings,
-                                  const PulsePlan& plan, double start_m) {
+  static identify::Recording play(const ProcedureContext& context,
+                                  const PulseResponsesSettings& settings, const PulsePlan& plan,
+                                  double start_m) {
     Conversation talk{.name = fmt::format("EXP-OL-2-{}", core::name_of(context.axis))};
     talk.start_m = middle_of_tracks(context.machine);
     talk.start_m[context.axis] = start_m;

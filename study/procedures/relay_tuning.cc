@@ -22,13 +22,13 @@ namespace {
 constexpr double kSmallest_m = 2e-4;  // 89 counts of Y: below, friction is all there is
 constexpr double kSmaller = 0.8;
 
-struct Settings {
+struct RelayTuningSettings {
   core::BoundedVector<double, 16> amplitudes_m;
   double chosen_m = 5e-4;
   double trial_speed_m_per_s = 0.1;
   double trial_distance_m = 0.2;
 
-  Settings() noexcept {
+  RelayTuningSettings() noexcept {
     for (const double each : {3e-4, 4e-4, 5e-4, 6.5e-4, 8e-4}) {
       (void)amplitudes_m.push_back(each);
     }
@@ -84,7 +84,7 @@ class RelayTuning final : public Procedure {
   [[nodiscard]] std::string_view title() const noexcept override { return "Ziegler-Nichols"; }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
-    const auto settings = read_settings<Settings>(context.settings, context.axis);
+    const auto settings = read_settings<RelayTuningSettings>(context.settings, context.axis);
     const auto track = track_of(context.machine.configuration().axes[context.axis]);
     if (2 * settings.trial_distance_m > track.length_m()) {
       return ProcedureOutcome::refused(
@@ -177,7 +177,8 @@ class RelayTuning final : public Procedure {
     return context.machine.play(talk, studied_configuration(context));
   }
 
-  static identify::Recording try_gains(const ProcedureContext& context, const Settings& settings,
+  static identify::Recording try_gains(const ProcedureContext& context,
+                                       const RelayTuningSettings& settings,
                                        const std::string& gains) {
     Conversation talk{.name = fmt::format("tuning-{}-trial", core::name_of(context.axis))};
     talk.start_m = middle_of_tracks(context.machine);

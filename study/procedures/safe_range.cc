@@ -19,7 +19,7 @@
 namespace towbench::harness::procedures {
 namespace {
 
-struct Settings {
+struct SafeRangeSettings {
   int repeats = 3;
   double near_m = 0.08;
 
@@ -36,7 +36,7 @@ class SafeRange final : public Procedure {
   [[nodiscard]] std::string_view title() const noexcept override { return "Safe range of motion"; }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
-    const auto settings = read_settings<Settings>(context.settings, context.axis);
+    const auto settings = read_settings<SafeRangeSettings>(context.settings, context.axis);
     const auto& belief = context.machine.configuration().axes[context.axis];
     const auto track = track_of(belief);
     if (track.length_m() < 4 * settings.near_m) {
@@ -100,8 +100,9 @@ class SafeRange final : public Procedure {
     return fmt::format("{:.1f} +- {:.1f}", distance.counts, distance.deviation_counts);
   }
 
-  static identify::Recording play(const ProcedureContext& context, const Settings& settings,
-                                  const Track& track, int number) {
+  static identify::Recording play(const ProcedureContext& context,
+                                  const SafeRangeSettings& settings, const Track& track,
+                                  int number) {
     Conversation talk{.name = fmt::format("EXP-P-5-{}-{}", core::name_of(context.axis), number)};
     talk.start_m = middle_of_tracks(context.machine);
     talk.start_m[context.axis] = track.min_m + settings.near_m;

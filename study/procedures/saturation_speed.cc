@@ -16,7 +16,7 @@
 namespace towbench::harness::procedures {
 namespace {
 
-struct Settings {
+struct SaturationSpeedSettings {
   double duty_pct = 30;
   double start_share = 0.15;   // of the track, from its min end
   double longest_share = 0.5;  // of the track that a step may take
@@ -36,7 +36,7 @@ class SaturationSpeed final : public Procedure {
   [[nodiscard]] std::string_view title() const noexcept override { return "Saturation speed"; }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
-    const auto settings = read_settings<Settings>(context.settings, context.axis);
+    const auto settings = read_settings<SaturationSpeedSettings>(context.settings, context.axis);
     const auto& plate = context.machine.nameplate(context.axis);
     const auto& belief = context.machine.configuration().axes[context.axis];
     const double k =
@@ -72,8 +72,9 @@ class SaturationSpeed final : public Procedure {
   }
 
  private:
-  static identify::Recording play(const ProcedureContext& context, const Settings& settings,
-                                  const Track& track, double time_s) {
+  static identify::Recording play(const ProcedureContext& context,
+                                  const SaturationSpeedSettings& settings, const Track& track,
+                                  double time_s) {
     Conversation talk{.name =
                           fmt::format("EXP-P-3-{}-{:.3f}", core::name_of(context.axis), time_s)};
     talk.start_m = middle_of_tracks(context.machine);

@@ -15,7 +15,7 @@
 namespace towbench::harness::procedures {
 namespace {
 
-struct Settings {
+struct SmallestCommandSettings {
   double bracket_pct = 0.5;
   double start_share = 0.1;
   double most_pct = 60;
@@ -67,7 +67,7 @@ class SmallestCommand final : public Procedure {
   }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
-    const auto settings = read_settings<Settings>(context.settings, context.axis);
+    const auto settings = read_settings<SmallestCommandSettings>(context.settings, context.axis);
     const double time_s = value_or(context, "mechanical_time_constant_s", 0);
     const double saturation = value_or(context, "saturation_speed_m_per_s", 0);
     if (time_s <= 0 || saturation <= 0) {

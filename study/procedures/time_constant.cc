@@ -16,7 +16,7 @@
 namespace towbench::harness::procedures {
 namespace {
 
-struct Settings {
+struct TimeConstantSettings {
   double speed_share = 0.6;
   double duty_pct = 30;
   int pairs = 4;
@@ -38,7 +38,7 @@ class TimeConstant final : public Procedure {
   }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
-    const auto settings = read_settings<Settings>(context.settings, context.axis);
+    const auto settings = read_settings<TimeConstantSettings>(context.settings, context.axis);
     const auto& belief = context.machine.configuration().axes[context.axis];
     const auto axis = believed_axis(context);
     const double torque_Nm = settings.duty_pct * torque_scale(context).torque_per_duty_Nm;
@@ -104,8 +104,9 @@ class TimeConstant final : public Procedure {
            plate.metres_per_rad();
   }
 
-  static identify::Recording play(const ProcedureContext& context, const Settings& settings,
-                                  double push_s, double start_m, int number) {
+  static identify::Recording play(const ProcedureContext& context,
+                                  const TimeConstantSettings& settings, double push_s,
+                                  double start_m, int number) {
     Conversation talk{.name = fmt::format("EXP-P-2-{}-{}", core::name_of(context.axis), number)};
     talk.start_m = middle_of_tracks(context.machine);
     talk.start_m[context.axis] = start_m;

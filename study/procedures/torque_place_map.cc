@@ -22,7 +22,7 @@
 namespace towbench::harness::procedures {
 namespace {
 
-struct Settings {
+struct TorquePlaceMapSettings {
   double slow_m_per_s = 0.1;
   double fast_m_per_s = 0.3;
   double rise_s = 1.0;
@@ -54,7 +54,7 @@ class TorquePlaceMap final : public Procedure {
   [[nodiscard]] std::string_view title() const noexcept override { return "Torque-position map"; }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
-    const auto settings = read_settings<Settings>(context.settings, context.axis);
+    const auto settings = read_settings<TorquePlaceMapSettings>(context.settings, context.axis);
     const auto track = track_of(context.machine.configuration().axes[context.axis]);
     const double from_m = track.min_m + settings.start_share * track.length_m();
     const double way_m = (1 - 2 * settings.start_share) * track.length_m();
@@ -78,8 +78,9 @@ class TorquePlaceMap final : public Procedure {
   }
 
  private:
-  static identify::Recording play(const ProcedureContext& context, const Settings& settings,
-                                  double speed, double from_m, double way_m) {
+  static identify::Recording play(const ProcedureContext& context,
+                                  const TorquePlaceMapSettings& settings, double speed,
+                                  double from_m, double way_m) {
     const auto& belief = context.machine.configuration().axes[context.axis];
     Conversation talk{.name = fmt::format("EXP-CL-2-{}-{}", core::name_of(context.axis), speed)};
     talk.start_m = middle_of_tracks(context.machine);
@@ -96,7 +97,8 @@ class TorquePlaceMap final : public Procedure {
     return context.machine.play(talk, studied_configuration(context));
   }
 
-  static std::vector<Level> levels_of(const ProcedureContext& context, const Settings& settings,
+  static std::vector<Level> levels_of(const ProcedureContext& context,
+                                      const TorquePlaceMapSettings& settings,
                                       const identify::Recording& data, double speed, double from_m,
                                       double way_m) {
     const auto scale = torque_scale(context).torque_per_duty_Nm;
@@ -138,7 +140,8 @@ class TorquePlaceMap final : public Procedure {
     return whole;
   }
 
-  static ProcedureOutcome judged(const ProcedureContext& context, const Settings& settings,
+  static ProcedureOutcome judged(const ProcedureContext& context,
+                                 const TorquePlaceMapSettings& settings,
                                  const std::array<double, 2>& speeds,
                                  const std::array<std::vector<Level>, 2>& levels) {
     const double rad_per_m = 1 / context.machine.nameplate(context.axis).metres_per_rad();

@@ -29,7 +29,7 @@ namespace {
 
 using identify::SteadyRun;
 
-struct Settings {
+struct TorqueSpeedMapSettings {
   double place_share = 0.5;
   double slowest_way_m = 0.01;
   double longest_way_m = 0.5;
@@ -58,7 +58,7 @@ class TorqueSpeedMap final : public Procedure {
   [[nodiscard]] std::string_view title() const noexcept override { return "Torque-speed map"; }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
-    const auto settings = read_settings<Settings>(context.settings, context.axis);
+    const auto settings = read_settings<TorqueSpeedMapSettings>(context.settings, context.axis);
     const auto& belief = context.machine.configuration().axes[context.axis];
     const auto track = track_of(belief);
     const double middle_m = track.min_m + settings.place_share * track.length_m();
@@ -87,13 +87,13 @@ class TorqueSpeedMap final : public Procedure {
     std::string trouble{};
   };
 
-  static double whole_way(const Settings& settings, double speed) {
+  static double whole_way(const TorqueSpeedMapSettings& settings, double speed) {
     return std::clamp(speed * (settings.shortest_s + kSettle_s), settings.slowest_way_m,
                       settings.longest_way_m) +
            speed * kRise_s;
   }
 
-  static Collected collect(const ProcedureContext& context, const Settings& settings,
+  static Collected collect(const ProcedureContext& context, const TorqueSpeedMapSettings& settings,
                            const std::vector<double>& speeds, double middle_m, double share) {
     Collected collected;
     for (std::size_t i = 0; i < speeds.size(); ++i) {
@@ -134,7 +134,7 @@ class TorqueSpeedMap final : public Procedure {
   // The same experiment on the identified plant, whose law is known. Nothing when there is no such
   // plant.
   static std::optional<Corrected> beside_twin(const ProcedureContext& context,
-                                              const Settings& settings,
+                                              const TorqueSpeedMapSettings& settings,
                                               const std::vector<double>& speeds, double middle_m,
                                               const std::vector<SteadyRun>& runs) {
     constexpr double kNormal95 = 1.959964;
@@ -218,7 +218,8 @@ class TorqueSpeedMap final : public Procedure {
     return stalled;
   }
 
-  static ProcedureOutcome judged(const ProcedureContext& context, const Settings& settings,
+  static ProcedureOutcome judged(const ProcedureContext& context,
+                                 const TorqueSpeedMapSettings& settings,
                                  const std::vector<double>& speeds, const Collected& measured,
                                  double middle_m) {
     const auto& runs = measured.runs;

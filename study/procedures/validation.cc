@@ -24,7 +24,7 @@
 namespace towbench::harness::procedures {
 namespace {
 
-struct Settings {
+struct ValidationSettings {
   double speed_m_per_s = 0.25;
   double distance_m = 1.0;
   double amplitude_m = 0.15;
@@ -103,7 +103,7 @@ class Validation final : public Procedure {
   [[nodiscard]] std::string_view title() const noexcept override { return "Fresh trajectories"; }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
-    const auto settings = read_settings<Settings>(context.settings, context.axis);
+    const auto settings = read_settings<ValidationSettings>(context.settings, context.axis);
     if (context.find("inertia_kg_m2") == nullptr) {
       return ProcedureOutcome::refused("no model: EXP-OL-2 gave none");
     }
@@ -214,7 +214,8 @@ class Validation final : public Procedure {
   }
 
   static identify::Recording play(const ProcedureContext& context, const Machine& machine,
-                                  const Settings& settings, double start_m, const Motion& motion) {
+                                  const ValidationSettings& settings, double start_m,
+                                  const Motion& motion) {
     const auto name = core::name_of(context.axis);
     Conversation talk{.name = fmt::format("validation-{}-{}", name, motion.name)};
     talk.start_m = middle_of_tracks(context.machine);

@@ -7,10 +7,10 @@
 namespace towbench::harness::procedures {
 namespace {
 
-constexpr double kTyped_s = 1.0;  // the motion is asked for then
+constexpr double kWeighTyped_s = 1.0;  // the motion is asked for then
 constexpr double kWait_s = 0.5;
-constexpr double kRamp_s = 0.8;
-constexpr double kSmooth_s = 0.243;
+constexpr double kWeighRamp_s = 0.8;
+constexpr double kWeighSmooth_s = 0.243;
 constexpr double kSettle_s = 2.0;
 
 struct Plan {
@@ -25,8 +25,8 @@ Plan plan_of(core::Axis axis, const WeighSettings& settings) {
   Plan plan{};
   plan.speed_m_per_s = axis == core::Axis::kY ? settings.speed_y_m_per_s : settings.speed_x_m_per_s;
   plan.distance_m = axis == core::Axis::kY ? settings.distance_y_m : settings.distance_x_m;
-  const double start_s = kTyped_s + kWait_s + kRamp_s + kSmooth_s;
-  const double steady_s = plan.distance_m / plan.speed_m_per_s - kRamp_s - kSmooth_s;
+  const double start_s = kWeighTyped_s + kWait_s + kWeighRamp_s + kWeighSmooth_s;
+  const double steady_s = plan.distance_m / plan.speed_m_per_s - kWeighRamp_s - kWeighSmooth_s;
   plan.pull_s = start_s + steady_s / 3;
   plan.times = {.before_from_s = start_s + kSettle_s / 2,
                 .before_to_s = plan.pull_s - 0.05,
@@ -44,11 +44,12 @@ Conversation conversation(const Machine& machine, core::Axis axis, const WeighSe
   talk.start_m[core::Axis::kY] = settings.start_y_m;
   talk.start_m[core::Axis::kX] = settings.start_x_m;
   talk.steps = declare_position(talk, machine);
-  auto step = move(fmt::format(
-      "run -trapez {} --distance {:.4f}m --speed {:.4f}m/s "
-      "--acceleration {:.3f}s --smooth {:.3f}s --wait {:.3f}s",
-      core::name_of(axis), plan.distance_m, plan.speed_m_per_s, kRamp_s, kSmooth_s, kWait_s));
-  step.at_s = kTyped_s;
+  auto step =
+      move(fmt::format("run -trapez {} --distance {:.4f}m --speed {:.4f}m/s "
+                       "--acceleration {:.3f}s --smooth {:.3f}s --wait {:.3f}s",
+                       core::name_of(axis), plan.distance_m, plan.speed_m_per_s, kWeighRamp_s,
+                       kWeighSmooth_s, kWait_s));
+  step.at_s = kWeighTyped_s;
   talk.steps.push_back(step);
   if (pulled) {
     const double end_s = plan.times.pulled_to_s + 0.02;
@@ -78,10 +79,11 @@ std::string why_not(const Machine& machine, core::Axis axis, const WeighSettings
   const auto plan = plan_of(axis, settings);
   const double start_m = axis == core::Axis::kY ? settings.start_y_m : settings.start_x_m;
   constexpr double kSteady_s = 6.0;
-  for (auto why : {no_axis(machine, axis), no_force_sensor(machine),
-                   no_travel(machine, axis, start_m, start_m + plan.distance_m),
-                   too_fast(machine, axis, plan.speed_m_per_s, 0.0, settings.weight_N),
-                   too_short(plan.distance_m, plan.speed_m_per_s, kRamp_s, kSmooth_s, kSteady_s)}) {
+  for (auto why :
+       {no_axis(machine, axis), no_force_sensor(machine),
+        no_travel(machine, axis, start_m, start_m + plan.distance_m),
+        too_fast(machine, axis, plan.speed_m_per_s, 0.0, settings.weight_N),
+        too_short(plan.distance_m, plan.speed_m_per_s, kWeighRamp_s, kWeighSmooth_s, kSteady_s)}) {
     if (!why.empty()) {
       return why;
     }
