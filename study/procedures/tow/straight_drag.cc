@@ -6,9 +6,9 @@
 #include "study/identify/tow/extended_model.h"
 #include "study/identify/tow/paired_difference.h"
 #include "study/procedures/settings.h"
-#include "study/procedures/tow/exp_1_settings.h"
-#include "study/procedures/tow/exp_1_tables.h"
 #include "study/procedures/tow/feasibility.h"
+#include "study/procedures/tow/straight_drag_settings.h"
+#include "study/procedures/tow/straight_drag_tables.h"
 #include "study/procedures/tow/tow_procedure.h"
 
 namespace towbench::harness::procedures {

@@ -1,4 +1,4 @@
-#include "study/procedures/tow/exp_1_tables.h"
+#include "study/procedures/tow/straight_drag_tables.h"
 
 #include <algorithm>
 #include <array>
