@@ -5,8 +5,6 @@
 #include <filesystem>
 #include <string>
 
-#include <nlohmann/json.hpp>
-
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/judge/judge.h"
 #include "harness/lockstep/run_outcome.h"
@@ -29,9 +27,9 @@ void write_started(const std::filesystem::path& folder, const ExperimentFixture&
 // The last one of a run that was cut short.
 void write_incomplete(const std::filesystem::path& folder, const ExperimentFixture& fixture,
                       const RunIdentity& identity, const RunOutcome& outcome);
-// All three files of a run that was judged. Returns what result.json holds.
-nlohmann::json write_judged(const std::filesystem::path& folder, const ExperimentFixture& fixture,
-                            const RunIdentity& identity, const RunOutcome& outcome,
-                            const Judgement& judgement);
+// All three files of a run that was judged.
+void write_judged(const std::filesystem::path& folder, const ExperimentFixture& fixture,
+                  const RunIdentity& identity, const RunOutcome& outcome,
+                  const Judgement& judgement);
 
 }  // namespace towbench::harness

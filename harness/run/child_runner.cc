@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include <nlohmann/json.hpp>
+#include <fmt/format.h>
 
 #include "harness/link/linked_plant.h"
 #include "harness/link/pty_line.h"
@@ -29,9 +29,9 @@ protocol::CarrierResult<std::unique_ptr<Connection>> connect(
 
 // What a run has put on its wire, for whoever compares carriers.
 void write_wire_use(const std::filesystem::path& folder, const protocol::WireUse& use) {
-  const nlohmann::json bits{{"bits_to_plant", use.bits_sent},
-                            {"bits_to_controller", use.bits_received}};
-  write_atomically(folder / "wire.json", bits.dump(1) + "\n");
+  write_atomically(folder / "wire.json",
+                   fmt::format("{{\n \"bits_to_controller\": {},\n \"bits_to_plant\": {}\n}}\n",
+                               use.bits_received, use.bits_sent));
 }
 
 RunOutcome incomplete_because(const std::string& reason) {

@@ -2,6 +2,7 @@
 
 #include "harness/fixtures/canonical_hash.h"
 #include "harness/fixtures/fixture_error.h"
+#include "harness/record/line_writer.h"
 #include "harness/record/run_folder.h"
 #include "harness/run/carrier_name.h"
 #include "harness/run/driven_run.h"

@@ -99,17 +99,14 @@ TEST(Integrity, AMotionThatTheDecoderDidNotSeeIsInvalid) {
 TEST(Integrity, ARunWithoutAnyEdgeIsInvalidEvenIfNothingMoved) {
   SyntheticRun run;
   run.write(
-      kOneMs, 10 * kOneMs, [](double, bbmc::TelemetryRow&) {},
-      [](double, emulator::TruthRow&) {});
+      kOneMs, 10 * kOneMs, [](double, bbmc::TelemetryRow&) {}, [](double, emulator::TruthRow&) {});
   EXPECT_EQ(check_edges_seen(run.load()).verdict, Verdict::kInvalid);
 }
 
 TEST(Integrity, ALogThatEndsEarlyIsInvalid) {
   auto run = moving_run(5);
-  EXPECT_EQ(check_log_complete(run.load(), complete(102 * kOneMs)).verdict,
-            Verdict::kInvalid);
-  EXPECT_EQ(check_truth_complete(run.load(), complete(102 * kOneMs)).verdict,
-            Verdict::kInvalid);
+  EXPECT_EQ(check_log_complete(run.load(), complete(102 * kOneMs)).verdict, Verdict::kInvalid);
+  EXPECT_EQ(check_truth_complete(run.load(), complete(102 * kOneMs)).verdict, Verdict::kInvalid);
 }
 
 TEST(Integrity, AMissingRowIsInvalidAndNamed) {
@@ -131,8 +128,7 @@ TEST(Integrity, ATornLastRowIsInvalid) {
   auto run = moving_run(5);
   const auto path = run.folder() / "log.csv";
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 3);
-  EXPECT_EQ(check_log_complete(run.load(), complete(100 * kOneMs)).verdict,
-            Verdict::kInvalid);
+  EXPECT_EQ(check_log_complete(run.load(), complete(100 * kOneMs)).verdict, Verdict::kInvalid);
 }
 
 TEST(Integrity, LostRowsAndFailedWritesAreInvalid) {
@@ -178,8 +174,7 @@ TEST(Windows, MayCountFromTheFirstMotion) {
 TEST(Windows, WithoutMotionAreNotFound) {
   SyntheticRun run;
   run.write(
-      kOneMs, 10 * kOneMs, [](double, bbmc::TelemetryRow&) {},
-      [](double, emulator::TruthRow&) {});
+      kOneMs, 10 * kOneMs, [](double, bbmc::TelemetryRow&) {}, [](double, emulator::TruthRow&) {});
   EXPECT_FALSE(
       resolve_windows({{"w", EvaluationWindow::Origin::kMotion, 0, 1}}, run.load())[0].found);
 }
