@@ -20,14 +20,6 @@ echo "shellcheck: ${#scripts[@]} scripts"
 shellcheck -x "${scripts[@]}" || status=1
 
 sh tools/check_includes.sh . || status=1
-bash tools/check_documents.sh . || status=1
-
-# Since this commit every subject is one line that a log shows whole.
-long=$(git log --no-merges --format='%h %s' ce220da.. 2>/dev/null | awk 'length($0) > 80')
-if [[ -n $long ]]; then
-  printf 'commit subjects of more than 72 characters:\n%s\n' "$long"
-  status=1
-fi
 sh tools/check_folder_cycles.sh . || status=1
 
 # An absolute path of somebody's machine in a tracked file is a mistake, always.

@@ -6,7 +6,7 @@
 
 namespace towbench::tests {
 
-// The session that docs/reference/bbmc.md shows: what was typed and what came back, line by line.
+// The session that docs/bbmc.md shows: what was typed and what came back, line by line.
 [[nodiscard]] std::string typed_session();
 
 }  // namespace towbench::tests
