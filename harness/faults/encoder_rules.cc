@@ -92,7 +92,7 @@ MaybeCheck encoder_fault_is_found(const CaseEvidence& evidence) {
   }
   const auto& run = evidence.run;
   const auto axis = fault->place.axis;
-  // Parameters that are up to 10 % off cost up to 20 % of the time (docs/safety.md).
+  // Parameters that are up to 10 % off cost up to 20 % of the time (docs/theory/safety.md).
   const double longest_s = differs_from_configuration(evidence, axis) ? 0.060 : 0.050;
   const auto cause_ns = cause_of(evidence, *fault);
   const auto found_ns = latched_ns(run);

@@ -34,7 +34,7 @@ stages: lint              format, shellcheck, include rules
         fresh_start       a clone in a bare Debian 12 folder: ./towbench demo from nothing, and again
 
 on request only (--only):
-        carrier_table     the table of docs/carriers.md, measured here: fidelity, bandwidth, load, round trip
+        carrier_table     the table of docs/measurements/carriers.md, measured here: fidelity, bandwidth, load, round trip
         panel_cost    what an open panel does to a run by the wall clock: lateness in alternating blocks, printed
         tidy_everything   clang-tidy of the harness and carriers too; about half an hour
         campaign          the standard fault campaign, some 3,000 cases, from scratch

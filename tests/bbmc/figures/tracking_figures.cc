@@ -1,6 +1,7 @@
-// docs/tracking.md: every law on the tracking experiments, beside the thesis's figures.
+// docs/measurements/tracking.md: every law on the tracking experiments, beside the thesis's
+// figures.
 //
-//   build/tests/bbmc/bbmc_figures tracking > docs/tracking.md
+//   build/tests/bbmc/bbmc_figures tracking > docs/measurements/tracking.md
 #include <fmt/core.h>
 
 #include "tests/bbmc/figures/figures.h"

@@ -1,4 +1,5 @@
-// The budgets of experiments.md that docs/tracking.md shows in full: no law may get worse unseen.
+// The budgets of experiments.md that docs/measurements/tracking.md shows in full: no law may get
+// worse unseen.
 #include "tests/bbmc/support/tracking.h"
 
 #include <cmath>
