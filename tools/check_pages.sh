@@ -38,6 +38,7 @@ for page in $pages; do
   folder=$(dirname "$page")
   # shellcheck disable=SC2013,SC2016  # the backticks are Markdown; a link holds no space
   for link in $(sed 's/`[^`]*`//g' "$page" | grep -oE '\]\([^)#: ]+' | cut -c3-); do
+    case $link in http*) continue ;; esac
     [ -e "$folder/$link" ] || complain "$page: links to $link, which is not there"
   done
 done
