@@ -55,7 +55,7 @@ bool holds_swing(const CaseEvidence& evidence, Axis axis, Nanoseconds time_ns, d
 }
 
 std::vector<Push> pushes(const CaseEvidence& evidence, Axis axis) {
-  constexpr double kAboveBreakaway = 1.5;  // controller.md 5: "exceeds ... by half"
+  constexpr double kAboveBreakaway = 1.5;  // CTL-5: "exceeds ... by half"
   const auto& run = evidence.run;
   const auto& settings = evidence.fixture.controller.configuration.axes[axis];
   const double threshold = kAboveBreakaway * settings.plausibility.worst_breakaway_Nm /

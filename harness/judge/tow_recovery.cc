@@ -46,7 +46,7 @@ struct Demand {
   double (*truth)(const RigParameters&, const Estimate&);
 };
 
-// experiments.md, "must show".
+// TOW-1 to TOW-9 of docs/requirements.md.
 constexpr auto kAllDrag = [](const RigParameters& rig, const Estimate&) { return all_drag(rig); };
 constexpr auto kObjectDrag = [](const RigParameters& rig, const Estimate&) {
   return object_drag(rig);
