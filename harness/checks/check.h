@@ -43,7 +43,7 @@ struct Check {
 // No check at all is no evidence: INVALID.
 [[nodiscard]] Verdict worst_of(std::span<const Check> checks) noexcept;
 
-// Process exit codes (conventions.md).
+// Process exit codes (RUN-1).
 inline constexpr int kExitPass = 0;
 inline constexpr int kExitFail = 1;
 inline constexpr int kExitBadInput = 2;

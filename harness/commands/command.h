@@ -1,5 +1,5 @@
 // The verbs of towbench. Each adds itself to the command line and, when it is chosen, runs and says
-// with which code the process ends (conventions.md).
+// with which code the process ends (RUN-1).
 #pragma once
 
 #include <span>

@@ -248,7 +248,7 @@ void add_control(CLI::App& app, int& exit_code) {
                     ->excludes(rig);
   auto* devices = verb->add_option("--devices", options->devices,
                                    "instead: a real machine on this board's devices: linux:FILE "
-                                   "(docs/beaglebone.md)");
+                                   "(docs/guide/beaglebone.md)");
   devices->excludes(connect)->excludes(rig)->excludes(lines)->excludes(clock);
   devices->excludes(encoder_lines)->excludes(console);
   verb->add_option("--out", options->out, "folder for log.csv and the other records");

@@ -55,7 +55,7 @@ bool holds_swing(const CaseEvidence& evidence, Axis axis, Nanoseconds time_ns, d
 }
 
 std::vector<Push> pushes(const CaseEvidence& evidence, Axis axis) {
-  constexpr double kAboveBreakaway = 1.5;  // controller.md 5: "exceeds ... by half"
+  constexpr double kAboveBreakaway = 1.5;  // CTL-5: "exceeds ... by half"
   const auto& run = evidence.run;
   const auto& settings = evidence.fixture.controller.configuration.axes[axis];
   const double threshold = kAboveBreakaway * settings.plausibility.worst_breakaway_Nm /
@@ -92,7 +92,7 @@ MaybeCheck encoder_fault_is_found(const CaseEvidence& evidence) {
   }
   const auto& run = evidence.run;
   const auto axis = fault->place.axis;
-  // Parameters that are up to 10 % off cost up to 20 % of the time (docs/safety.md).
+  // Parameters that are up to 10 % off cost up to 20 % of the time (docs/theory/safety.md).
   const double longest_s = differs_from_configuration(evidence, axis) ? 0.060 : 0.050;
   const auto cause_ns = cause_of(evidence, *fault);
   const auto found_ns = latched_ns(run);

@@ -1,4 +1,5 @@
-// What the controller must do whatever fails: one rule, one check (docs/safety.md has the reasons).
+// What the controller must do whatever fails: one rule, one check (docs/theory/safety.md has the
+// reasons).
 #pragma once
 
 #include <limits>

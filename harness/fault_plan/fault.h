@@ -1,4 +1,4 @@
-// One fault of a plan: which part fails, how, when, for how long (experiments.md, faults).
+// One fault of a plan: which part fails, how, when, for how long (docs/theory/safety.md).
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The controller wired to a plant, one exchange at a time (docs/design/0001-walls.md).
+// The controller wired to a plant, one exchange at a time (docs/decisions/0001-walls.md).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// towbench diagnose: what a model gets wrong, from measured data (docs/diagnosis.md).
+// towbench diagnose: what a model gets wrong, from measured data (docs/theory/diagnosis.md).
 #include <cstdio>
 #include <memory>
 #include <string>

@@ -29,7 +29,7 @@ namespace {
 using procedures::ChainResult;
 using procedures::ProcedureOutcome;
 
-constexpr double kSpread = 0.4;  // of drawn machines, experiments.md
+constexpr double kSpread = 0.4;  // of drawn machines, ID-0
 
 struct IdentifyOptions {
   std::string rig;

@@ -57,7 +57,7 @@ with --all besides:
 
 only on request (--only):
   build_times       what a newcomer waits for, measured three times: docs/measurements/build-times.md
-  carrier_table     the table of the carriers' page: fidelity, bandwidth, load, round trip
+  carrier_table     the table of docs/measurements/carriers.md: fidelity, bandwidth, load, round trip
   panel_cost        what an open panel does to a run by the wall clock
 
 tests/README.md says which stage protects what.

@@ -19,7 +19,7 @@ struct Exp4Settings {
   double start_y_m = 0.8;
   double start_x_m = 0.3368;
   double speed_m_per_s = 0.25;
-  double largest_peak_m = 1e-3;  // experiments.md, tracking: plain PID, motor side
+  double largest_peak_m = 1e-3;  // TRK-2: plain PID, motor side
 
   template <typename Visitor>
   void visit(Visitor& v) {

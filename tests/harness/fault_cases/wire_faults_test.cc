@@ -1,5 +1,5 @@
 // Every fault of a wire on every kind of wire, in both directions: both sides end in the documented
-// safe state, or nothing happens at all. docs/carriers.md shows it as a table.
+// safe state, or nothing happens at all. docs/reference/carriers.md shows it as a table.
 #include <algorithm>
 #include <map>
 
