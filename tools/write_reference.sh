@@ -1,5 +1,6 @@
 #!/bin/sh
-# The pages of docs/reference that the programs and the sources define: verbs.md, metrics.md, errors.md.
+# The pages of docs/reference that the programs and the sources define: verbs.md, metrics.md,
+# errors.md, faults.md.
 # usage: write_reference.sh ROOT BENCH PANEL STUDY [FOLDER]     FOLDER: write there instead of docs/reference
 #        write_reference.sh --check ROOT BENCH PANEL STUDY      exit 1 where the pages differ from the programs
 # shellcheck disable=SC2016  # the backticks are Markdown
@@ -58,9 +59,30 @@ help_of() { # help_of PROGRAM VERB
     }' "$root/core/error.cc" "$root/core/error.h"
 } >"$out/errors.md"
 
+# Kinds of faults from the catalogue.
+{
+  printf '# Faults\n\nKinds of each part, for `--fault "PART KIND ..."` and `[[fault]]` (`docs/guide/faults.md`). A parameter is given with its default and\n'
+  printf 'its range. Written by `tools/write_reference.sh` from `fault_catalogue.cc`.\n'
+  catalogue=$(find "$root/harness" -name fault_catalogue.cc)
+  [ -n "$catalogue" ] || { echo "no fault_catalogue.cc" >&2; exit 1; }
+  perl -0777 -ne '
+    my %part = (EndStop => "endstop.{y,x}_{min,max}", KillSwitch => "kill_switch", Encoder => "encoder.{y,x}",
+                Amplifier => "amplifier.{y,x}", Supply => "supply", DriveTrain => "drive.{y,x}",
+                Link => "link.to_{controller,plant}", Host => "host");
+    my $last = "";
+    while (/\{k(\w+), k\w+, "(\w+)", "([^"]+)",(.*?)\},\s*(?=\{k|\n|\/\/)/sg) {
+      my ($of, $kind, $what, $rest) = ($1, $2, $3, $4);
+      print "\n## $part{$of}\n| kind | what happens | parameters |\n| --- | --- | --- |\n" if $of ne $last;
+      $last = $of;
+      my @given;
+      push @given, "`$1` $2, $3 .. $4" while $rest =~ /\{"(\w+)", ([^,{}]+), ([^,{}]+), ([^,{}]+)\}/g;
+      printf "| %s | %s | %s |\n", $kind, $what, join("; ", @given);
+    }' "$catalogue"
+} >"$out/faults.md"
+
 if $check; then
   status=0
-  for page in verbs metrics errors; do
+  for page in verbs metrics errors faults; do
     if ! diff -u "$root/docs/reference/$page.md" "$out/$page.md"; then
       echo "docs/reference/$page.md differs: run tools/write_reference.sh" >&2
       status=1
