@@ -97,7 +97,7 @@ void plant_with_every_optional_term(benchmark::State& state) {
   plant(state, true);
 }
 
-// The equations of emulator/plant/README.md with smoothed friction and no events.
+// The equations of docs/theory/plant.md with smoothed friction and no events.
 struct SmoothedAxis {
   emulator::AxisParameters p = tests::nominal_y();
   emulator::DerivedMechanics m = emulator::derive(p);

@@ -1,4 +1,4 @@
-// A faster way for Unicorn 2.0's stores; see docs/design/0014-virtual-board.md.
+// A faster way for Unicorn 2.0's stores; see docs/decisions/0014-virtual-board.md.
 #pragma once
 
 #include <cstdint>

@@ -83,5 +83,7 @@ function(towbench_test name)
   target_link_libraries(${name} PRIVATE towbench_options ${arg_DEPENDS}
     GTest::gmock GTest::gtest GTest::gtest_main)
   gtest_discover_tests(${name} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR} DISCOVERY_TIMEOUT 60
-    DISCOVERY_MODE PRE_TEST)
+    DISCOVERY_MODE PRE_TEST
+    # Keys of run folders are made here, not in the state of whoever runs the tests.
+    PROPERTIES ENVIRONMENT "XDG_STATE_HOME=${CMAKE_BINARY_DIR}/state")
 endfunction()

@@ -1,7 +1,7 @@
 // One conversation with a controller: handshake, then exchanges in lockstep, then the end. What
 // PlantNode does, without its face.
 //
-// An exchange, at Advance{T + dt} (docs/design/0001-walls.md): step the rig from T to T + dt,
+// An exchange, at Advance{T + dt} (docs/decisions/0001-walls.md): step the rig from T to T + dt,
 // sending CurrentSample and ForceSample as they are taken, then EncoderEdges (or EncoderReport) of
 // each axis in the order Y, X, then DigitalInputs of each change in the order of time, then
 // Advanced. Whatever a controller sends that makes no sense is counted, answered by a Fault, and

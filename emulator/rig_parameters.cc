@@ -6,7 +6,7 @@
 namespace towbench::emulator {
 namespace {
 
-// plant.md, "travel, counts" and "hall min / max at" (7.2.1; firmware presets).
+// docs/reference/constants.md, "travel, counts" and "hall min / max at" (7.2.1; firmware presets).
 constexpr double kYHallMin_counts = 1'000.0;
 constexpr double kYHallMax_counts = 1'740'000.0;
 constexpr double kXTravel_counts = 505'000.0;

@@ -1,5 +1,6 @@
 // The whole machine as a parameter set: two axes with their sensors and command paths, one supply,
-// one kill chain. SI inside; every default has its source in plant.md's table or says "assumed".
+// one kill chain. SI inside; every default has its source in docs/reference/constants.md or says
+// "assumed".
 //
 // X rides on Y: the carriage of Y carries the X platform, motor and load, so Y's inertia and
 // friction include them (Table 7.4 was identified that way). X's platform moves along X only, and

@@ -1,8 +1,8 @@
 // What crosses between controller and plant. One set of messages, one meaning, on every carrier.
 //
 // Times are integer nanoseconds from the start of the run. The wire form of each message stands in
-// protocol/README.md and is produced by codec.h; in process no wire form exists and messages are
-// handed over by reference (message_sink.h).
+// docs/reference/protocol.md and is produced by codec.h; in process no wire form exists and
+// messages are handed over by reference (message_sink.h).
 #pragma once
 
 #include <array>

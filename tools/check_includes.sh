@@ -34,10 +34,16 @@ find core protocol emulator board bbmc harness study tests benchmarks \
     while (sub(/\/[^\/]*$/, "", folder)) if (folder in may) return folder
     return ""
   }
+  function allowed_in(from, to,   upper) {
+    if (index(may[from], " " to " ")) return 1
+    upper = to
+    do if (index(may[from], " " upper "/* ")) return 1; while (sub(/\/[^\/]*$/, "", upper))
+    return 0
+  }
   /^[ \t]*#[ \t]*include[ \t]*"/ {
     split($0, quoted, "\""); target = quoted[2]
     from = place(FILENAME); to = place(target)
-    if (to == "" || from == "" || index(may[from], " " to " ") == 0) {
+    if (to == "" || from == "" || !allowed_in(from, to)) {
       printf "%s:%d: %s may not include \"%s\" (allowed:%s)\n", FILENAME, FNR, (from == "" ? "an unknown folder" : from), target, may[from]
       bad = 1
     }

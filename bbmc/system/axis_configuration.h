@@ -1,6 +1,6 @@
 // What BBMC believes of one axis: drive train, encoder, drive, ends, law. SI at the motor shaft
-// unless a name says otherwise. The defaults are the nominal Y axis of plant.md's table; X is
-// x_axis_defaults().
+// unless a name says otherwise. The defaults are the nominal Y axis of docs/reference/constants.md;
+// X is x_axis_defaults().
 //
 // These are the controller's own beliefs. They are not read from the plant, and may be wrong.
 #pragma once

@@ -8,8 +8,7 @@ namespace {
 
 using core::ErrorCode;
 
-// Below 1.25 x break-away no verdict is formed, at 1.5 x it takes less than 50 ms (controller.md
-// 5).
+// Below 1.25 x break-away no verdict is formed, at 1.5 x it takes less than 50 ms (CTL-5).
 constexpr double kPushThreshold = 1.25;
 // A motor that is held by a swing which the observer has wrong, because a load was dropped, is not
 // told from a dead encoder below this.

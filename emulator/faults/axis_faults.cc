@@ -5,7 +5,8 @@
 namespace towbench::emulator {
 namespace {
 
-// Assumed: what takes hold of a carriage is as stiff as a hard end (plant.md), and damps it well.
+// Assumed: what takes hold of a carriage is as stiff as a hard end (docs/reference/constants.md),
+// and damps it well.
 constexpr double kGrip_N_per_m = 5e5;
 constexpr double kGrip_N_s_per_m = 3e3;
 // Dry friction is full above this speed and proportional below, so that it holds without chatter.

@@ -5,7 +5,7 @@
 //                                                       v at the limit: kLimitedLoop
 //              v held, q' = 0                                           kFixedVoltage
 //              i' = 0, q' = 0                                           kFixedCurrent
-//   motor      J_m w' = K_T i - B_m w - r F_chain + tau                 (3.37), errata of plant.md
+//   motor      J_m w' = K_T i - B_m w - r F_chain + tau                 (3.37), errata corrected
 //   carriage   M v'   = F_chain - B_c v + F + F_end                     (3.38)
 //   chain      F_chain = K_s d + B_s d',  d = r theta - x,  d' = r w - v; half of both on one
 //              strand, none in a gap (chain_play.h)

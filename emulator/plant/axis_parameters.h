@@ -1,5 +1,5 @@
 // Parameters of one axis: drive, chain, carriage, hard ends. SI. The defaults are the nominal Y
-// axis of plant.md's table, which names every source.
+// axis of docs/reference/constants.md, which names every source.
 //
 // Inertia and friction are *effective* values seen at the motor shaft, as (3.33) and Table 7.4 have
 // them. What belongs to the carriage follows from them (derived_mechanics.h).

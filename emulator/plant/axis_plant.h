@@ -4,7 +4,7 @@
 // Laws: axis_model.h (linear part), friction_law.h (dry friction), held_terms.h (optional laws),
 // guards.h (what ends a regime).
 // Between events the axis is linear and the step is exact; reversals, break-away, limits and
-// contacts are located inside the step (docs/design/0002-friction-and-stepping.md).
+// contacts are located inside the step (docs/decisions/0002-friction-and-stepping.md).
 //
 // Left out: iron losses, brush drop, winding temperature, the diodes' conduction of a motor driven
 // faster than the supply allows.

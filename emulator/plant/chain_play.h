@@ -1,5 +1,5 @@
-// Play between motor and carriage, and strands that go slack: (3.37)-(3.38) with the dead zones of
-// plant.md. Values: gearhead data sheet, App. A, 0.35 deg.
+// Play between motor and carriage, and strands that go slack: (3.37)-(3.38) with dead zones
+// (docs/theory/plant.md, 6). Values: gearhead data sheet, App. A, 0.35 deg.
 //
 // A massless sprocket between gear and chain lets gear backlash (an arc R beta) and chain slack s
 // add up to one gap, half_gap p = (R beta + s) / 2. With the chain's stretch d:

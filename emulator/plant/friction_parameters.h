@@ -1,4 +1,4 @@
-// Parameters of dry friction, motor side. Values and sources: plant.md's table.
+// Parameters of dry friction, motor side. Values and sources: docs/reference/constants.md.
 //
 // The effective values of an axis are split between the motor (with gear and sprockets) and the
 // carriage by `carriage_share`; on the carriage a torque becomes a force by n/R.

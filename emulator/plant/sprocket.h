@@ -8,7 +8,7 @@
 //
 // The chain's stretch is r theta + delta(theta) - x, and by virtual work its force acts on the
 // motor with lever r + delta'(theta): speed and torque ripple are one law. Chordal action is
-// textbook kinematics of chain drives; plant.md asks for both.
+// textbook kinematics of chain drives.
 #pragma once
 
 #include "emulator/plant/axis_parameters.h"

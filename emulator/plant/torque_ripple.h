@@ -3,7 +3,7 @@
 //   tau(theta) = A sin(k theta + phi)
 //
 // Its mean over a piece of motion at steady speed is the value in the middle times sinc(k w T / 2).
-// Not in the thesis; plant.md asks for it.
+// Not in the thesis.
 #pragma once
 
 #include <numbers>

@@ -3,8 +3,8 @@
 //   W' = (P / P_full - W) / T,   P = f_m |w| + f_c |v|, sliding bodies only
 //   level = (1 - depth min(W, 1)) * cold level      Coulomb, break-away and Stribeck parts
 //
-// Not in the thesis, which only says that friction varies with ambient factors (3.3.2); plant.md
-// asks for it.
+// Not in the thesis, which only says that friction varies with ambient factors (3.3.2);
+// the effect thermal_drift of docs/theory/diagnosis.md.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // Parameters of the sensors of one axis. SI; positions are carriage positions in the tank frame,
-// 0 at encoder count 0. Values and sources: plant.md's table, thesis App. A (encoder data sheet).
+// 0 at encoder count 0. Values and sources: docs/reference/constants.md, thesis App. A (encoder
+// data sheet).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // The verbs of towbench. Each adds itself to the command line and, when it is chosen, runs and says
-// with which code the process ends (conventions.md).
+// with which code the process ends (RUN-1).
 #pragma once
 
 #include <span>
@@ -21,7 +21,6 @@ void add_replay(CLI::App& app, int& exit_code);
 void add_campaign(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
-void add_panel(CLI::App& app, int& exit_code);  // of towbench-panel alone
 void add_completion(CLI::App& app, int& exit_code);
 // Start towbench-study and towbench-panel, which lie beside this program.
 void add_identify_elsewhere(CLI::App& app, int& exit_code);

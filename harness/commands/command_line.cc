@@ -8,11 +8,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "harness/checks/check.h"
 #include "harness/commands/command.h"
 #include "harness/commands/exit_codes.h"
 #include "harness/fixtures/fixture_error.h"
 #include "harness/fixtures/nearest_key.h"
-#include "harness/judge/check.h"
 
 namespace towbench::harness {
 namespace {

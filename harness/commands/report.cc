@@ -8,9 +8,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "harness/checks/check.h"
 #include "harness/commands/command.h"
 #include "harness/commands/exit_codes.h"
-#include "harness/judge/check.h"
 
 namespace towbench::harness {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/time.h"
-#include "harness/judge/check.h"
-#include "harness/judge/run_data.h"
+#include "harness/checks/check.h"
+#include "harness/metrics/run_data.h"
 
 namespace towbench::harness {
 
@@ -27,7 +27,7 @@ struct ExpectedRecord {
 // truth.csv: a row each exchange up to the end.
 [[nodiscard]] Check check_truth_complete(const RunData& data, const ExpectedRecord& expected);
 // Every axis that really moved was seen moving, and some axis was: an edge-class run without an
-// edge proves nothing (protocol.md).
+// edge proves nothing (RUN-3).
 [[nodiscard]] Check check_edges_seen(const RunData& data);
 // Every event of the experiment took place.
 [[nodiscard]] Check check_events_fired(const RunData& data, const ExpectedRecord& expected);

@@ -39,7 +39,7 @@ json results_in(const fs::path& folder) {
   return names;
 }
 
-// Its verdict is a list of words (docs/diagnosis.md).
+// Its verdict is a list of words (docs/theory/diagnosis.md).
 json diagnosis_json(const fs::path& folder, const std::string& name) {
   std::string verdict;
   std::error_code ignored;

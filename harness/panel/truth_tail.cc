@@ -12,7 +12,8 @@ namespace towbench::harness {
 namespace {
 
 constexpr std::size_t kMostAtOnce = 1U << 20U;
-constexpr std::size_t kColumnsPerAxis = 12;  // of truth.csv (record/README.md), behind time_s
+constexpr std::size_t kColumnsPerAxis =
+    12;  // of truth.csv (docs/reference/run-folder.md), behind time_s
 constexpr std::size_t kColumns = 2 + core::kAxisCount * kColumnsPerAxis;
 
 // Columns by place. False for a line that is none.

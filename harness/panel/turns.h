@@ -3,8 +3,8 @@
 // A browser on the same processors is not ours to hold back. It was given the bench's processor
 // for a twentieth of the run's time while the other one had turns to spare; so the run goes ahead
 // of other programs where the host allows it (root, CAP_SYS_NICE, or `nice` in limits.conf), here
-// thread by thread, and with all of its session in autogroup.h. docs/performance.md has what that
-// gains, and why a real-time class gains nothing.
+// thread by thread, and with all of its session in autogroup.h. docs/measurements/performance.md
+// has what that gains, and why a real-time class gains nothing.
 #pragma once
 
 namespace towbench::harness {

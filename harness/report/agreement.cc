@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "harness/judge/budget_checks.h"
-#include "harness/judge/run_data.h"
+#include "harness/metrics/run_data.h"
 #include "harness/report/run_contents.h"
 
 namespace towbench::harness::report {

@@ -1,9 +1,9 @@
 // The run report: one HTML file that needs nothing but a browser.
 //
-// Everything on the page comes from the run folder (harness/record/README.md states its format),
-// and the same folder gives the same bytes. What it claims is first held against its hashes and its
-// rows (agreement.h). What is missing, cut short or contradictory is said in words on the page; it
-// never looks like a pass.
+// Everything on the page comes from the run folder (docs/reference/run-folder.md states its
+// format), and the same folder gives the same bytes. What it claims is first held against its
+// hashes and its rows (agreement.h). What is missing, cut short or contradictory is said in words
+// on the page; it never looks like a pass.
 #pragma once
 
 #include <filesystem>

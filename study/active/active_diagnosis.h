@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/bench/experiment_run.h"
+#include "harness/run/experiment_run.h"
 #include "study/active/open_question.h"
 #include "study/active/trial.h"
 #include "study/diagnose/diagnosis.h"

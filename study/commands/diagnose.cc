@@ -1,11 +1,11 @@
-// towbench diagnose: what a model gets wrong, from measured data (docs/diagnosis.md).
+// towbench diagnose: what a model gets wrong, from measured data (docs/theory/diagnosis.md).
 #include <cstdio>
 #include <memory>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
-#include "harness/judge/check.h"
+#include "harness/checks/check.h"
 #include "study/commands/diagnose_active.h"
 #include "study/commands/diagnose_logs.h"
 #include "study/commands/verbs.h"

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <fstream>
 
+#include "harness/checks/check.h"
 #include "harness/commands/experiment_options.h"
-#include "harness/judge/check.h"
 #include "study/active/active_report.h"
 #include "study/diagnose/known_force.h"
 

@@ -4,7 +4,7 @@
 
 #include <unistd.h>
 
-#include "harness/commands/fixture_paths.h"
+#include "harness/fixtures/fixture_paths.h"
 #include "harness/proof/run_manifest.h"
 #include "harness/record/line_writer.h"
 #include "study/commands/leave_on_signal.h"

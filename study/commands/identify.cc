@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "harness/commands/fixture_paths.h"
+#include "harness/checks/check.h"
 #include "harness/commands/stop_signal.h"
-#include "harness/judge/check.h"
+#include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
 #include "study/commands/verbs.h"
 #include "study/procedures/chain.h"
@@ -29,7 +29,7 @@ namespace {
 using procedures::ChainResult;
 using procedures::ProcedureOutcome;
 
-constexpr double kSpread = 0.4;  // of drawn machines, experiments.md
+constexpr double kSpread = 0.4;  // of drawn machines, ID-0
 
 struct IdentifyOptions {
   std::string rig;

@@ -4,7 +4,7 @@
 
 #include <unistd.h>
 
-#include "harness/judge/check.h"
+#include "harness/checks/check.h"
 
 namespace towbench::harness {
 namespace {

@@ -1,4 +1,5 @@
-// towbench results: docs/results.md, from one run of everything that has a table in the thesis.
+// towbench results: docs/measurements/results.md, from one run of everything that has a table in
+// the thesis.
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -7,9 +8,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "harness/commands/fixture_paths.h"
+#include "harness/checks/check.h"
 #include "harness/commands/stop_signal.h"
-#include "harness/judge/check.h"
+#include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
 #include "study/commands/study_progress.h"
 #include "study/commands/verbs.h"
@@ -180,7 +181,7 @@ void add_results(CLI::App& app, int& exit_code) {
   verb->add_option("--work", options->work, "folder of the identification; what is done stays");
   verb->add_option("--seed", options->seed, "of the sensors' noise and of where things stand");
   verb->footer(
-      "Example: towbench results --out docs/results.md\n"
+      "Example: towbench results --out docs/measurements/results.md\n"
       "Exit: 0 written, 4 written, but an experiment was refused or its data are no good.");
   verb->callback([options, &exit_code] { exit_code = execute_results(*options); });
 }

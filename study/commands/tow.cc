@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "harness/commands/fixture_paths.h"
+#include "harness/checks/check.h"
 #include "harness/commands/stop_signal.h"
-#include "harness/judge/check.h"
+#include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
 #include "study/commands/verbs.h"
 #include "study/procedures/study_page.h"

@@ -1,4 +1,4 @@
-// The extended model set in motion against held-out data: step 6 of docs/diagnosis.md.
+// The extended model set in motion against held-out data: step 6 of docs/theory/diagnosis.md.
 //
 // Windows. From a measured state (the load's by its own law, where there is one) the model is given
 // the measured input for half a second and nothing else: how far from the measured place it ends is

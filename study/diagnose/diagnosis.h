@@ -1,4 +1,4 @@
-// From logs and a model to a verdict: the whole method of docs/diagnosis.md.
+// From logs and a model to a verdict: the whole method of docs/theory/diagnosis.md.
 #pragma once
 
 #include <cstdint>

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/random.h"
-#include "harness/bench/in_process_plant.h"
-#include "harness/bench/unrecorded_plant.h"
+#include "harness/link/in_process_plant.h"
+#include "harness/link/unrecorded_plant.h"
 #include "study/procedures/memory_recorder.h"
 #include "study/procedures/recording_frames.h"
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "harness/bench/script_loop.h"
 #include "harness/fixtures/controller_fixture.h"
 #include "harness/fixtures/rig_fixture.h"
+#include "harness/lockstep/script_loop.h"
 #include "study/identify/recording.h"
 
 namespace towbench::harness::procedures {

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "harness/bench/bench_recorder.h"
-#include "harness/bench/plant_end.h"
+#include "harness/link/plant_end.h"
+#include "harness/lockstep/bench_recorder.h"
 #include "protocol/tee_sink.h"
 #include "study/identify/recording.h"
 

@@ -2,7 +2,7 @@
 //
 // A procedure sees the machine through its controller and sensors, what documents say of it
 // (Nameplate), and what was estimated before. It never sees what the machine truly is: agreement
-// with that is judged afterwards, by judge/recovery.h.
+// with that is judged afterwards, by recovery/recovery.h.
 #pragma once
 
 #include <filesystem>

@@ -8,7 +8,7 @@
 
 namespace towbench::harness::procedures {
 
-// 1-10 mm/s by 1, 1-10 cm/s by 1, 10-40 cm/s by 10 (experiments.md), in m/s, none above `top`.
+// 1-10 mm/s by 1, 1-10 cm/s by 1, 10-40 cm/s by 10 (EXP-CL-1), in m/s, none above `top`.
 [[nodiscard]] std::vector<double> speeds_up_to(double top);
 
 // Whether the axis stuck and slipped between two rows of a stretch at that speed.

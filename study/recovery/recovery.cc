@@ -80,7 +80,7 @@ double smallest_command_pct(const emulator::RigParameters& rig, const RigAxisPar
          (p.torque_constant_Nm_per_A * p.amplifier_gain_A_per_V * axis.command.pwm_amplitude_V);
 }
 
-// experiments.md, EXP-P-5: within 10 counts, here as a share of the distance.
+// ID-5: within 10 counts, here as a share of the distance.
 double ten_counts_pct(const RigAxisParameters& axis) {
   const double metres_per_count = 2 * std::numbers::pi /
                                   static_cast<double>(axis.encoder.counts_per_turn) *
@@ -94,7 +94,7 @@ struct Demand {
   double (*truth)(const emulator::RigParameters&, const RigAxisParameters&, const Estimate&);
 };
 
-// experiments.md, "must show".
+// ID-1 to ID-10 of docs/requirements.md.
 const std::array<Demand, 20> kDemands{{
     {"torque_constant_Nm_per_A", 1,
      [](const auto&, const auto& a, const auto&) { return a.plant.torque_constant_Nm_per_A; }},

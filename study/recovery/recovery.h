@@ -1,7 +1,7 @@
 // Whether estimates agree with what the emulated machine truly is. Looks at the rig's fixture,
 // after everything has been estimated; no estimator can reach it.
 //
-// experiments.md: "recover p %" means that the value agrees within p %, that 95 % intervals cover
+// ID-0: "recover p %" means that the value agrees within p %, that 95 % intervals cover
 // in 92 to 98 % of at least 400 estimates pooled, and that an interval wider than 4 p % is a
 // failure too.
 #pragma once

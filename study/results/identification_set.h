@@ -1,5 +1,5 @@
 // The whole identification on many machines and seeds, each run judged and kept, all pooled:
-// experiments.md, "recover p %".
+// ID-0 of docs/requirements.md.
 #pragma once
 
 #include <atomic>

@@ -34,7 +34,7 @@ std::string tracking(const Results& results) {
       "table is in metres. A signed "
       "mean\nalone says nothing of how well a reference is followed, so RMS and peak stand beside "
       "it. Every law: "
-      "`docs/tracking.md`.\n";
+      "`docs/measurements/tracking.md`.\n";
   return text;
 }
 

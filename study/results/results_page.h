@@ -1,5 +1,5 @@
-// docs/results.md: every table of the thesis's chapters 7 and 8 with what the bench found and what
-// is true of the emulated machine beside it.
+// docs/measurements/results.md: every table of the thesis's chapters 7 and 8 with what the bench
+// found and what is true of the emulated machine beside it.
 #pragma once
 
 #include <string>

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/faults/case_run.h"
+#include "harness/fault_cases/case_run.h"
 #include "study/procedures/machine.h"
 
 namespace towbench::harness {

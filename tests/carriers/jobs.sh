@@ -3,7 +3,7 @@
 # usage: jobs.sh ROOT BUILD_FOLDER host|machine|table-host|table-machine
 #   host      in one process, and over a pair of ptys: a tty is real everywhere
 #   machine   inside the test machine, after `host`: CAN
-#   table-host, table-machine   lines of the table in docs/carriers.md instead
+#   table-host, table-machine   lines of the table in docs/measurements/carriers.md instead
 set -uo pipefail
 root=${1:?usage: jobs.sh ROOT BUILD_FOLDER host|machine} build=${2:?} where=${3:?}
 cd "$root" || exit 1
@@ -267,7 +267,7 @@ in_machine() {
   job "can-utils play the bench's candump.log" candump_is_played
 }
 
-# table_row NAME CARRIER ROUND_TRIP BLOCKS TURNS [LINES]: one line of docs/carriers.md: a run of
+# table_row NAME CARRIER ROUND_TRIP BLOCKS TURNS [LINES]: one line of docs/measurements/carriers.md: a run of
 # trapezoid-400, and the round trip beside a bare ping-pong (benchmarks/protocol_carriers.cc).
 table_row() {
   local name=$1 carrier=$2 wire=$3 blocks=$4 turns=$5 lines=${6:-} turn_figures=''

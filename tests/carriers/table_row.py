@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""One line of the table of docs/carriers.md. usage: table_row.py NAME RUNS_FOLDER BENCHMARK_OUTPUT"""
+"""One line of the table of docs/measurements/carriers.md. usage: table_row.py NAME RUNS_FOLDER BENCHMARK_OUTPUT"""
 import json
 import pathlib
 import re

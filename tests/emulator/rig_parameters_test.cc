@@ -63,7 +63,7 @@ TEST(RigParameters, TheNominalMachineLiesInItsOwnRangesAndNamesEveryKeyOnce) {
   }
 }
 
-// plant.md: (3.42), "travel, counts", "hall min / max at".
+// docs/reference/constants.md: (3.42), "travel, counts", "hall min / max at".
 TEST(RigParameters, TheNominalMachineHasTheResolutionAndPlacesOfTheThesis) {
   const RigParameters rig;
   const RigAxisParameters& y = rig.axes[Axis::kY];

@@ -2,7 +2,7 @@
 # Every mutant of the controller: passes the fault-free experiments, and is caught by the campaign.
 # usage: score.sh BUILD_DIR SOURCE_DIR
 #
-# Writes BUILD_DIR/mutants.md: the table of docs/safety.md.
+# Writes BUILD_DIR/mutants.md: the table of docs/measurements/mutants.md.
 set -uo pipefail
 build=$(cd "${1:?usage: score.sh BUILD_DIR SOURCE_DIR}" && pwd)
 cd "${2:?usage: score.sh BUILD_DIR SOURCE_DIR}" || exit 3

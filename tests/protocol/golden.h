@@ -1,4 +1,4 @@
-// One message of every kind with its exact bytes, written by hand from protocol/README.md.
+// One message of every kind with its exact bytes, written by hand from docs/reference/protocol.md.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// The nominal axes of plant.md's table as parameters, and idealised ones for closed forms.
+// The nominal axes of docs/reference/constants.md as parameters, and idealised ones for closed
+// forms.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
-// The axis once more, written from the equations of plant.md for accuracy alone: the full nonlinear
-// ODE, integrated by an adaptive Dormand-Prince 5(4) with dense output, every event located on it.
+// The axis once more, written from the equations of docs/theory/plant.md for accuracy alone: the
+// full nonlinear ODE, integrated by an adaptive Dormand-Prince 5(4) with dense output, every event
+// located on it.
 //
 // Shares no code with emulator/plant but the parameter struct. Slow, and meant to be.
 #pragma once

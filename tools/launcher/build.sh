@@ -22,21 +22,20 @@ ready() {
   source "$root/tools/launcher/packages.sh"
   # shellcheck source=tools/launcher/progress.sh
   source "$root/tools/launcher/progress.sh"
+  stamp_before_build "$1"
   say_what_is_to_come "$1"
   case $1 in
     study) install_packages "${run_packages[@]}" "${study_packages[@]}" ;;
     image) install_packages "${run_packages[@]}" "${baremetal_packages[@]}" ;;
     *) install_packages "${run_packages[@]}" ;;
   esac
-  local started
-  started=$(stamp_before_build)
   case $1 in
     bench) build_preset "$(user_preset)" towbench-bench check_includes ;;
     panel) build_preset "$(user_preset)" towbench-panel towbench-bench check_includes ;;
     study) build_preset "$(study_preset)" towbench-study towbench-bench check_includes ;;
     image) build_baremetal ;;
   esac
-  mv "$started" "$build/.built-$1"
+  mv "$build/.building-$1" "$build/.built-$1"
 }
 
 # The stamp names the clone: one that was moved or copied is built anew.
@@ -49,13 +48,10 @@ is_built() {
 
 # What is edited while the build runs is newer than this.
 stamp_before_build() {
-  local stamp
-  if ! mkdir -p "$build" 2>/dev/null || ! stamp=$(mktemp "$build/.stamp.XXXX" 2>/dev/null); then
+  if ! { mkdir -p "$build" && printf '%s\n' "$root" >"$build/.building-$1"; } 2>/dev/null; then
     echo "towbench: may not write to $build (its owner is $(stat -c %U "$root")); use a clone of your own" >&2
     exit 3
   fi
-  printf '%s\n' "$root" >"$stamp"
-  echo "$stamp"
 }
 
 first_help_unless_built() {
@@ -104,7 +100,7 @@ forget_if_moved() {
 
 explain_failed_build() {
   local preset=$1 log=$2
-  if grep -qE 'npm (ERR|error)' "$log"; then
+  if grep -q '^FAILED: reports/node_modules' "$log"; then
     echo 'towbench: npm could not fetch the packages of the report (uplot, esbuild, typescript):' \
       'no network, and not in its cache' >&2
   else

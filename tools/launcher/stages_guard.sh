@@ -3,18 +3,30 @@
 
 stage_lint() { count "$root/tools/lint.sh" "$root"; }
 
-# Tests that take long for what they add are named, each with what it protects, in this file.
-long_tests() { sed -nE 's/^([^ #|]+) *\|.*/\1/p' "$root/tests/long_tests.txt" | paste -sd'|'; }
+# Tests that take long for what they add are named, each with what it protects, in a file.
+names_in() { sed -nE 's/^([^ #]+) *;.*/\1/p' "$root/tests/$1"; }
+long_tests() { names_in long_tests.txt | paste -sd'|'; }
+
+# A line that names no test any more would hide that a test has gone.
+every_long_test_exists() {
+  local all pattern status=0
+  all=$(ctest --test-dir "$build/release" -N)
+  while read -r pattern; do
+    grep -qE "$pattern" <<<"$all" || { echo "tests/long_tests.txt: no test is named $pattern"; status=1; }
+  done < <(names_in long_tests.txt)
+  return "$status"
+}
 
 stage_tests() {
   built release
+  count every_long_test_exists
   run_ctest release . -E "$(long_tests)"
   slowest_tests release >"$build/slowest_tests.txt"
 }
 
 slowest_tests() {
   sed -nE 's/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+).* (Passed|\*\*\*Failed) +([0-9.]+) sec.*/\3 \1/p' \
-    "$build/$1.ctest.log" | sort -rn | head -n 50
+    "$build/$1.ctest.log" | sort -rn | sed -n 1,50p
 }
 
 stage_board() {
@@ -47,22 +59,24 @@ stage_sanitize_thread() {
   built tsan test_core test_protocol test_bbmc
   local folder
   for folder in core protocol bbmc; do
-    TSAN_OPTIONS=halt_on_error=1 run_ctest tsan "tests/$folder" -E "$(long_tests)" || return 1
+    TSAN_OPTIONS=halt_on_error=1 run_ctest tsan "tests/$folder" -E "$(left_out)" || return 1
   done
+}
+
+# What the sanitizers leave to --all.
+left_out() {
+  { names_in long_tests.txt; if [[ $everything == false ]]; then names_in whole_runs.txt; fi; } | paste -sd'|'
 }
 
 # One build of clang serves this stage and the fuzzer. Whole runs are left to --all: their parts are
 # tested one by one, at a tenth of the cost.
 stage_sanitize_address() {
-  local targets=(test_core test_protocol test_board test_harness_report test_harness) left_out
-  left_out=$(long_tests)'|^browser|^the_panel|^a_report'
-  if [[ $everything == false ]]; then left_out+="|$(whole_runs)"; else targets+=(test_bbmc test_emulator); fi
+  local targets=(test_core test_protocol test_board test_harness_report test_harness)
+  if [[ $everything == true ]]; then targets+=(test_bbmc test_emulator); fi
   built sanitize "${targets[@]}" towbench-bench towbench-panel
   LSAN_OPTIONS=suppressions=$root/tests/support/leaks_of_libraries.txt:print_suppressions=0 \
-    ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 run_ctest sanitize tests -E "$left_out" -LE browser
+    ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 run_ctest sanitize tests -E "$(left_out)|NOT_BUILT" -LE browser
 }
-
-whole_runs() { sed -nE 's/^([^ #|]+) *\|.*/\1/p' "$root/tests/whole_runs.txt" | paste -sd'|'; }
 
 stage_fuzz() {
   local seconds=10 targets

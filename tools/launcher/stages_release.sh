@@ -47,6 +47,9 @@ stage_mutants() {
   count "$root/tests/mutants/score.sh" "$build/mutants" "$root"
 }
 
+# The guard is guarded: ten slips, each of which must turn it red.
+stage_guard_mutations() { count "$root/tests/mutants/guard_mutations.sh" "$root"; }
+
 stage_slurm() {
   # Slurm serves this stage alone; without it the bench is whole.
   ((EUID == 0)) && { apt-get update && DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends slurm-wlm munge; } \

@@ -13,7 +13,7 @@ source "$root/tools/launcher/stages_release.sh"
 
 guard_stages=(lint tests board carriers sanitize_thread sanitize_address fuzz fresh_start)
 quick_stages=(lint tests)
-release_stages=(long_tests alone tidy step_cost armhf package campaign diagnosis mutants slurm)
+release_stages=(long_tests alone tidy step_cost armhf package campaign diagnosis mutants guard_mutations slurm)
 on_request_stages=(build_times carrier_table panel_cost)
 
 test_usage() {
@@ -51,12 +51,13 @@ with --all besides:
   campaign          the standard fault campaign, some 3,000 cases, from scratch
   diagnosis         the campaign of hidden effects: named, and nothing else
   mutants           controllers with one reaction removed: the fault campaign must catch each
+  guard_mutations   ten slips in the sources: the tests that guard main must catch each
   slurm             the campaign as a job array on a real Slurm of one node, on loopback
   sanitize_address takes whole runs, controller and emulator as well, fuzz a minute for each target
 
 only on request (--only):
   build_times       what a newcomer waits for, measured three times: docs/measurements/build-times.md
-  carrier_table     the table of the carriers' page: fidelity, bandwidth, load, round trip
+  carrier_table     the table of docs/measurements/carriers.md: fidelity, bandwidth, load, round trip
   panel_cost        what an open panel does to a run by the wall clock
 
 tests/README.md says which stage protects what.

@@ -6,9 +6,9 @@
 //
 // The acceleration becomes trapezoidal, the jerk at most a_max / T_j, the duration T_j longer, and
 // the spectrum of whatever the trapezoid excites is multiplied by sinc(f T_j): with T_j a
-// whole number of periods of the chain mode (9 Hz: 111 ms, plant.md) that mode is left at rest, as
-// far as it is undamped and its frequency known. Cf. Singer and Seering 1990, input shaping; Meckl
-// and Seering 1985, pulse widths at multiples of the period.
+// whole number of periods of the chain mode (9 Hz: 111 ms, docs/reference/constants.md) that mode
+// is left at rest, as far as it is undamped and its frequency known. Cf. Singer and Seering 1990,
+// input shaping; Meckl and Seering 1985, pulse widths at multiples of the period.
 #pragma once
 
 #include "bbmc/system/trajectory/reference.h"

@@ -3,7 +3,8 @@
 // A body with drag D along its axis and D_c across it, towed at an angle b to its axis, is braked
 // along its motion and pushed sideways, per speed squared, by
 //
-//   along  D cos^2 b + D_c sin^2 b        side  (D_c - D) sin b cos b      (docs/plant.md, 8)
+//   along  D cos^2 b + D_c sin^2 b        side  (D_c - D) sin b cos b      (docs/theory/plant.md,
+//   8)
 //
 // linear in D and D_c: weighted least squares over both forces at all angles.
 #pragma once

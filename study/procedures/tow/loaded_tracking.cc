@@ -18,7 +18,7 @@ using core::Axis;
 
 struct LoadSettings {
   double load_N = 20.0;           // FR-3
-  double unloaded_peak_m = 1e-3;  // experiments.md, trapezoids: plain PID
+  double unloaded_peak_m = 1e-3;  // TRK-2: plain PID
   double start_y_m = 0.450;
   double start_x_m = 0.12;
   double speed_y_m_per_s = 0.2;

@@ -26,7 +26,7 @@ double object_drag(const RigParameters& rig) {
   return rig.water.object.quadratic_drag_N_s2_per_m2;
 }
 
-// Along the motion, of a long body at a yaw angle (docs/plant.md, 8).
+// Along the motion, of a long body at a yaw angle (docs/theory/plant.md, 8).
 double drag_at_yaw(const RigParameters& rig, const Estimate& estimate) {
   const double yaw = estimate.at.value_or(0) * std::numbers::pi / 180.0;
   const double across = rig.water.object.across_drag_ratio;
@@ -46,7 +46,7 @@ struct Demand {
   double (*truth)(const RigParameters&, const Estimate&);
 };
 
-// experiments.md, "must show".
+// TOW-1 to TOW-9 of docs/requirements.md.
 constexpr auto kAllDrag = [](const RigParameters& rig, const Estimate&) { return all_drag(rig); };
 constexpr auto kObjectDrag = [](const RigParameters& rig, const Estimate&) {
   return object_drag(rig);

@@ -58,7 +58,7 @@ TEST(Readme, ShowsWhatHelpAllPrints) {
   std::string help = session.enter("help all");
   std::erase(help, '\r');
   help.resize(help.size() - std::string_view("ok\n").size());
-  std::ifstream file("bbmc/application/README.md");
+  std::ifstream file("docs/reference/console.md");
   ASSERT_TRUE(file) << "tests run in the root of the sources";
   std::string line;
   while (line != "```text") {

@@ -46,7 +46,8 @@ TEST(Config, GainsAreTakenInBothUnitsAndShown) {
   EXPECT_THAT(session.enter("config gains y --kp 0.2Nm/rad"), StartsWith("y: kp 0.2Nm/rad, ki "));
   const Configuration& configuration = session.system().configuration();
   EXPECT_EQ(configuration.axes[core::Axis::kY].gains.proportional_Nm_per_rad, 0.2);
-  // BBMC 0.5's default for Y: 0.008 % per count. 1 % is 9.88e-4 N m (plant.md), 1 count 2 pi/4000.
+  // BBMC 0.5's default for Y: 0.008 % per count. 1 % is 9.88e-4 N m (docs/reference/constants.md),
+  // 1 count 2 pi/4000.
   session.enter("config gains y --kp 0.008");
   EXPECT_NEAR(configuration.axes[core::Axis::kY].gains.proportional_Nm_per_rad,
               0.008 * 9.879e-4 / (2 * 3.14159265358979 / 4000), 1e-6);

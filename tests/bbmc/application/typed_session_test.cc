@@ -1,5 +1,5 @@
-// docs/bbmc.md shows a session; it is what the controller prints on the emulated machine, or this
-// fails.
+// docs/guide/console-session.md shows a session; it is what the controller prints on the emulated
+// machine, or this fails.
 #include "tests/bbmc/support/typed_session.h"
 
 #include <fstream>
@@ -11,7 +11,7 @@ namespace towbench::tests {
 namespace {
 
 TEST(Documents, TheTypedSessionIsWhatTheControllerPrints) {
-  std::ifstream file("docs/bbmc.md");
+  std::ifstream file("docs/guide/console-session.md");
   ASSERT_TRUE(file) << "tests run in the root of the sources";
   std::string line;
   while (line != "```text") {

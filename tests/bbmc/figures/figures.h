@@ -4,7 +4,7 @@
 namespace towbench::tests {
 
 void print_tracking();
-// The tables of README.md, "How well it follows".
+// docs/measurements/tracking-summary.md.
 void print_results();
 // The estimators' errors against truth as a table, and as a picture.
 void print_velocity_table();

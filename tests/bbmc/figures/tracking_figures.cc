@@ -1,6 +1,7 @@
-// docs/tracking.md: every law on the tracking experiments, beside the thesis's figures.
+// docs/measurements/tracking.md: every law on the tracking experiments, beside the thesis's
+// figures.
 //
-//   build/tests/bbmc/bbmc_figures tracking > docs/tracking.md
+//   build/tests/bbmc/bbmc_figures tracking > docs/measurements/tracking.md
 #include <fmt/core.h>
 
 #include "tests/bbmc/figures/figures.h"
@@ -63,7 +64,7 @@ void print_cause() {
                rms_um(kLaws[5], {}), rms_um(kLaws[3], {}));
   }
   fmt::print(
-      "\nSo `bbmc-tuned.toml` keeps to the 25 um of experiments.md from 30 mm/s on, and "
+      "\nSo `bbmc-tuned.toml` keeps to the 25 um of TRK-1 from 30 mm/s on, and "
       "`bbmc-stiff.toml` (four times the gain, twice the\ndamping) at all 14 speeds, on both "
       "axes. The carriage is no better for it: it swings behind whatever motor.\n");
 }

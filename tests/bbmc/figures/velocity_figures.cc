@@ -1,5 +1,5 @@
-// docs/velocity: the estimators of thesis 3.4.2 against truth, from 0.2 mm/s to beyond the top
-// speed.
+// docs/measurements/velocity.md: the estimators of thesis 3.4.2 against truth, from 0.2 mm/s to
+// beyond the top speed.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
-// The tracking experiments of experiments.md, measured: motor side against the controller's own
-// rows, carriage side against what only the emulator knows.
+// The tracking experiments of docs/requirements.md (TRK), measured: motor side against the
+// controller's own rows, carriage side against what only the emulator knows.
 #pragma once
 
 #include <array>

@@ -6,7 +6,8 @@
 
 namespace towbench::tests {
 
-// The session that docs/bbmc.md shows: what was typed and what came back, line by line.
+// The session that docs/guide/console-session.md shows: what was typed and what came back, line by
+// line.
 [[nodiscard]] std::string typed_session();
 
 }  // namespace towbench::tests

@@ -19,7 +19,7 @@ namespace {
 using bbmc::BrakeState;
 using core::kNanosecondsPerMillisecond;
 
-// plant.md: from the switch to the hard end.
+// docs/reference/constants.md: from the switch to the hard end.
 constexpr double kYMaxRoom_m = 0.045;
 constexpr double kYMinRoom_m = 0.0022;
 

@@ -121,7 +121,7 @@ TEST(Defect14SiGains, BbmcGainsConvertToTheSameDutyForTheSameError) {
                     .step_s = 1e-3});
     EXPECT_NEAR(torque / y.drive.full_duty_torque_Nm() * 100.0, duty_pct, 1e-9);
   }
-  // plant.md: 1 % duty = 9.88e-4 N m.
+  // docs/reference/constants.md: 1 % duty = 9.88e-4 N m.
   EXPECT_NEAR(y.drive.full_duty_torque_Nm() / 100.0, 9.88e-4, 1e-6);
 }
 

@@ -20,7 +20,8 @@ TEST(StoppingDistance, SpeedIsTheInverseOfDistance) {
   }
 }
 
-// plant.md: full reverse current stops Y from 0.5 m/s in 15 mm if rigid, 21-23 mm with the chain.
+// docs/reference/constants.md: full reverse current stops Y from 0.5 m/s in 15 mm if rigid, 21-23
+// mm with the chain.
 TEST(StoppingDistance, RigidYStopsFromHalfAMeterPerSecondInFifteenMillimetres) {
   AxisConfiguration rigid;
   rigid.braking.held_motor_chain_Hz = 1e6;
@@ -32,7 +33,8 @@ TEST(StoppingDistance, TheElasticBoundIsAboveWhatThePlantNeeds) {
   EXPECT_GT(StoppingDistance(AxisConfiguration{}, kLatency_s).distance_m(0.5), 0.023);
 }
 
-// plant.md: about 0.05-0.10 m/s at Y min, 0.11-0.14 m/s at X min can still be stopped.
+// docs/reference/constants.md: about 0.05-0.10 m/s at Y min, 0.11-0.14 m/s at X min can still be
+// stopped.
 TEST(Defect4ApproachSpeed, BeforeCalibrationTheNearerEndSetsTheLimit) {
   const Configuration configuration;
   const SpeedLimits y(configuration.axes[core::Axis::kY], kLatency_s);

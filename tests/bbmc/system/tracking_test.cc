@@ -1,4 +1,5 @@
-// The budgets of experiments.md that docs/tracking.md shows in full: no law may get worse unseen.
+// The budgets TRK-1 to TRK-9 that docs/measurements/tracking.md shows in full: no law may get
+// worse unseen.
 #include "tests/bbmc/support/tracking.h"
 
 #include <cmath>
@@ -38,7 +39,7 @@ TEST(Tracking, TheObserverEndsTheStickSlipThatPlainPidHasAtTwentyMillimetresASec
   EXPECT_LT(damped.carriage_peak_m, 0.6 * pid.carriage_peak_m);
 }
 
-// experiments.md, trapezoids: |mean| <= 0.5 count, RMS <= 25 um, at every speed of Table 7.6.
+// TRK-1: |mean| <= 0.5 count, RMS <= 25 um, at every speed of Table 7.6.
 TEST(Tracking, TheStiffPidKeepsItsBudgetWhereFrictionFallsWithSpeedToo) {
   for (const Axis axis : core::kAxes) {
     for (const double speed_m_per_s : {0.005, 0.01, 0.02, 0.03, 0.1}) {
@@ -64,7 +65,7 @@ TEST(Tracking, TheBestLawAndProfileKeepTheCarriageWithinAMillimetre) {
   EXPECT_LE(x.carriage_peak_m, 1e-3);
 }
 
-// experiments.md, circle: the carriage's path within 0.5 mm with the best law; and what the chain's
+// TRK-8: the carriage's path within 0.5 mm with the best law; and what the chain's
 // lead is for the motor is no error across the path to cross-coupling.
 TEST(Tracking, TheBestLawKeepsTheCarriageOnTheCircleAndCrossCouplingDoesNotTakeItOff) {
   Law coupled = best();

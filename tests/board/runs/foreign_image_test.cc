@@ -9,7 +9,7 @@ namespace {
 
 const std::filesystem::path kImages = TOWBENCH_FIRMWARE_FOLDER;
 
-// The user's file of docs/run-your-firmware.md, beside the fixtures.
+// The user's file of docs/guide/run-your-firmware.md, beside the fixtures.
 class Bench {
  public:
   Bench() {

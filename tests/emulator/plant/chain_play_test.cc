@@ -48,7 +48,7 @@ TEST(ChainPlay, BacklashIsLostMotionOfItsAngleAtTheOutput) {
   const double spring_m = 2.0 / stiffness_N_per_m(axis);
   const double lost_m = stretch_under_m(axis, 2.0) - stretch_under_m(axis, -2.0) - 2 * spring_m;
   EXPECT_NEAR(lost_m, 0.35 * std::numbers::pi / 180 * axis.sprocket_radius_m, 1e-8);
-  EXPECT_NEAR(lost_m, 0.31e-3, 0.01e-3);  // plant.md's table
+  EXPECT_NEAR(lost_m, 0.31e-3, 0.01e-3);  // docs/reference/constants.md
 }
 
 TEST(ChainPlay, ASlackChainHangsOnOneStrandOfHalfTheStiffness) {

@@ -217,7 +217,8 @@ TEST(ClosedForms, FullReverseStopsARigidCarriageInFifteenMillimetres) {
   EXPECT_NEAR(distance_to_standstill_m(bench, start_m), 0.015, 0.0007);
 }
 
-// plant.md says 21-23 mm; both the plant and the oracle give 20.65, the lower end of that range.
+// docs/reference/constants.md says 21-23 mm; both the plant and the oracle give 20.65, the lower
+// end of that range.
 TEST(ClosedForms, WithChainAndTwoMillisecondsOfLatencyItTakesTwentyOneMillimetres) {
   AxisParameters axis;
   axis.hard_ends.fitted = false;

@@ -10,7 +10,7 @@ namespace towbench::harness {
 namespace {
 
 constexpr core::Nanoseconds kUs = core::kNanosecondsPerMicrosecond;
-constexpr core::Nanoseconds kMs = core::kNanosecondsPerMillisecond;
+constexpr core::Nanoseconds kTickMs = core::kNanosecondsPerMillisecond;
 
 struct Host {
   core::Nanoseconds usual_late_ns = 5 * kUs;
@@ -40,7 +40,7 @@ TickSummary ran_on(const Host& host, const char* side, core::Nanoseconds period_
 
 Verdict verdict_of(const Host& emulator, const Host& controller, std::string* reason = nullptr) {
   const auto checks = realtime_checks(ran_on(emulator, "emulator", 100 * kUs),
-                                      ran_on(controller, "controller", kMs), kMs);
+                                      ran_on(controller, "controller", kTickMs), kTickMs);
   for (const auto& check : checks) {
     if (reason != nullptr && check.verdict != Verdict::kPass) {
       *reason += check.name + ": " + check.reason + "\n";
@@ -55,7 +55,7 @@ TEST(RealtimeChecks, AnEvenHostPasses) {
 
 TEST(RealtimeChecks, ALateHostProvesNothingAndTheWorstTickIsNamed) {
   std::string reason;
-  EXPECT_EQ(verdict_of({.one_hang_ns = 2 * kMs}, {}, &reason), Verdict::kInvalid);
+  EXPECT_EQ(verdict_of({.one_hang_ns = 2 * kTickMs}, {}, &reason), Verdict::kInvalid);
   EXPECT_EQ(reason,
             "emulator_host_on_time: the host was late: tick 1234 began 20 ticks of 100 us after it "
             "was due\n");
@@ -76,14 +76,14 @@ TEST(RealtimeChecks, UnevenWorkOfTheControllerFailsTheBudget) {
 TEST(RealtimeChecks, ASideWithoutTicksIsNoEvidence) {
   TickSummary nothing;
   nothing.side = "emulator";
-  EXPECT_EQ(worst_of(realtime_checks(nothing, ran_on({}, "controller", kMs), kMs)),
+  EXPECT_EQ(worst_of(realtime_checks(nothing, ran_on({}, "controller", kTickMs), kTickMs)),
             Verdict::kInvalid);
-  EXPECT_EQ(worst_of(realtime_checks(ran_on({}, "emulator", kMs), nothing, kMs)),
+  EXPECT_EQ(worst_of(realtime_checks(ran_on({}, "emulator", kTickMs), nothing, kTickMs)),
             Verdict::kInvalid);
 }
 
 TEST(TickSummary, SurvivesItsFile) {
-  const auto summary = ran_on({.one_hang_ns = 2 * kMs}, "emulator", 100 * kUs);
+  const auto summary = ran_on({.one_hang_ns = 2 * kTickMs}, "emulator", 100 * kUs);
   const auto again = tick_summary_from(to_json(summary));
   EXPECT_EQ(to_json(again), to_json(summary));
   EXPECT_EQ(text_of(again), text_of(summary));

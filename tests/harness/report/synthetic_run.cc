@@ -141,7 +141,7 @@ Json synthetic_result(const SyntheticRun& run) {
                 {"margin", 1 - error_peak_in(run) / 1e-3},
                 {"verdict", "PASS"},
                 {"reason", ""},
-                {"source", "experiments.md, circle"}});
+                {"source", "TRK-7: circle"}});
   const Json seen = {
       {"name", "edges_seen"}, {"window", ""},      {"meaning", "the decoder saw edges"},
       {"value", nullptr},     {"unit", ""},        {"min", nullptr},

@@ -1,5 +1,5 @@
-// A run folder in the format of harness/record/README.md, made from formulas: what a report test
-// can know exactly without running the bench.
+// A run folder in the format of docs/reference/run-folder.md, made from formulas: what a report
+// test can know exactly without running the bench.
 #pragma once
 
 #include <cstddef>

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "harness/bench/experiment_run.h"
 #include "harness/experiment/experiment_toml.h"
+#include "harness/run/experiment_run.h"
 
 namespace towbench::tests {
 namespace {

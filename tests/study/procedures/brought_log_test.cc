@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "harness/bench/experiment_run.h"
 #include "harness/fixtures/fixture_error.h"
 #include "harness/record/temporary_folder.h"
+#include "harness/run/experiment_run.h"
 #include "study/procedures/data_study.h"
 
 namespace towbench::harness::procedures {

@@ -117,7 +117,7 @@ TEST_F(LinuxNodeTest, ATrapezoidThroughFilesMovesTheCarriageByItsDistance) {
       worst_m = std::max(worst_m, std::fabs(y.reference_m - y.position_m));
     }
   }
-  // experiments.md: the whole profile within 1 mm with the plain PID.
+  // TRK-2: the whole profile within 1 mm with the plain PID.
   EXPECT_GT(worst_m, 0.0);
   EXPECT_LT(worst_m, 1e-3);
   EXPECT_TRUE(fake_.is_safe()) << "at rest nothing is put out";

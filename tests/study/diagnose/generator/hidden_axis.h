@@ -1,8 +1,9 @@
 // An axis with one thing wrong, and the log that its bench would write. Shares no code with the
 // library of effects under test: laws are written again, in time, as forces on a body.
 //
-// The body is the nominal Y axis seen at the carriage (plant.md: Table 7.4 through R/n): 8.39 kg,
-// 5.41 N s/m, 1.58 N, 445,345 counts/m, 0.691 N per % duty; 1 kHz PID with 0.1 % duty steps.
+// The body is the nominal Y axis seen at the carriage (docs/reference/constants.md: Table 7.4
+// through R/n): 8.39 kg, 5.41 N s/m, 1.58 N, 445,345 counts/m, 0.691 N per % duty; 1 kHz PID with
+// 0.1 % duty steps.
 #pragma once
 
 #include <cstdint>

@@ -110,7 +110,7 @@ TEST(ExtendedModel, PredictsDragWhereTheRigidOneIsBlind) {
   EXPECT_NEAR(seeing->force_N.value, truth, 0.04 * truth);
 }
 
-// experiments.md: pooled over at least 400 estimates, 92 to 98 %.
+// ID-0: pooled over at least 400 estimates, 92 to 98 %.
 TEST(Intervals, CoverTheTruthAsOftenAsTheySayUnderColouredNoise) {
   int covered = 0;
   constexpr int kTrials = 200;
