@@ -14,10 +14,10 @@
 
 #include <benchmark/benchmark.h>
 
-#include "harness/diagnose/context.h"
-#include "harness/diagnose/diagnosis.h"
-#include "harness/diagnose/evidence.h"
-#include "tests/harness/diagnose/hidden_case.h"
+#include "study/diagnose/context.h"
+#include "study/diagnose/diagnosis.h"
+#include "study/diagnose/evidence.h"
+#include "tests/study/diagnose/hidden_case.h"
 
 namespace {
 

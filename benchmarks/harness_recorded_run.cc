@@ -6,8 +6,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "harness/bench/experiment_run.h"
 #include "harness/record/log_columns.h"
+#include "harness/run/experiment_run.h"
 
 namespace {
 

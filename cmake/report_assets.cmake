@@ -51,7 +51,7 @@ function(towbench_build_page_scripts source work)
     COMMAND ${CMAKE_COMMAND} -E make_directory ${work}
     COMMAND ${CMAKE_COMMAND} -E copy ${manifests} ${work}
     COMMAND ${TOWBENCH_NPM} ci --prefer-offline --ignore-scripts --no-audit --no-fund
-            --loglevel=error --silent
+            --loglevel=error --silent --fetch-retries=1 --fetch-retry-mintimeout=1000 --fetch-timeout=20000
     COMMAND ${CMAKE_COMMAND} -E touch ${installed}
     DEPENDS ${manifests} WORKING_DIRECTORY ${CMAKE_BINARY_DIR}/reports
     COMMENT "Installing the report's npm packages from its lock file" VERBATIM)

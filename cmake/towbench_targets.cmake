@@ -62,6 +62,11 @@ function(towbench_library name)
   endif()
 endfunction()
 
+# towbench_program(TARGET): what a user starts lies in bin/, beside its siblings (harness/commands/sibling.cc).
+function(towbench_program target)
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+endfunction()
+
 # towbench_test(NAME DEPENDS targets...): one GoogleTest program of the calling folder.
 function(towbench_test name)
   cmake_parse_arguments(arg "" "" "DEPENDS;EXCLUDE" ${ARGN})
@@ -74,7 +79,7 @@ function(towbench_test name)
   endif()
   add_executable(${name} ${sources})
   # Test code is compiled often and run once; what it tests keeps its own optimisation.
-  target_compile_options(${name} PRIVATE -O1)
+  target_compile_options(${name} PRIVATE $<IF:$<BOOL:${TOWBENCH_FUZZ}>,-O0,-O1>)
   target_link_libraries(${name} PRIVATE towbench_options ${arg_DEPENDS}
     GTest::gmock GTest::gtest GTest::gtest_main)
   gtest_discover_tests(${name} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR} DISCOVERY_TIMEOUT 60

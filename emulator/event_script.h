@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/realtime.h"
+#include "emulator/faults/scheduled_event.h"
 #include "emulator/plant_node.h"
 #include "emulator/rig.h"
-#include "emulator/scheduled_event.h"
 
 namespace towbench::emulator {
 

@@ -7,8 +7,8 @@
 
 #include "core/axis.h"
 #include "core/time.h"
+#include "emulator/faults/scheduled_event.h"
 #include "emulator/rig_parameters.h"
-#include "emulator/scheduled_event.h"
 #include "emulator/truth_row.h"
 #include "protocol/message_sink.h"
 

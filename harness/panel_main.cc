@@ -2,6 +2,7 @@
 #include <array>
 
 #include "harness/commands/command.h"
+#include "harness/panel/panel_command.h"
 
 int main(int argc, char** argv) {
   using namespace towbench::harness;

@@ -46,7 +46,7 @@ linux=(bbmc/host/linux/*.cc)
 layers=(core/*.cc bbmc/device/*.cc bbmc/system/*.cc bbmc/system/trajectory/*.cc
   bbmc/host/{emulated_board,emulated_ports,quadrature_decoder}.cc)
 process=(bbmc/application/*.cc bbmc/application/*/*.cc bbmc/host/controller_node.cc protocol/*.cc
-  harness/bench/lockstep_bench.cc tests/bbmc/portable/controller_process.cc)
+  harness/lockstep/lockstep_bench.cc tests/bbmc/portable/controller_process.cc)
 for file in protocol/carriers/*.cc; do
   case $file in
     */gpio_lines.cc | */sim_lines.cc | */line_address.cc) ;;
@@ -75,7 +75,7 @@ echo "armhf: $lines lines of duty and figures, the same to the last bit"
 against_emulator() {
   local log=$1
   shift
-  "$build/harness/towbench-bench" emulate --rig fixtures/rigs/macs-nominal.toml --carrier "local:$out/plant" \
+  "$build/bin/towbench-bench" emulate --rig fixtures/rigs/macs-nominal.toml --carrier "local:$out/plant" \
     --patience 60 >"$log.plant" 2>&1 &
   local plant=$! i
   for ((i = 0; i < 600; ++i)); do

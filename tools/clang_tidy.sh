@@ -40,7 +40,7 @@ export -f tidy_one
 
 # Product code only: in tests, GoogleTest's macros make most of the noise.
 folders=('core/*.cc' 'protocol/*.cc' 'emulator/*.cc' 'bbmc/*.cc' ':!protocol/carriers/*')
-[[ ${2:-} == --everything ]] && folders=('core/*.cc' 'protocol/*.cc' 'emulator/*.cc' 'bbmc/*.cc' 'harness/*.cc')
+[[ ${2:-} == --everything ]] && folders=('core/*.cc' 'protocol/*.cc' 'emulator/*.cc' 'bbmc/*.cc' 'harness/*.cc' 'study/*.cc')
 mapfile -t files < <(git ls-files "${folders[@]}")
 echo "clang-tidy: ${#files[@]} files"
 printf '%s\n' "${files[@]}" | xargs -P 2 -I{} bash -c 'tidy_one "$@"' _ "$build" "$cache" {}

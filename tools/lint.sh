@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Format, shell scripts, include rules, pages, retired words, commit subjects and machine paths of the whole tree.
+# Format, shell scripts, include rules, rings of folders, pages, retired words, commit subjects and machine paths of the whole tree.
 # usage: lint.sh ROOT      TOWBENCH_LINT_BASE: commits after this one are checked
 set -uo pipefail
 root=${1:?usage: lint.sh ROOT}
@@ -20,9 +20,10 @@ echo "shellcheck: ${#scripts[@]} scripts"
 shellcheck -x "${scripts[@]}" || status=1
 
 sh tools/check_includes.sh . || status=1
+sh tools/check_folder_cycles.sh . || status=1
 sh tools/check_pages.sh . || status=1
 sh tools/check_words.sh . md || status=1
-sh tools/check_commits.sh . "${TOWBENCH_LINT_BASE:-ce220da}" || status=1
+sh tools/check_commits.sh . "${TOWBENCH_LINT_BASE:-795b709}" || status=1
 
 # An absolute path of somebody's machine in a tracked file is a mistake, always.
 if git grep -nIE '(^|[^A-Za-z0-9_.])/(work|home|root)/' -- . ":!*.lock" ":!tools/lint.sh"; then

@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "core/realtime.h"
+#include "emulator/faults/scheduled_event.h"
 #include "emulator/plant/axis_plant.h"
-#include "emulator/scheduled_event.h"
 
 namespace towbench::emulator {
 

@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 
 #include "core/check.h"
-#include "harness/bench/run_carrier.h"
 #include "harness/campaign/drawn_machines.h"
-#include "harness/faults/case_run.h"
-#include "harness/faults/fault_text.h"
+#include "harness/fault_cases/case_run.h"
+#include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/canonical_hash.h"
+#include "harness/run/run_carrier.h"
 
 namespace towbench::harness {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "harness/experiment/experiment_fixture.h"
-#include "harness/faults/fault_case.h"
-#include "harness/faults/motion_phases.h"
+#include "harness/fault_cases/fault_case.h"
+#include "harness/fault_cases/motion_phases.h"
 
 namespace towbench::harness {
 

@@ -5,12 +5,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/bench/run_carrier.h"
 #include "harness/campaign/campaign.h"
 #include "harness/campaign/drawn_machines.h"
-#include "harness/faults/fault_text.h"
-#include "harness/faults/faulted_experiment.h"
+#include "harness/fault_cases/faulted_experiment.h"
+#include "harness/fault_plan/fault_text.h"
 #include "harness/record/temporary_folder.h"
+#include "harness/run/run_carrier.h"
 
 namespace towbench::harness {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/faults/fault.h"
+#include "harness/fault_plan/fault.h"
 
 namespace towbench::harness {
 namespace {

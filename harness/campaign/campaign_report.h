@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/judge/check.h"
+#include "harness/checks/check.h"
 
 namespace towbench::harness {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/random.h"
-#include "harness/faults/case_run.h"
+#include "harness/fault_cases/case_run.h"
 #include "harness/record/line_writer.h"
 
 namespace towbench::harness {

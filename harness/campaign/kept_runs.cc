@@ -5,12 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "harness/bench/run_carrier.h"
 #include "harness/campaign/campaign_report.h"
 #include "harness/campaign/drawn_machines.h"
-#include "harness/faults/faulted_experiment.h"
+#include "harness/fault_cases/faulted_experiment.h"
 #include "harness/record/line_writer.h"
 #include "harness/report/report.h"
+#include "harness/run/run_carrier.h"
 
 namespace towbench::harness {
 namespace {

@@ -18,8 +18,8 @@
 #include "harness/campaign/slurm_array.h"
 #include "harness/campaign/worker_pool.h"
 #include "harness/commands/command.h"
-#include "harness/commands/fixture_paths.h"
 #include "harness/commands/stop_signal.h"
+#include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
 
 namespace towbench::harness {

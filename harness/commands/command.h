@@ -21,12 +21,7 @@ void add_replay(CLI::App& app, int& exit_code);
 void add_campaign(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
-void add_panel(CLI::App& app, int& exit_code);  // of towbench-panel alone
 void add_completion(CLI::App& app, int& exit_code);
-void add_diagnose(CLI::App& app, int& exit_code);  // of towbench-study alone
-void add_identify(CLI::App& app, int& exit_code);  // of towbench-study alone
-void add_results(CLI::App& app, int& exit_code);   // of towbench-study alone
-void add_tow(CLI::App& app, int& exit_code);       // of towbench-study alone
 // Start towbench-study and towbench-panel, which lie beside this program.
 void add_identify_elsewhere(CLI::App& app, int& exit_code);
 void add_panel_elsewhere(CLI::App& app, int& exit_code);

@@ -8,10 +8,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "harness/checks/check.h"
 #include "harness/commands/command.h"
 #include "harness/fixtures/fixture_error.h"
 #include "harness/fixtures/nearest_key.h"
-#include "harness/judge/check.h"
 
 namespace towbench::harness {
 namespace {

@@ -6,9 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "harness/checks/check.h"
 #include "harness/commands/command.h"
-#include "harness/commands/fixture_paths.h"
-#include "harness/judge/check.h"
+#include "harness/fixtures/fixture_paths.h"
 
 namespace towbench::harness {
 namespace {

@@ -8,11 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "harness/bench/in_process_plant.h"
-#include "harness/bench/linked_plant.h"
-#include "harness/bench/lockstep_bench.h"
-#include "harness/bench/unrecorded_plant.h"
-#include "harness/bench/wires.h"
+#include "harness/checks/check.h"
 #include "harness/commands/carrier_option.h"
 #include "harness/commands/command.h"
 #include "harness/commands/linux_session.h"
@@ -20,7 +16,11 @@
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/controller_fixture.h"
 #include "harness/fixtures/rig_fixture.h"
-#include "harness/judge/check.h"
+#include "harness/link/in_process_plant.h"
+#include "harness/link/linked_plant.h"
+#include "harness/link/unrecorded_plant.h"
+#include "harness/link/wires.h"
+#include "harness/lockstep/lockstep_bench.h"
 #include "harness/realtime/realtime_plant.h"
 #include "harness/realtime/realtime_rights.h"
 #include "harness/realtime/tick_summary.h"

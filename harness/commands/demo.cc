@@ -10,9 +10,9 @@
 #include "harness/commands/encoder_option.h"
 #include "harness/commands/exit_codes.h"
 #include "harness/commands/experiment_options.h"
-#include "harness/commands/fixture_paths.h"
 #include "harness/commands/verdict_table.h"
 #include "harness/fixtures/fixture_error.h"
+#include "harness/fixtures/fixture_paths.h"
 #include "harness/record/run_folder.h"
 #include "harness/report/report.h"
 

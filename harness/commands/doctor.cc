@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/checks/check.h"
 #include "harness/commands/command.h"
-#include "harness/judge/check.h"
 #include "harness/realtime/host_findings.h"
 #include "harness/realtime/loop_comparison.h"
 #include "harness/realtime/own_lateness.h"

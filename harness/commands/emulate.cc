@@ -8,15 +8,15 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "harness/bench/plant_service.h"
-#include "harness/bench/unrecorded_plant.h"
+#include "harness/checks/check.h"
 #include "harness/commands/carrier_option.h"
 #include "harness/commands/command.h"
-#include "harness/commands/fixture_paths.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/experiment/experiment_fixture.h"
-#include "harness/faults/faulted_experiment.h"
-#include "harness/judge/check.h"
+#include "harness/fault_cases/faulted_experiment.h"
+#include "harness/fixtures/fixture_paths.h"
+#include "harness/link/plant_service.h"
+#include "harness/link/unrecorded_plant.h"
 #include "harness/realtime/realtime_plant.h"
 #include "harness/realtime/run_timing.h"
 #include "harness/realtime/wall_clock_carrier.h"

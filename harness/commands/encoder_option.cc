@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "harness/bench/encoder_rate.h"
 #include "harness/fixtures/fixture_error.h"
+#include "harness/run/encoder_rate.h"
 #include "protocol/carriers/encoder_address.h"
 
 namespace towbench::harness {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "harness/bench/experiment_run.h"
+#include "harness/run/experiment_run.h"
 
 namespace towbench::harness {
 
@@ -16,7 +16,7 @@ inline constexpr const char* kEncoderLinesHelp =
 void choose_encoder_lines(const std::string& text, RunOptions& options);
 
 // Throws FixtureError when the experiment is faster than the lines carry, with both figures
-// (bench/encoder_rate.h). By the wall clock the lines are measured for that, a moment before the
+// (run/encoder_rate.h). By the wall clock the lines are measured for that, a moment before the
 // run.
 void check_encoder_lines(const ExperimentFixture& fixture, const RunOptions& options);
 

@@ -1,7 +1,7 @@
 // Several exit codes as one.
 #pragma once
 
-#include "harness/judge/check.h"
+#include "harness/checks/check.h"
 
 namespace towbench::harness {
 

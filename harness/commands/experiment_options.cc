@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "harness/bench/firmware_run.h"
+#include "harness/board_bench/firmware_run.h"
 #include "harness/commands/encoder_option.h"
 #include "harness/commands/progress_line.h"
 #include "harness/commands/stop_signal.h"

@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "harness/bench/run_carrier.h"
+#include "harness/run/run_carrier.h"
 
 namespace towbench::harness {
 

@@ -7,10 +7,10 @@
 #include <string_view>
 
 #include "bbmc/host/linux/linux_node.h"
+#include "harness/checks/check.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/commands/typist.h"
 #include "harness/fixtures/linux_devices_fixture.h"
-#include "harness/judge/check.h"
 #include "harness/realtime/realtime_rights.h"
 #include "harness/realtime/tick_clock.h"
 #include "harness/realtime/tick_summary.h"

@@ -5,11 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "harness/checks/check.h"
 #include "harness/commands/command.h"
-#include "harness/commands/fixture_paths.h"
 #include "harness/experiment/experiment_fixture.h"
-#include "harness/judge/check.h"
-#include "harness/judge/metric.h"
+#include "harness/fixtures/fixture_paths.h"
+#include "harness/metrics/metric.h"
 
 namespace towbench::harness {
 namespace {

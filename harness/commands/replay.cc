@@ -11,13 +11,13 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "harness/bench/experiment_run.h"
-#include "harness/bench/wall_clock_replay.h"
 #include "harness/commands/command.h"
 #include "harness/commands/experiment_options.h"
 #include "harness/commands/stop_signal.h"
-#include "harness/faults/shrink.h"
+#include "harness/fault_cases/shrink.h"
 #include "harness/record/temporary_folder.h"
+#include "harness/run/experiment_run.h"
+#include "harness/run/wall_clock_replay.h"
 
 namespace towbench::harness {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "harness/checks/check.h"
 #include "harness/commands/command.h"
-#include "harness/judge/check.h"
 
 namespace towbench::harness {
 namespace {

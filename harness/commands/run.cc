@@ -10,11 +10,11 @@
 #include "harness/commands/command.h"
 #include "harness/commands/exit_codes.h"
 #include "harness/commands/experiment_options.h"
-#include "harness/commands/fixture_paths.h"
 #include "harness/commands/verdict_table.h"
 #include "harness/experiment/board_plan_text.h"
-#include "harness/faults/fault_text.h"
-#include "harness/faults/faulted_experiment.h"
+#include "harness/fault_cases/faulted_experiment.h"
+#include "harness/fault_plan/fault_text.h"
+#include "harness/fixtures/fixture_paths.h"
 
 namespace towbench::harness {
 namespace {

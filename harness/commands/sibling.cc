@@ -11,8 +11,8 @@
 #include <CLI/CLI.hpp>
 #include <unistd.h>
 
+#include "harness/checks/check.h"
 #include "harness/commands/command.h"
-#include "harness/judge/check.h"
 
 namespace towbench::harness {
 namespace {

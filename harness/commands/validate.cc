@@ -7,11 +7,11 @@
 #include <CLI/CLI.hpp>
 #include <toml++/toml.h>
 
+#include "harness/checks/check.h"
 #include "harness/commands/command.h"
-#include "harness/commands/fixture_paths.h"
 #include "harness/experiment/experiment_fixture.h"
-#include "harness/faults/fault_text.h"
-#include "harness/judge/check.h"
+#include "harness/fault_plan/fault_text.h"
+#include "harness/fixtures/fixture_paths.h"
 
 namespace towbench::harness {
 namespace {

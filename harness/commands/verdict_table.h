@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "harness/bench/experiment_run.h"
+#include "harness/run/experiment_run.h"
 
 namespace towbench::harness {
 

@@ -8,6 +8,7 @@
 
 #include "harness/fixtures/canonical_hash.h"
 #include "harness/fixtures/fixture_error.h"
+#include "harness/fixtures/toml_number.h"
 
 namespace towbench::harness {
 namespace {
@@ -19,11 +20,6 @@ constexpr std::array<std::string_view, 4> kKinds{"brown_out", "stuck_bit", "lost
                                                  "delayed_interrupt"};
 constexpr std::array<std::string_view, 2> kMetrics{"worst_instructions", "stack_bytes"};
 constexpr double kDark_s = 0.05;  // of a brown-out that says nothing else
-
-std::string number(double value) {
-  const auto digits = fmt::format("{}", value);
-  return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
-}
 
 // Which keys mean something for a kind, besides `do` and `at_s`.
 std::vector<std::string_view> keys_of(Kind kind) {
@@ -58,7 +54,7 @@ std::string in_seconds(std::string_view text) {
   const std::string_view unit(end.ptr,
                               static_cast<std::size_t>(text.data() + text.size() - end.ptr));
   const double factor = unit == "s" ? 1.0 : unit == "ms" ? 1e-3 : unit == "us" ? 1e-6 : 0.0;
-  return end.ec == std::errc() && factor > 0 ? number(value * factor) : std::string(text);
+  return end.ec == std::errc() && factor > 0 ? toml_number(value * factor) : std::string(text);
 }
 
 }  // namespace
@@ -121,8 +117,8 @@ BoardBudget read_board_budget(TableReader& reader) {
 
 std::string to_toml(const BoardFault& fault) {
   auto text = fmt::format("\n[[board_fault]]\ndo = \"{}\"\nat_s = {}\n",
-                          kKinds[static_cast<std::size_t>(fault.kind)], number(fault.at_s));
-  text += fault.for_s ? "for_s = " + number(*fault.for_s) + '\n' : "";
+                          kKinds[static_cast<std::size_t>(fault.kind)], toml_number(fault.at_s));
+  text += fault.for_s ? "for_s = " + toml_number(*fault.for_s) + '\n' : "";
   switch (fault.kind) {
     case Kind::kBrownOut:
       break;
@@ -134,15 +130,17 @@ std::string to_toml(const BoardFault& fault) {
       text += fmt::format("interrupt = {}\ncount = {}\n", fault.interrupt, fault.count);
       break;
     case Kind::kDelayedInterrupt:
-      text += fmt::format("interrupt = {}\ndelay_s = {}\n", fault.interrupt, number(fault.delay_s));
+      text += fmt::format("interrupt = {}\ndelay_s = {}\n", fault.interrupt,
+                          toml_number(fault.delay_s));
       break;
   }
   return text;
 }
 
 std::string to_toml(const BoardBudget& budget) {
-  auto text = fmt::format("\n[[board_budget]]\nmetric = \"{}\"\nmax = {}\n",
-                          kMetrics[static_cast<std::size_t>(budget.metric)], number(budget.max));
+  auto text =
+      fmt::format("\n[[board_budget]]\nmetric = \"{}\"\nmax = {}\n",
+                  kMetrics[static_cast<std::size_t>(budget.metric)], toml_number(budget.max));
   if (budget.metric == BoardBudget::Metric::kWorstInstructions) {
     text += fmt::format("interrupt = {}\n", budget.interrupt);
   }

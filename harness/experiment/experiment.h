@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "emulator/scheduled_event.h"
+#include "emulator/faults/scheduled_event.h"
 #include "harness/experiment/board_plan.h"
 #include "harness/experiment/hand_act.h"
-#include "harness/faults/fault.h"
+#include "harness/fault_plan/fault.h"
 
 namespace towbench::harness {
 

@@ -4,9 +4,9 @@
 
 #include "core/time.h"
 #include "harness/experiment/board_plan_text.h"
-#include "harness/faults/fault_text.h"
+#include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/canonical_hash.h"
-#include "harness/judge/metric.h"
+#include "harness/metrics/metric.h"
 
 namespace towbench::harness {
 namespace {

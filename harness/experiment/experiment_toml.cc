@@ -6,15 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/experiment/board_plan_text.h"
-#include "harness/faults/fault_text.h"
+#include "harness/fault_plan/fault_text.h"
+#include "harness/fixtures/toml_number.h"
 
 namespace towbench::harness {
 namespace {
-
-std::string number(double value) {
-  const auto digits = fmt::format("{}", value);
-  return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
-}
 
 // A basic string of TOML: JSON escapes the same letters in the same way, but for one.
 std::string quoted(const std::string& text) {
@@ -27,22 +23,22 @@ std::string quoted(const std::string& text) {
 
 std::string console_toml(const ConsoleStep& step) {
   std::string text = "\n[[console]]\n";
-  text += step.at_s ? "at_s = " + number(*step.at_s) + '\n' : "";
+  text += step.at_s ? "at_s = " + toml_number(*step.at_s) + '\n' : "";
   text += step.send.empty() ? "" : "send = " + quoted(step.send) + '\n';
   text += step.expect.empty() ? "" : "expect = " + quoted(step.expect) + '\n';
   text += step.wait_idle ? "wait = \"idle\"\n" : "";
-  text += step.wait_s > 0 ? "wait_s = " + number(step.wait_s) + '\n' : "";
-  return text + "timeout_s = " + number(step.timeout_s) + '\n';
+  text += step.wait_s > 0 ? "wait_s = " + toml_number(step.wait_s) + '\n' : "";
+  return text + "timeout_s = " + toml_number(step.timeout_s) + '\n';
 }
 
 std::string event_toml(const emulator::ScheduledEvent& event) {
-  using Kind = emulator::ScheduledEventKind;
-  auto text = fmt::format("\n[[event]]\nat_s = {}\n", number(core::seconds(event.time_ns)));
-  if (event.kind == Kind::kPushCarriage) {
+  using EventKind = emulator::ScheduledEventKind;
+  auto text = fmt::format("\n[[event]]\nat_s = {}\n", toml_number(core::seconds(event.time_ns)));
+  if (event.kind == EventKind::kPushCarriage) {
     return text + fmt::format("do = \"push_carriage\"\naxis = \"{}\"\nforce_N = {}\n",
-                              core::name_of(event.axis), number(event.value));
+                              core::name_of(event.axis), toml_number(event.value));
   }
-  const bool press = event.kind == Kind::kPressKillSwitch;
+  const bool press = event.kind == EventKind::kPressKillSwitch;
   return text + fmt::format("do = \"{}_kill_switch\"\n", press ? "press" : "release");
 }
 
@@ -54,15 +50,15 @@ std::string hand_toml(const HandAct& act) {
 std::string window_toml(const EvaluationWindow& window) {
   const bool run = window.origin == EvaluationWindow::Origin::kRun;
   return fmt::format("\n[[window]]\nname = {}\nrelative_to = \"{}\"\nfrom_s = {}\nto_s = {}\n",
-                     quoted(window.name), run ? "run" : "motion", number(window.from_s),
-                     number(window.to_s));
+                     quoted(window.name), run ? "run" : "motion", toml_number(window.from_s),
+                     toml_number(window.to_s));
 }
 
 std::string budget_toml(const Budget& budget) {
   auto text = fmt::format("\n[[budget]]\nmetric = {}\nwindow = {}\n", quoted(budget.metric),
                           quoted(budget.window));
-  text += budget.min ? "min = " + number(*budget.min) + '\n' : "";
-  text += budget.max ? "max = " + number(*budget.max) + '\n' : "";
+  text += budget.min ? "min = " + toml_number(*budget.min) + '\n' : "";
+  text += budget.max ? "max = " + toml_number(*budget.max) + '\n' : "";
   return text + (budget.source.empty() ? "" : "source = " + quoted(budget.source) + '\n');
 }
 
@@ -70,7 +66,7 @@ std::string start_toml(const emulator::RigParameters& rig) {
   std::string text = "\n[start]\n";
   for (const auto axis : core::kAxes) {
     if (rig.axes[axis].exists) {
-      text += fmt::format("{}_m = {}\n", core::name_of(axis), number(rig.axes[axis].start_m));
+      text += fmt::format("{}_m = {}\n", core::name_of(axis), toml_number(rig.axes[axis].start_m));
     }
   }
   return text;
@@ -92,7 +88,7 @@ std::string to_toml(const ExperimentFixture& fixture, const std::string& rig,
       "schema = 1\nname = {}\ntitle = {}\ndescription = {}\nrig = {}\ncontroller = {}\n"
       "duration_limit_s = {}\nseed = {}\n",
       quoted(experiment.name), quoted(experiment.title), quoted(experiment.description),
-      quoted(rig), quoted(controller), number(experiment.duration_limit_s), experiment.seed);
+      quoted(rig), quoted(controller), toml_number(experiment.duration_limit_s), experiment.seed);
   text += start_toml(fixture.rig.parameters);
   append(text, experiment.console, console_toml);
   append(text, experiment.events, event_toml);

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "harness/checks/check.h"
 #include "harness/experiment/experiment.h"
-#include "harness/judge/check.h"
-#include "harness/judge/metric.h"
+#include "harness/metrics/metric.h"
 
 namespace towbench::harness {
 

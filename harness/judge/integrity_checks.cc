@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/judge/motion_metrics.h"
+#include "harness/metrics/motion_metrics.h"
 
 namespace towbench::harness {
 namespace {

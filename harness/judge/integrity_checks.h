@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/time.h"
-#include "harness/judge/check.h"
-#include "harness/judge/run_data.h"
+#include "harness/checks/check.h"
+#include "harness/metrics/run_data.h"
 
 namespace towbench::harness {
 

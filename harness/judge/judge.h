@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "harness/bench/run_outcome.h"
+#include "harness/checks/check.h"
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/judge/budget_checks.h"
-#include "harness/judge/check.h"
+#include "harness/lockstep/run_outcome.h"
 
 namespace towbench::harness {
 

@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "bbmc/application/commands/command_table.h"
-#include "harness/commands/fixture_paths.h"
 #include "harness/experiment/experiment_fixture.h"
-#include "harness/faults/carrier_fit.h"
-#include "harness/faults/fault.h"
-#include "harness/faults/fault_catalogue.h"
+#include "harness/fault_plan/carrier_fit.h"
+#include "harness/fault_plan/fault.h"
+#include "harness/fault_plan/fault_catalogue.h"
+#include "harness/fixtures/fixture_paths.h"
 #include "harness/panel/panel_json.h"
 
 namespace towbench::harness {

@@ -5,9 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "harness/faults/carrier_fit.h"
-#include "harness/faults/case_run.h"
-#include "harness/faults/fault_case.h"
+#include "harness/fault_cases/case_run.h"
+#include "harness/fault_cases/fault_case.h"
+#include "harness/fault_cases/inject.h"
+#include "harness/fault_plan/carrier_fit.h"
 
 namespace towbench::harness {
 namespace {

@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "harness/bench/hand.h"
-#include "harness/bench/lockstep_bench.h"
 #include "harness/experiment/experiment_fixture.h"
+#include "harness/lockstep/hand.h"
+#include "harness/lockstep/lockstep_bench.h"
 #include "harness/panel/run_hand.h"
 
 namespace towbench::harness {

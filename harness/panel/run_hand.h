@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/time.h"
-#include "harness/bench/hand.h"
+#include "harness/lockstep/hand.h"
 
 namespace towbench::harness {
 

@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 #include <sys/mman.h>
 
-#include "harness/commands/fixture_paths.h"
 #include "harness/experiment/experiment_toml.h"
-#include "harness/faults/fault_text.h"
-#include "harness/faults/faulted_experiment.h"
+#include "harness/fault_cases/faulted_experiment.h"
+#include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/canonical_hash.h"
+#include "harness/fixtures/fixture_paths.h"
 #include "harness/panel/autogroup.h"
 #include "harness/panel/live_hand.h"
 #include "harness/panel/realtime_hand.h"

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "harness/bench/experiment_run.h"
 #include "harness/panel/live_tap.h"
 #include "harness/panel/run_hand.h"
+#include "harness/run/experiment_run.h"
 
 namespace towbench::harness {
 

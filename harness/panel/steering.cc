@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "harness/faults/fault_text.h"
+#include "harness/fault_plan/fault_text.h"
 
 namespace towbench::harness {
 namespace {

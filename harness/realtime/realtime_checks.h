@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "harness/judge/check.h"
+#include "harness/checks/check.h"
 #include "harness/realtime/tick_summary.h"
 
 namespace towbench::harness {

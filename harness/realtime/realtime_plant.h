@@ -9,8 +9,8 @@
 
 #include "core/result.h"
 #include "emulator/plant_node.h"
-#include "harness/bench/plant_end.h"
-#include "harness/bench/wires.h"
+#include "harness/link/plant_end.h"
+#include "harness/link/wires.h"
 #include "harness/realtime/tick_loop.h"
 #include "protocol/carriers/turn_link.h"
 #include "protocol/each_message.h"

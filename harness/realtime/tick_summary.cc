@@ -40,14 +40,11 @@ std::string line(const char* what, const DurationFigures& figures) {
 }  // namespace
 
 DurationFigures figures_of(const DurationHistogram& histogram) {
-  constexpr double kHalf = 0.5;
-  constexpr double kHundredth = 0.99;
-  constexpr double kThousandth = 0.999;
   return {.min_ns = histogram.min_ns(),
           .mean_ns = histogram.mean_ns(),
-          .p50_ns = histogram.percentile_ns(kHalf),
-          .p99_ns = histogram.percentile_ns(kHundredth),
-          .p999_ns = histogram.percentile_ns(kThousandth),
+          .p50_ns = histogram.percentile_ns(0.5),
+          .p99_ns = histogram.percentile_ns(0.99),
+          .p999_ns = histogram.percentile_ns(0.999),
           .max_ns = histogram.max_ns(),
           .max_at = histogram.max_at()};
 }

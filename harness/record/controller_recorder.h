@@ -6,7 +6,7 @@
 
 #include "bbmc/host/controller_node.h"
 #include "bbmc/host/linux/linux_node.h"
-#include "harness/bench/bench_recorder.h"
+#include "harness/lockstep/bench_recorder.h"
 #include "harness/record/csv_writer.h"
 #include "harness/record/line_writer.h"
 #include "harness/record/log_columns.h"

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "harness/bench/bench_recorder.h"
+#include "harness/lockstep/bench_recorder.h"
 #include "harness/record/csv_writer.h"
 #include "harness/record/line_writer.h"
 #include "harness/record/pin_row.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "harness/judge/check.h"
+#include "harness/checks/check.h"
 
 namespace towbench::harness {
 

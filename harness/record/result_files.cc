@@ -1,6 +1,7 @@
 #include "harness/record/result_files.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "harness/fixtures/canonical_hash.h"
 #include "harness/record/junit.h"
@@ -118,7 +119,7 @@ void write_incomplete(const std::filesystem::path& folder, const ExperimentFixtu
   write_json(folder / "result.json", result);
 }
 
-json write_judged(const std::filesystem::path& folder, const ExperimentFixture& fixture,
+void write_judged(const std::filesystem::path& folder, const ExperimentFixture& fixture,
                   const RunIdentity& identity, const RunOutcome& outcome,
                   const Judgement& judgement) {
   auto result = head(fixture, identity);
@@ -135,7 +136,6 @@ json write_judged(const std::filesystem::path& folder, const ExperimentFixture& 
   write_atomically(folder / "junit.xml",
                    junit_xml(fixture.experiment.name, outcome.wall_time_s, judgement.checks));
   write_json(folder / "result.json", result);
-  return result;
 }
 
 }  // namespace towbench::harness

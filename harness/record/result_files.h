@@ -5,11 +5,9 @@
 #include <filesystem>
 #include <string>
 
-#include <nlohmann/json.hpp>
-
-#include "harness/bench/run_outcome.h"
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/judge/judge.h"
+#include "harness/lockstep/run_outcome.h"
 
 namespace towbench::harness {
 
@@ -29,9 +27,9 @@ void write_started(const std::filesystem::path& folder, const ExperimentFixture&
 // The last one of a run that was cut short.
 void write_incomplete(const std::filesystem::path& folder, const ExperimentFixture& fixture,
                       const RunIdentity& identity, const RunOutcome& outcome);
-// All three files of a run that was judged. Returns what result.json holds.
-nlohmann::json write_judged(const std::filesystem::path& folder, const ExperimentFixture& fixture,
-                            const RunIdentity& identity, const RunOutcome& outcome,
-                            const Judgement& judgement);
+// All three files of a run that was judged.
+void write_judged(const std::filesystem::path& folder, const ExperimentFixture& fixture,
+                  const RunIdentity& identity, const RunOutcome& outcome,
+                  const Judgement& judgement);
 
 }  // namespace towbench::harness

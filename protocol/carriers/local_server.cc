@@ -138,11 +138,11 @@ LocalServer::~LocalServer() {
 }
 
 CarrierResult<std::unique_ptr<LocalSocket>> LocalServer::accept(core::Nanoseconds timeout_ns) {
-  using Clock = std::chrono::steady_clock;
-  const auto deadline = Clock::now() + std::chrono::nanoseconds(timeout_ns);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::nanoseconds(timeout_ns);
   pollfd waiting{acceptor_.native_handle(), POLLIN, 0};
   for (;;) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
+    const auto left =
+        std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
     const int ready =
         ::poll(&waiting, 1, static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
     if (ready > 0) {
@@ -161,7 +161,7 @@ CarrierResult<std::unique_ptr<LocalSocket>> LocalServer::accept(core::Nanosecond
       return carrier_failure(core::ErrorCode::kTransportFailed,
                              path_.string() + ": " + reason(errno));
     }
-    if (Clock::now() >= deadline) {
+    if (std::chrono::steady_clock::now() >= deadline) {
       return carrier_failure(core::ErrorCode::kPeerSilent,
                              path_.string() + ": nobody connected in time");
     }

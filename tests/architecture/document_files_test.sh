@@ -4,7 +4,7 @@
 set -eu
 cd "$1"
 document=$2
-roots='core|protocol|emulator|bbmc|harness|tests|benchmarks|fixtures|docs|tools|cmake'
+roots='core|protocol|emulator|bbmc|harness|study|tests|benchmarks|fixtures|docs|tools|cmake'
 named=$(grep -oE "\`($roots)/[A-Za-z0-9_./-]+\`" "$document" | tr -d '`' | sort -u)
 if [ -z "$named" ]; then
   echo "$document names no file at all" >&2

@@ -32,7 +32,10 @@ expect fail harness/peek.cc '#include "tests/support/allocation_guard.h"'
 expect fail bbmc/application/heavy.cc '#include <iostream>'
 expect fail bbmc/system/heavy.cc '#include <boost/asio.hpp>'
 expect pass bbmc/host/node.cc '#include "protocol/messages.h"'
-expect pass harness/all.cc '#include "emulator/plant/axis_plant.h"'
+expect fail harness/run/upward.cc '#include "harness/commands/command.h"'
+expect fail harness/run/estimate.cc '#include "study/identify/estimate.h"'
+expect pass harness/fault_cases/all.cc '#include "emulator/plant/axis_plant.h"'
+expect pass tests/harness/all.cc '#include "harness/run/experiment_run.h"'
 expect pass core/self.h '#include "core/axis.h"'
 
 [ "$failures" -eq 0 ] && echo "every planted include was found"

@@ -9,7 +9,7 @@ cd "${2:?usage: demo_on_board.sh BUILD_DIR SOURCE_DIR}"
 
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
-bench=$build/harness/towbench-bench
+bench=$build/bin/towbench-bench
 
 # verdicts FOLDER: a line for each experiment: its name and its verdict.
 verdicts() {

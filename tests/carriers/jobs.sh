@@ -27,7 +27,7 @@ job() {
 }
 
 # One processor carries both sides: without preemption on wake-up a turn is two switches, not ten.
-bench() { chrt --batch 0 "$build/harness/towbench-bench" "$@"; }
+bench() { chrt --batch 0 "$build/bin/towbench-bench" "$@"; }
 
 # What the experiments of a folder were found to be: every check with its verdict.
 verdicts() {
@@ -85,7 +85,7 @@ wall_clock() {
   for ((attempt = 1; attempt <= attempts; ++attempt)); do
     code=0
     rm -rf "$folder"
-    "$build/harness/towbench-bench" run wall-clock-window --clock real --no-report --out "$folder" "$@" >"$log" 2>&1 || code=$?
+    "$build/bin/towbench-bench" run wall-clock-window --clock real --no-report --out "$folder" "$@" >"$log" 2>&1 || code=$?
     ((code == 4)) || break
     echo "   by the wall clock over $name, attempt $attempt of $attempts: INVALID:" \
       "$(grep -A 1 '^ *INVALID .*_' "$log" | grep -vE 'INVALID|--' | sed 's/^ *//' | paste -sd ';')"
@@ -105,7 +105,7 @@ wall_clock() {
       ;;
   esac
   job "a run by the wall clock over $name replays to the last bit" \
-    "$build/harness/towbench-bench" replay "$folder"/*/
+    "$build/bin/towbench-bench" replay "$folder"/*/
 }
 
 # started FOLDER: a run over vcan1 in the background, under way when this returns. Sets $run.

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "harness/faults/fault_text.h"
+#include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/fixture_error.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

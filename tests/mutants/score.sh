@@ -22,7 +22,7 @@ for experiment in fixtures/experiments/*.toml; do
 done
 
 # What judges them must let the real controller pass.
-real=$build/harness/towbench-bench
+real=$build/bin/towbench-bench
 if ! "$real" run "${sound[@]}" --no-report --quiet --out "$out/runs" >"$out/real.txt" 2>&1 ||
   ! "$real" campaign mutants --fresh --quiet --out "$out/real" >>"$out/real.txt" 2>&1; then
   echo "the unchanged controller does not pass:"

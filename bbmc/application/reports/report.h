@@ -6,7 +6,6 @@
 #include <string_view>
 #include <variant>
 
-#include "bbmc/application/commands/option.h"
 #include "bbmc/application/console/text_writer.h"
 #include "core/axis.h"
 

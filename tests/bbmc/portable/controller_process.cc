@@ -5,8 +5,8 @@
 #include <cstring>
 #include <string_view>
 
-#include "harness/bench/linked_plant.h"
-#include "harness/bench/lockstep_bench.h"
+#include "harness/link/linked_plant.h"
+#include "harness/lockstep/lockstep_bench.h"
 #include "protocol/carriers/connection.h"
 
 namespace {

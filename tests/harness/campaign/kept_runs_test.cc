@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/campaign/drawn_machines.h"
-#include "harness/faults/shrink.h"
+#include "harness/fault_cases/shrink.h"
 #include "tests/harness/end_to_end/run_support.h"
 
 namespace towbench::harness {

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "harness/bench/pty_line.h"
+#include "harness/link/pty_line.h"
 #include "tests/harness/end_to_end/run_support.h"
 #include "tests/support/program_output.h"
 

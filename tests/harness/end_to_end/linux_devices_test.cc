@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/checks/check.h"
 #include "harness/fixtures/linux_devices_fixture.h"
-#include "harness/judge/check.h"
 #include "tests/harness/fixtures/temporary_fixtures.h"
 
 namespace towbench::harness {

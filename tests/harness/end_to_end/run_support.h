@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/bench/experiment_run.h"
 #include "harness/fixtures/canonical_hash.h"
-#include "harness/judge/csv_table.h"
+#include "harness/metrics/csv_table.h"
+#include "harness/run/experiment_run.h"
 #include "tests/harness/fixtures/temporary_fixtures.h"
 
 namespace towbench::harness {

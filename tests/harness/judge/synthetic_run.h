@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/judge/run_data.h"
+#include "harness/metrics/run_data.h"
 #include "harness/record/log_columns.h"
 #include "tests/harness/fixtures/temporary_fixtures.h"
 

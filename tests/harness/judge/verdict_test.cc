@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr core::Nanoseconds kMillisecond = core::kNanosecondsPerMillisecond;
+constexpr core::Nanoseconds kOneMs = core::kNanosecondsPerMillisecond;
 constexpr auto kAxisY = core::Axis::kY;
 
 std::vector<Measurement> measured(double value, std::size_t samples = 1) {
@@ -65,8 +65,8 @@ TEST(Verdict, OfARunIsItsWorstAndOfNothingInvalid) {
 
 ExpectedRecord complete(core::Nanoseconds end_ns) {
   ExpectedRecord expected;
-  expected.control_period_ns = kMillisecond;
-  expected.exchange_ns = kMillisecond;
+  expected.control_period_ns = kOneMs;
+  expected.exchange_ns = kOneMs;
   expected.end_ns = end_ns;
   return expected;
 }
@@ -74,7 +74,7 @@ ExpectedRecord complete(core::Nanoseconds end_ns) {
 SyntheticRun moving_run(std::uint32_t edges) {
   SyntheticRun run;
   run.write(
-      kMillisecond, 100 * kMillisecond,
+      kOneMs, 100 * kOneMs,
       [&](double, bbmc::TelemetryRow& row) { row.axes[kAxisY].edges = edges; },
       [](double time_s, emulator::TruthRow& row) { row.axes[kAxisY].carriage_m = time_s; });
   return run;
@@ -83,10 +83,10 @@ SyntheticRun moving_run(std::uint32_t edges) {
 TEST(Integrity, AWholeRecordPasses) {
   auto run = moving_run(5);
   const auto data = run.load();
-  EXPECT_EQ(check_log_complete(data, complete(100 * kMillisecond)).verdict, Verdict::kPass);
-  EXPECT_EQ(check_truth_complete(data, complete(100 * kMillisecond)).verdict, Verdict::kPass);
+  EXPECT_EQ(check_log_complete(data, complete(100 * kOneMs)).verdict, Verdict::kPass);
+  EXPECT_EQ(check_truth_complete(data, complete(100 * kOneMs)).verdict, Verdict::kPass);
   EXPECT_EQ(check_edges_seen(data).verdict, Verdict::kPass);
-  EXPECT_EQ(check_events_fired(data, complete(100 * kMillisecond)).verdict, Verdict::kPass);
+  EXPECT_EQ(check_events_fired(data, complete(100 * kOneMs)).verdict, Verdict::kPass);
 }
 
 TEST(Integrity, AMotionThatTheDecoderDidNotSeeIsInvalid) {
@@ -99,17 +99,14 @@ TEST(Integrity, AMotionThatTheDecoderDidNotSeeIsInvalid) {
 TEST(Integrity, ARunWithoutAnyEdgeIsInvalidEvenIfNothingMoved) {
   SyntheticRun run;
   run.write(
-      kMillisecond, 10 * kMillisecond, [](double, bbmc::TelemetryRow&) {},
-      [](double, emulator::TruthRow&) {});
+      kOneMs, 10 * kOneMs, [](double, bbmc::TelemetryRow&) {}, [](double, emulator::TruthRow&) {});
   EXPECT_EQ(check_edges_seen(run.load()).verdict, Verdict::kInvalid);
 }
 
 TEST(Integrity, ALogThatEndsEarlyIsInvalid) {
   auto run = moving_run(5);
-  EXPECT_EQ(check_log_complete(run.load(), complete(102 * kMillisecond)).verdict,
-            Verdict::kInvalid);
-  EXPECT_EQ(check_truth_complete(run.load(), complete(102 * kMillisecond)).verdict,
-            Verdict::kInvalid);
+  EXPECT_EQ(check_log_complete(run.load(), complete(102 * kOneMs)).verdict, Verdict::kInvalid);
+  EXPECT_EQ(check_truth_complete(run.load(), complete(102 * kOneMs)).verdict, Verdict::kInvalid);
 }
 
 TEST(Integrity, AMissingRowIsInvalidAndNamed) {
@@ -122,7 +119,7 @@ TEST(Integrity, AMissingRowIsInvalidAndNamed) {
     text += number == 50 ? "" : line + "\n";
   }
   std::ofstream(path) << text;
-  const auto check = check_log_complete(run.load(), complete(100 * kMillisecond));
+  const auto check = check_log_complete(run.load(), complete(100 * kOneMs));
   EXPECT_EQ(check.verdict, Verdict::kInvalid);
   EXPECT_THAT(check.reason, HasSubstr("row 49"));
 }
@@ -131,17 +128,16 @@ TEST(Integrity, ATornLastRowIsInvalid) {
   auto run = moving_run(5);
   const auto path = run.folder() / "log.csv";
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 3);
-  EXPECT_EQ(check_log_complete(run.load(), complete(100 * kMillisecond)).verdict,
-            Verdict::kInvalid);
+  EXPECT_EQ(check_log_complete(run.load(), complete(100 * kOneMs)).verdict, Verdict::kInvalid);
 }
 
 TEST(Integrity, LostRowsAndFailedWritesAreInvalid) {
   auto run = moving_run(5);
   const auto data = run.load();
-  auto lost = complete(100 * kMillisecond);
+  auto lost = complete(100 * kOneMs);
   lost.rows_lost = 1;
   EXPECT_EQ(check_log_complete(data, lost).verdict, Verdict::kInvalid);
-  auto disk_full = complete(100 * kMillisecond);
+  auto disk_full = complete(100 * kOneMs);
   disk_full.writes_succeeded = false;
   EXPECT_EQ(check_log_complete(data, disk_full).verdict, Verdict::kInvalid);
 }
@@ -149,10 +145,10 @@ TEST(Integrity, LostRowsAndFailedWritesAreInvalid) {
 TEST(Integrity, AnEventThatDidNotFireIsInvalid) {
   auto run = moving_run(5);
   const auto data = run.load();
-  auto silent = complete(100 * kMillisecond);
+  auto silent = complete(100 * kOneMs);
   silent.scheduled_events = 1;
   EXPECT_EQ(check_events_fired(data, silent).verdict, Verdict::kInvalid);
-  auto too_late = complete(100 * kMillisecond);
+  auto too_late = complete(100 * kOneMs);
   too_late.unreached_events = 1;
   EXPECT_EQ(check_events_fired(data, too_late).verdict, Verdict::kInvalid);
 }
@@ -160,7 +156,7 @@ TEST(Integrity, AnEventThatDidNotFireIsInvalid) {
 TEST(Windows, MayCountFromTheFirstMotion) {
   SyntheticRun run;
   run.write(
-      kMillisecond, 100 * kMillisecond,
+      kOneMs, 100 * kOneMs,
       [](double time_s, bbmc::TelemetryRow& row) {
         row.axes[kAxisY].mode = time_s >= 0.02 ? bbmc::AxisMode::kPosition : bbmc::AxisMode::kIdle;
       },
@@ -178,8 +174,7 @@ TEST(Windows, MayCountFromTheFirstMotion) {
 TEST(Windows, WithoutMotionAreNotFound) {
   SyntheticRun run;
   run.write(
-      kMillisecond, 10 * kMillisecond, [](double, bbmc::TelemetryRow&) {},
-      [](double, emulator::TruthRow&) {});
+      kOneMs, 10 * kOneMs, [](double, bbmc::TelemetryRow&) {}, [](double, emulator::TruthRow&) {});
   EXPECT_FALSE(
       resolve_windows({{"w", EvaluationWindow::Origin::kMotion, 0, 1}}, run.load())[0].found);
 }

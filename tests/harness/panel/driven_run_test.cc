@@ -7,10 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "harness/bench/experiment_run.h"
 #include "harness/experiment/experiment_toml.h"
-#include "harness/faults/fault_text.h"
+#include "harness/fault_plan/fault_text.h"
 #include "harness/panel/live_hand.h"
+#include "harness/run/experiment_run.h"
 #include "tests/harness/end_to_end/run_support.h"
 
 namespace towbench::harness {

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/bench/experiment_run.h"
 #include "harness/panel/live_tap.h"
+#include "harness/run/experiment_run.h"
 
 namespace towbench::harness {
 namespace {

@@ -10,11 +10,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "harness/bench/experiment_run.h"
-#include "harness/bench/wall_clock_replay.h"
-#include "harness/faults/fault_text.h"
+#include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/fixture_error.h"
 #include "harness/panel/live_tap.h"
+#include "harness/run/experiment_run.h"
+#include "harness/run/wall_clock_replay.h"
 
 namespace towbench::harness {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "emulator/plant_node.h"
-#include "harness/bench/unrecorded_plant.h"
+#include "harness/link/unrecorded_plant.h"
 #include "tests/harness/end_to_end/run_support.h"
 
 namespace towbench::harness {

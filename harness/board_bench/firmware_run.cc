@@ -1,0 +1,241 @@
+#include "harness/board_bench/firmware_run.h"
+
+#include <chrono>
+#include <optional>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "board/board.h"
+#include "harness/board_bench/board_budgets.h"
+#include "harness/board_bench/board_faults.h"
+#include "harness/board_bench/board_report.h"
+#include "harness/board_bench/firmware_bench.h"
+#include "harness/board_bench/firmware_terminal.h"
+#include "harness/fixtures/fixture_error.h"
+#include "harness/lockstep/console_script.h"
+#include "harness/record/firmware_recorder.h"
+
+namespace towbench::harness {
+namespace {
+
+board::ElfImage read_image(const std::filesystem::path& file) {
+  auto image = board::ElfImage::read(file.string());
+  if (!image) {
+    throw FixtureError({file.string(), 0, "firmware"}, image.error(),
+                       "an ELF executable for a bare-metal AM335x");
+  }
+  return std::move(*image);
+}
+
+void load(board::Board& board, const std::filesystem::path& file) {
+  if (const auto refusal = board.load(read_image(file)); !refusal.empty()) {
+    throw FixtureError({file.string(), 0, "firmware"}, refusal,
+                       "an image that lies in the board's memory");
+  }
+}
+
+std::uint8_t axes_of(const emulator::RigParameters& rig) {
+  unsigned mask = 0;
+  for (const core::Axis axis : core::kAxes) {
+    mask |= rig.axes[axis].exists ? 1U << core::index_of(axis) : 0U;
+  }
+  return static_cast<std::uint8_t>(mask);
+}
+
+// The script on the board, as script_loop.cc plays it on the other benches, and one more end: an
+// image that cannot go on.
+class FirmwareLoop {
+ public:
+  // `person` may be null.
+  FirmwareLoop(const ExperimentFixture& fixture, FirmwareBench& bench, FirmwareRecorder& recorder,
+               const LoopWatchers& watchers, BoardFaults& faults, FirmwareTerminal* person)
+      : fixture_(fixture),
+        bench_(bench),
+        recorder_(recorder),
+        watchers_(watchers),
+        faults_(faults),
+        person_(person),
+        script_(person == nullptr ? fixture.experiment.console : std::vector<ConsoleStep>{}),
+        limit_ns_(core::nanoseconds(fixture.experiment.duration_limit_s)) {}
+
+  RunOutcome run() {
+    const auto start = HostClock::now();
+    start_ = start;
+    if (const auto agreed = bench_.start(); !agreed) {
+      outcome_.reason = "handshake refused: " + std::string(core::describe(agreed.error()));
+    } else {
+      exchange_until_over(start);
+    }
+    outcome_.wall_time_s = core::seconds(since(start));
+    outcome_.end_ns = bench_.now_ns();
+    outcome_.rows_lost = bench_.rows_lost();
+    return outcome_;
+  }
+
+ private:
+  using HostClock = std::chrono::steady_clock;
+
+  static core::Nanoseconds since(HostClock::time_point start) {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(HostClock::now() - start).count();
+  }
+
+  void exchange_until_over(HostClock::time_point start) {
+    constexpr std::uint32_t kExchangesBetween = 4096;
+    core::Nanoseconds last_host_ns = since(start);
+    for (std::uint32_t exchanges = 1; !turn_is_last(); ++exchanges) {
+      if (const auto alive = bench_.advance(); !alive) {
+        outcome_.reason = "the emulator was lost: " + std::string(core::describe(alive.error()));
+        return;
+      }
+      if (bench_.now_ns() % FirmwareBench::kPinRow_ns == 0) {
+        const core::Nanoseconds host_ns = since(start);
+        recorder_.timing(bench_.now_ns(), host_ns, host_ns - last_host_ns);
+        last_host_ns = host_ns;
+      }
+      if (watchers_.progress && exchanges % kExchangesBetween == 0) {
+        watchers_.progress(bench_.now_ns());
+      }
+    }
+    bench_.finish();
+  }
+
+  // Types what a person has typed, and waits for the wall clock.
+  void serve_person(core::Nanoseconds now_ns, std::string_view printed) {
+    constexpr core::Nanoseconds kPace_ns = 5 * core::kNanosecondsPerMillisecond;
+    shown_ += printed;
+    if (now_ns % kPace_ns == 0) {
+      bench_.type(person_->exchange(shown_));
+      shown_.clear();
+      std::this_thread::sleep_until(start_ + std::chrono::nanoseconds(now_ns));
+    }
+  }
+
+  void act_on_board(core::Nanoseconds now_ns) {
+    if (faults_.act(now_ns)) {
+      bench_.restarted();
+      if (bench_.probe().has_port()) {
+        static_cast<void>(bench_.probe().set_parameters(
+            fixture_.controller.configuration));  // they fitted before
+      }
+    }
+  }
+
+  bool turn_is_last() {
+    const auto now_ns = bench_.now_ns();
+    act_on_board(now_ns);
+    // Bytes that come while the image still sets up its UART would be lost, as on a bench.
+    if (bench_.listens()) {
+      const auto pending = script_.pending(now_ns);
+      bench_.type(pending);
+      script_.typed(pending.size());
+    }
+    const auto printed = bench_.serve();
+    script_.hear(printed);
+    if (person_ != nullptr) {
+      serve_person(now_ns, printed);
+    }
+    const auto progress = person_ == nullptr ? script_.update(now_ns, bench_.idle())
+                                             : ConsoleScript::Progress::kRunning;
+    if (watchers_.stop != nullptr && watchers_.stop->load(std::memory_order_relaxed)) {
+      outcome_.reason = "interrupted";
+      return true;
+    }
+    const bool running = progress == ConsoleScript::Progress::kRunning;
+    const auto failure = bench_.failure();
+    if (running && now_ns < limit_ns_ && failure.empty()) {
+      return false;
+    }
+    outcome_.complete = true;
+    if (person_ != nullptr && failure.empty()) {
+      return true;
+    }
+    outcome_.script_failure = script_.failure();
+    if (!failure.empty()) {
+      outcome_.script_failure = fmt::format("at {} s, in step {} of {}: {}", core::seconds(now_ns),
+                                            script_.steps_done() + 1, script_.steps(), failure);
+    } else if (running) {
+      outcome_.script_failure =
+          fmt::format("the time limit of {} s came in step {} of {}; it had not ended",
+                      core::seconds(limit_ns_), script_.steps_done() + 1, script_.steps());
+    }
+    return true;
+  }
+
+  const ExperimentFixture& fixture_;
+  FirmwareBench& bench_;
+  FirmwareRecorder& recorder_;
+  const LoopWatchers& watchers_;
+  BoardFaults& faults_;
+  FirmwareTerminal* person_;
+  HostClock::time_point start_;
+  std::string shown_;
+  ConsoleScript script_;
+  core::Nanoseconds limit_ns_;
+  RunOutcome outcome_;
+};
+
+// As a run of the project's own controller keeps it. An image that is switched off and on starts
+// its clock, and with it its rows, at any time: then every row is kept.
+core::Nanoseconds truth_period_ns(const ExperimentFixture& fixture, bool has_port) {
+  if (!fixture.experiment.board.faults.empty()) {
+    return core::kPlantTick_ns;
+  }
+  return has_port ? bbmc::exchange_period_ns(fixture.controller.configuration.control_period_ns())
+                  : FirmwareBench::kPinRow_ns;
+}
+
+}  // namespace
+
+void check_firmware(const std::filesystem::path& image) {
+  board::Board board;
+  load(board, image);
+}
+
+RunOutcome run_firmware(const ExperimentFixture& fixture, const FirmwareOptions& options,
+                        const std::filesystem::path& folder, const FirmwareMachine& machine,
+                        const LoopWatchers& watchers, std::vector<Check>& checks) {
+  board::Board board;
+  load(board, options.image);
+  DebugProbe probe(board);
+  if (probe.has_port()) {
+    if (const auto why = probe.set_parameters(fixture.controller.configuration); !why.empty()) {
+      RunOutcome refused;
+      refused.reason = why;
+      return refused;
+    }
+  }
+  using Log = FirmwareRecorder::Log;
+  FirmwareRecorder recorder(folder, probe.has_port() ? Log::kTelemetry : Log::kPins);
+  const BoardWiring wiring;
+  machine.truth.keep_every(truth_period_ns(fixture, probe.has_port()));
+  FirmwareBench bench(board, wiring, axes_of(fixture.rig.parameters), fixture.rig.hash, machine,
+                      recorder);
+  BoardFaults faults(fixture.experiment.board.faults, board);
+  std::optional<FirmwareTerminal> person;
+  if (options.person_at_console) {
+    person.emplace();
+    if (watchers.terminal) {
+      watchers.terminal(person->path());
+    }
+  }
+  auto outcome =
+      FirmwareLoop(fixture, bench, recorder, watchers, faults, person ? &*person : nullptr).run();
+  machine.truth.finish();
+  outcome.exchange_ns = machine.truth.period_ns();
+  checks = faults.checks();
+  for (Check& check : board_budget_checks(fixture.experiment.board.budgets, board, bench.probe())) {
+    checks.push_back(std::move(check));
+  }
+  recorder.flush();
+  outcome.log_rows = recorder.rows();
+  outcome.writes_succeeded = recorder.good();
+  if (!probe.has_port()) {
+    outcome.control_period_ns = FirmwareBench::kPinRow_ns;
+  }
+  outcome.writes_succeeded =
+      write_board_report(folder / "board.json", board, bench.probe()) && outcome.writes_succeeded;
+  return outcome;
+}
+
+}  // namespace towbench::harness

@@ -1,0 +1,348 @@
+#include "harness/fault_cases/inject.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/random.h"
+
+namespace towbench::harness {
+namespace {
+
+using emulator::ScheduledEvent;
+using emulator::ScheduledEventKind;
+using emulator::WireCondition;
+using protocol::EncoderLine;
+using protocol::InputLine;
+using enum FaultKind;
+
+class Injector {
+ public:
+  Injector(const Fault& fault, core::Nanoseconds at_ns, const CaseRecord& twin,
+           core::Nanoseconds end_ns, Injection& into)
+      : fault_(fault),
+        at_ns_(at_ns),
+        until_ns_(fault.duration_s ? at_ns + core::nanoseconds(*fault.duration_s) : end_ns),
+        lasts_(!fault.duration_s),
+        twin_(twin),
+        random_(fault.seed),
+        into_(into) {}
+
+  void run() {
+    switch (fault_.place.part) {
+      case FaultPart::kEndStop:
+        return end_stop();
+      case FaultPart::kKillSwitch:
+        return kill_switch();
+      case FaultPart::kEncoder:
+        return encoder();
+      case FaultPart::kAmplifier:
+        return amplifier();
+      case FaultPart::kSupply:
+        return hold(
+            fault_.kind == kSag ? ScheduledEventKind::kSagSupply : ScheduledEventKind::kLoadSupply,
+            parameter(0), 0.0);
+      case FaultPart::kDriveTrain:
+        return drive_train();
+      case FaultPart::kLink:
+        into_.link.push_back({.kind = fault_.kind,
+                              .to_plant = fault_.place.to_plant,
+                              .from_ns = at_ns_,
+                              .until_ns = until_ns_,
+                              .amount = parameter(0),
+                              .seed = fault_.seed});
+        return;
+      case FaultPart::kHost:
+        return host();
+    }
+  }
+
+ private:
+  [[nodiscard]] double parameter(std::size_t i) const { return fault_.parameters[i]; }
+
+  void add(ScheduledEvent event) {
+    event.axis = fault_.place.axis;
+    into_.events.push_back(event);
+  }
+  // `on` from the start, `off` at the end of the fault's duration.
+  void hold(ScheduledEventKind kind, double on, double off) {
+    add({.time_ns = at_ns_, .kind = kind, .value = on});
+    if (!lasts_) {
+      add({.time_ns = until_ns_, .kind = kind, .value = off});
+    }
+  }
+  void rewire(core::Nanoseconds time_ns, InputLine line, WireCondition condition) {
+    add({.time_ns = time_ns,
+         .kind = ScheduledEventKind::kRewireInput,
+         .input_line = line,
+         .condition = condition});
+  }
+  void hold_line(InputLine line, WireCondition condition) {
+    rewire(at_ns_, line, condition);
+    if (!lasts_) {
+      rewire(until_ns_, line, WireCondition::kIntact);
+    }
+  }
+  void cross(InputLine a, InputLine b) {
+    for (const auto time_ns : {at_ns_, until_ns_}) {
+      if (time_ns == at_ns_ || !lasts_) {
+        add({.time_ns = time_ns,
+             .kind = ScheduledEventKind::kCrossInputs,
+             .input_line = a,
+             .other_line = b});
+      }
+    }
+  }
+  void rewire(core::Nanoseconds time_ns, EncoderLine line, WireCondition condition) {
+    add({.time_ns = time_ns,
+         .kind = ScheduledEventKind::kRewireEncoder,
+         .encoder_line = line,
+         .condition = condition});
+  }
+  void hold_line(EncoderLine line, WireCondition condition) {
+    rewire(at_ns_, line, condition);
+    if (!lasts_) {
+      rewire(until_ns_, line, WireCondition::kIntact);
+    }
+  }
+
+  // 2 x `bounces` changes after `from_ns`, at random times, that end where they began.
+  template <typename Change>
+  void bounce(core::Nanoseconds from_ns, Change change) {
+    const auto changes = static_cast<std::size_t>(2 * std::lround(parameter(0)));
+    std::vector<core::Nanoseconds> times;
+    for (std::size_t i = 0; i < changes; ++i) {
+      times.push_back(from_ns + 1 + core::nanoseconds(random_.uniform() * parameter(1)));
+    }
+    std::sort(times.begin(), times.end());
+    for (std::size_t i = 0; i < changes; ++i) {
+      change(times[i], i % 2 == 0);
+    }
+  }
+
+  void end_stop() {
+    const InputLine line = fault_.place.hall_line();
+    switch (fault_.kind) {
+      case kStuckOpen:
+        return hold_line(line, WireCondition::kStuckLow);
+      case kStuckClosed:
+        return hold_line(line, WireCondition::kStuckHigh);
+      case kBrokenWire:
+        return hold_line(line,
+                         parameter(0) > 0.5 ? WireCondition::kStuckHigh : WireCondition::kStuckLow);
+      case kSwappedEnds:
+        return cross(line, FaultPlace{.part = FaultPart::kEndStop,
+                                      .axis = fault_.place.axis,
+                                      .at_max = !fault_.place.at_max}
+                               .hall_line());
+      case kSwappedAxes:
+        return cross(line, FaultPlace{.part = FaultPart::kEndStop,
+                                      .axis = fault_.place.axis == core::Axis::kY ? core::Axis::kX
+                                                                                  : core::Axis::kY,
+                                      .at_max = fault_.place.at_max}
+                               .hall_line());
+      case kBounce:
+        if (const auto edge_ns = next_edge_ns(line); edge_ns >= 0) {
+          bounce(edge_ns, [&](core::Nanoseconds time_ns, bool away) {
+            rewire(time_ns, line, away ? WireCondition::kInverted : WireCondition::kIntact);
+          });
+        }
+        return;
+      default:
+        return;  // built in
+    }
+  }
+
+  // Of the machine, in the twin; -1 when none comes.
+  [[nodiscard]] core::Nanoseconds next_edge_ns(InputLine line) const {
+    for (const auto& event : twin_.plant_events) {
+      if (event.kind == emulator::PlantEventKind::kInputLineChanged && event.time_ns >= at_ns_ &&
+          static_cast<InputLine>(static_cast<int>(event.value)) == line) {
+        return event.time_ns;
+      }
+    }
+    return -1;
+  }
+
+  void press(core::Nanoseconds time_ns, bool pressed) {
+    add({.time_ns = time_ns,
+         .kind = pressed ? ScheduledEventKind::kPressKillSwitch
+                         : ScheduledEventKind::kReleaseKillSwitch});
+  }
+
+  void kill_switch() {
+    switch (fault_.kind) {
+      case kBrokenWire:
+        return hold_line(InputLine::kKillSwitch, WireCondition::kStuckHigh);
+      case kWelded:
+        hold_line(InputLine::kKillSwitch, WireCondition::kStuckLow);
+        return press(at_ns_ + kHandComes_ns, true);
+      case kReleased:
+        press(at_ns_, true);
+        return press(at_ns_ + core::nanoseconds(parameter(0)), false);
+      case kBounce:
+        press(at_ns_, true);
+        bounce(at_ns_, [&](core::Nanoseconds time_ns, bool away) { press(time_ns, !away); });
+        break;
+      default:
+        press(at_ns_, true);
+        break;
+    }
+    if (!lasts_) {
+      press(until_ns_, false);
+    }
+  }
+
+  // Random moments of the given rate; `change` is told each one.
+  template <typename Change>
+  void at_random(double rate_Hz, Change change) {
+    double time_s = core::seconds(at_ns_);
+    while (true) {
+      // Uniform over twice the mean distance: no two pulses further apart than that.
+      time_s += 2.0 * random_.uniform() / rate_Hz;
+      const auto time_ns = core::nanoseconds(time_s);
+      if (time_ns >= until_ns_) {
+        return;
+      }
+      change(time_ns);
+    }
+  }
+  void pulse(core::Nanoseconds time_ns, EncoderLine line, double width_s, WireCondition condition) {
+    rewire(time_ns, line, condition);
+    rewire(time_ns + core::nanoseconds(width_s), line, WireCondition::kIntact);
+  }
+
+  void encoder() {
+    const auto level = parameter(0) > 0.5 ? WireCondition::kStuckHigh : WireCondition::kStuckLow;
+    switch (fault_.kind) {
+      case kDeadA:
+        return hold_line(EncoderLine::kA, level);
+      case kDeadB:
+        return hold_line(EncoderLine::kB, level);
+      case kIndexMissing:
+        return hold_line(EncoderLine::kIndex, WireCondition::kStuckLow);
+      case kInverted:
+        return hold_line(EncoderLine::kA, WireCondition::kInverted);
+      case kFrozen:
+        hold_line(EncoderLine::kA, WireCondition::kStuckLow);
+        hold_line(EncoderLine::kB, WireCondition::kStuckLow);
+        return hold_line(EncoderLine::kIndex, WireCondition::kStuckLow);
+      case kSwappedChannels:
+        return hold(ScheduledEventKind::kSwapEncoderChannels, 1.0, 0.0);
+      case kJump:
+        return add(
+            {.time_ns = at_ns_, .kind = ScheduledEventKind::kTurnDisc, .value = parameter(0)});
+      case kSlip:
+        return add(
+            {.time_ns = at_ns_, .kind = ScheduledEventKind::kSlipDisc, .value = parameter(0)});
+      case kExtraEdges:
+        return at_random(parameter(0), [&](core::Nanoseconds time_ns) {
+          pulse(time_ns, EncoderLine::kA, parameter(1), WireCondition::kInverted);
+        });
+      case kMissingEdges:
+        return at_random(parameter(0), [&](core::Nanoseconds time_ns) {
+          pulse(time_ns, EncoderLine::kA, parameter(1), WireCondition::kStuckLow);
+        });
+      case kNoiseBurst:
+        return at_random(parameter(0), [&](core::Nanoseconds time_ns) {
+          const auto line = static_cast<EncoderLine>(random_.bits() % 3);
+          pulse(time_ns, line, parameter(1), WireCondition::kInverted);
+        });
+      case kIllegalTransitions: {
+        bool inverted = false;
+        return at_random(parameter(0), [&](core::Nanoseconds time_ns) {
+          inverted = !inverted;
+          const auto condition = inverted ? WireCondition::kInverted : WireCondition::kIntact;
+          rewire(time_ns, EncoderLine::kA, condition);
+          rewire(time_ns, EncoderLine::kB, condition);
+        });
+      }
+      default:
+        return;  // built in
+    }
+  }
+
+  void amplifier() {
+    constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+    const InputLine ready = fault_.place.axis == core::Axis::kY ? InputLine::kAmplifierReadyY
+                                                                : InputLine::kAmplifierReadyX;
+    switch (fault_.kind) {
+      case kDisabled:
+      case kOverTemperature:
+        hold(ScheduledEventKind::kAmplifierOff, 1.0, 0.0);
+        return hold_line(ready, WireCondition::kStuckLow);
+      case kStuckDuty:
+        return hold(ScheduledEventKind::kHoldCommand, 1.0, 0.0);
+      case kSaturatedEarly:
+        return hold(ScheduledEventKind::kLimitCommand, parameter(0), kNoLimit);
+      case kGainDrop:
+        return hold(ScheduledEventKind::kScaleCommand, parameter(0), 1.0);
+      case kInverted:
+        return hold(ScheduledEventKind::kScaleCommand, -1.0, 1.0);
+      case kBothChannels:
+        return hold(ScheduledEventKind::kShortBridge, 1.0, 0.0);
+      default:
+        return;
+    }
+  }
+
+  void drive_train() {
+    switch (fault_.kind) {
+      case kJam:
+        return hold(ScheduledEventKind::kJamCarriage, 1.0, 0.0);
+      case kBrakeDrag:
+        return hold(ScheduledEventKind::kDragCarriage, parameter(0), 0.0);
+      case kObstacle:
+        return hold(ScheduledEventKind::kObstacle, parameter(0), 0.0);
+      case kChainSkip:
+        return add(
+            {.time_ns = at_ns_, .kind = ScheduledEventKind::kSkipChain, .value = parameter(0)});
+      case kDroppedLoad:
+        return hold(ScheduledEventKind::kDropLoad, parameter(0), 0.0);
+      default:
+        return;
+    }
+  }
+
+  void host() {
+    auto& host = into_.host;
+    if (fault_.kind == kClockStep) {
+      host.steps.push_back({at_ns_, until_ns_, core::nanoseconds(parameter(0))});
+      return;
+    }
+    if (fault_.kind == kFullDisk) {
+      host.full_disks.push_back({at_ns_, until_ns_});
+      return;
+    }
+    if (fault_.kind == kKilledWhileLogging) {
+      host.killed_ns = at_ns_;
+      return;
+    }
+    const double length_s = fault_.kind == kMissedTicks
+                                ? parameter(0) * core::seconds(twin_.outcome.control_period_ns)
+                                : parameter(0);
+    host.stalls.push_back({at_ns_, at_ns_ + core::nanoseconds(length_s)});
+  }
+
+  const Fault& fault_;
+  core::Nanoseconds at_ns_;
+  core::Nanoseconds until_ns_;
+  bool lasts_;
+  const CaseRecord& twin_;
+  core::Random random_;
+  Injection& into_;
+};
+
+}  // namespace
+
+void inject(const Fault& fault, core::Nanoseconds at_ns, const CaseRecord& twin,
+            core::Nanoseconds end_ns, Injection& injection) {
+  Injector(fault, at_ns, twin, end_ns, injection).run();
+}
+
+void finish(Injection& injection) {
+  std::stable_sort(injection.events.begin(), injection.events.end(),
+                   [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; });
+}
+
+}  // namespace towbench::harness

@@ -1,0 +1,18 @@
+// A plan of faults as what makes them happen (harness/lockstep/injection.h). The controller's code
+// is never touched.
+#pragma once
+
+#include "harness/fault_cases/case_record.h"
+#include "harness/fault_plan/fault.h"
+#include "harness/lockstep/injection.h"
+
+namespace towbench::harness {
+
+// Adds one fault that begins at `at_ns`. `twin` is the run without it: where a contact is to bounce
+// at its next edge, the twin knows when that is. `end_ns` is where the run ends at the latest.
+void inject(const Fault& fault, core::Nanoseconds at_ns, const CaseRecord& twin,
+            core::Nanoseconds end_ns, Injection& injection);
+// Puts events in order; after the last inject().
+void finish(Injection& injection);
+
+}  // namespace towbench::harness

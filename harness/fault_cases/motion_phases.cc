@@ -1,0 +1,161 @@
+#include "harness/fault_cases/motion_phases.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace towbench::harness {
+namespace {
+
+using bbmc::AxisMode;
+using Kind = bbmc::ControllerEvent::Kind;
+
+std::string_view phase_at(const CaseRecord& run, core::Axis axis, std::size_t i) {
+  constexpr double kStands_m_per_s = 1e-6;
+  constexpr double kSteady_m_per_s = 1e-7;  // a tick; 0.1 mm/s^2
+  constexpr double kReversing_m_per_s = 0.01;
+  const auto& now = run.log[i].axes[axis];
+  switch (now.mode) {
+    case AxisMode::kIdle:
+    case AxisMode::kFaulted:
+      return "rest";
+    case AxisMode::kOpenLoop:
+      return now.duty_pct != 0.0 ? "open_loop" : "rest";
+    case AxisMode::kBraking:
+      return "brake";
+    default:
+      break;
+  }
+  const double speed = std::fabs(now.reference_velocity_m_per_s);
+  const auto& before = run.log[i == 0 ? 0 : i - 1].axes[axis];
+  const double change = speed - std::fabs(before.reference_velocity_m_per_s);
+  const auto& ahead = run.log[std::min(i + 20, run.log.size() - 1)].axes[axis];
+  const bool turns = now.reference_velocity_m_per_s * ahead.reference_velocity_m_per_s < 0 ||
+                     before.reference_velocity_m_per_s * now.reference_velocity_m_per_s < 0;
+  if (turns && speed < kReversing_m_per_s) {
+    return "reverse";
+  }
+  if (std::fabs(change) > kSteady_m_per_s) {
+    return change > 0 ? "accelerate" : "decelerate";
+  }
+  return speed < kStands_m_per_s ? "hold" : "cruise";
+}
+
+std::optional<core::Nanoseconds> event_onset(const std::string& name, const CaseRecord& twin) {
+  const auto controller = [&](Kind kind) -> std::optional<core::Nanoseconds> {
+    for (const auto& event : twin.controller_events) {
+      if (event.kind == kind) {
+        return event.time_ns;
+      }
+    }
+    return std::nullopt;
+  };
+  if (name == "motion") {
+    return controller(Kind::kMotionStarted);
+  }
+  if (name == "motion_end") {
+    return controller(Kind::kMotionEnded);
+  }
+  if (name == "fault") {
+    return controller(Kind::kFaultLatched);
+  }
+  constexpr std::array<std::string_view, 5> kLines{"y_min", "y_max", "x_min", "x_max",
+                                                   "kill_switch"};
+  for (const auto& event : twin.plant_events) {
+    if (event.kind != emulator::PlantEventKind::kInputLineChanged) {
+      continue;
+    }
+    const auto line = static_cast<std::size_t>(event.value);
+    if (line < kLines.size() && kLines[line] == name && ((event.lines >> line) & 1U) != 0) {
+      return event.time_ns;
+    }
+  }
+  return std::nullopt;
+}
+
+// First moment at which `value`, less `level`, has changed its sign; on the line between two rows.
+template <typename Value>
+std::optional<core::Nanoseconds> crossing(const CaseRecord& twin, double level, Value value) {
+  for (std::size_t i = 1; i < twin.truth.size(); ++i) {
+    const double before = value(twin.truth[i - 1]) - level;
+    const double after = value(twin.truth[i]) - level;
+    if (before != after && ((before < 0) != (after < 0))) {
+      const double share = before / (before - after);
+      const auto span_ns = static_cast<double>(twin.truth[i].time_ns - twin.truth[i - 1].time_ns);
+      return twin.truth[i - 1].time_ns + static_cast<core::Nanoseconds>(share * span_ns);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<PhaseSpan> phases_of(const CaseRecord& run, core::Axis axis) {
+  std::vector<PhaseSpan> spans;
+  for (std::size_t i = 0; i < run.log.size(); ++i) {
+    const auto phase = phase_at(run, axis, i);
+    const auto time_ns = run.log[i].time_ns;
+    if (spans.empty() || spans.back().phase != phase) {
+      if (!spans.empty()) {
+        spans.back().to_ns = time_ns;
+      }
+      spans.push_back({phase, time_ns, time_ns});
+    }
+    spans.back().to_ns = time_ns;
+  }
+  return spans;
+}
+
+core::Axis moving_axis(const CaseRecord& run) {
+  for (const auto& event : run.controller_events) {
+    if (event.kind == Kind::kMotionStarted) {
+      return event.axis;
+    }
+  }
+  return core::Axis::kY;
+}
+
+core::Axis trigger_axis(const Fault& fault, const CaseRecord& twin) {
+  switch (fault.place.part) {
+    case FaultPart::kEndStop:
+    case FaultPart::kEncoder:
+    case FaultPart::kAmplifier:
+    case FaultPart::kDriveTrain:
+      return fault.place.axis;
+    default:
+      return moving_axis(twin);
+  }
+}
+
+std::optional<core::Nanoseconds> onset_of(const FaultTrigger& trigger, core::Axis axis,
+                                          const CaseRecord& twin) {
+  std::optional<core::Nanoseconds> met;
+  switch (trigger.kind) {
+    case FaultTrigger::Kind::kTime:
+      met = core::nanoseconds(trigger.value);
+      break;
+    case FaultTrigger::Kind::kPosition:
+      met =
+          crossing(twin, trigger.value, [&](const auto& row) { return row.axes[axis].carriage_m; });
+      break;
+    case FaultTrigger::Kind::kSpeed:
+      met = crossing(twin, trigger.value, [&](const auto& row) {
+        return std::fabs(row.axes[axis].carriage_speed_m_per_s);
+      });
+      break;
+    case FaultTrigger::Kind::kEvent:
+      met = event_onset(trigger.name, twin);
+      break;
+    case FaultTrigger::Kind::kPhase:
+      for (const auto& span : phases_of(twin, axis)) {
+        if (span.phase == trigger.name) {
+          met = span.from_ns;
+          break;
+        }
+      }
+      break;
+  }
+  return met ? std::optional(*met + core::nanoseconds(trigger.after_s)) : std::nullopt;
+}
+
+}  // namespace towbench::harness

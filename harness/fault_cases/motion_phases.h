@@ -1,0 +1,31 @@
+// Which phase of its motion an axis is in, and what happened when, as the fault-free run shows it.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "harness/fault_cases/case_record.h"
+#include "harness/fault_plan/fault.h"
+
+namespace towbench::harness {
+
+struct PhaseSpan {  // `phase`: one of kPhaseNames
+  std::string_view phase;
+  core::Nanoseconds from_ns = 0;
+  core::Nanoseconds to_ns = 0;
+};
+
+// Without gaps, in order; by the controller's own reference and mode.
+[[nodiscard]] std::vector<PhaseSpan> phases_of(const CaseRecord& run, core::Axis axis);
+
+// When the trigger's condition is first met; none when it never is.
+[[nodiscard]] std::optional<core::Nanoseconds> onset_of(const FaultTrigger& trigger,
+                                                        core::Axis axis, const CaseRecord& twin);
+
+// The axis that moves first (Y when none does): whose phases a fault of no axis goes by.
+[[nodiscard]] core::Axis moving_axis(const CaseRecord& run);
+// Whose motion decides when a fault begins.
+[[nodiscard]] core::Axis trigger_axis(const Fault& fault, const CaseRecord& twin);
+
+}  // namespace towbench::harness

@@ -1,0 +1,92 @@
+// Whether the run can be believed at all: the log goes to the last tick, every number is one, and
+// the console answered to the end.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "harness/fault_cases/requirements.h"
+
+namespace towbench::harness {
+namespace {
+
+using core::Nanoseconds;
+
+bool finite(const bbmc::TelemetryRow& row) {
+  return std::all_of(row.axes.begin(), row.axes.end(), [](const auto& axis) {
+    return std::isfinite(axis.reference_m) && std::isfinite(axis.reference_velocity_m_per_s) &&
+           std::isfinite(axis.position_m) && std::isfinite(axis.velocity_m_per_s) &&
+           std::isfinite(axis.duty_pct);
+  });
+}
+
+bool finite(const emulator::TruthRow& row) {
+  return std::all_of(row.axes.begin(), row.axes.end(), [](const auto& axis) {
+    return std::isfinite(axis.carriage_m) && std::isfinite(axis.carriage_speed_m_per_s) &&
+           std::isfinite(axis.motor_angle_rad) && std::isfinite(axis.current_A);
+  });
+}
+
+// Whether the host was not there between two ticks, or its clock not right.
+bool stalled_between(const CaseEvidence& evidence, Nanoseconds from_ns, Nanoseconds to_ns) {
+  return evidence.prepared.injection.host.may_miss_ticks(from_ns, to_ns);
+}
+
+std::string why_incomplete(const CaseEvidence& evidence) {
+  const auto& run = evidence.run;
+  const auto period_ns = run.outcome.control_period_ns;
+  if (run.log.empty() || run.truth.empty()) {
+    return "there is no row";
+  }
+  if (run.outcome.rows_lost > 0) {
+    return fmt::format("{} rows were lost", run.outcome.rows_lost);
+  }
+  for (std::size_t i = 1; i < run.log.size(); ++i) {
+    const auto from_ns = run.log[i - 1].time_ns;
+    const auto to_ns = run.log[i].time_ns;
+    // The first tick after a stall is computed late, the next is in time again.
+    if (to_ns - from_ns != period_ns && !stalled_between(evidence, from_ns - period_ns, to_ns)) {
+      return fmt::format("no row between {:.4f} s and {:.4f} s", core::seconds(from_ns),
+                         core::seconds(to_ns));
+    }
+  }
+  if (run.outcome.end_ns - run.log.back().time_ns > period_ns &&
+      !stalled_between(evidence, run.log.back().time_ns, run.outcome.end_ns)) {
+    return fmt::format("the last row is at {:.4f} s, the run ended at {:.4f} s",
+                       core::seconds(run.log.back().time_ns), core::seconds(run.outcome.end_ns));
+  }
+  const bool all_finite =
+      std::all_of(run.log.begin(), run.log.end(), [](const auto& row) { return finite(row); }) &&
+      std::all_of(run.truth.begin(), run.truth.end(), [](const auto& row) { return finite(row); });
+  return all_finite ? std::string() : "a value is not finite";
+}
+
+}  // namespace
+
+Check log_is_complete(const CaseEvidence& evidence) {
+  constexpr auto kName = "log_complete";
+  constexpr auto kMeaning = "the log goes to the last tick and every value is a number";
+  auto reason = why_incomplete(evidence);
+  if (reason.empty()) {
+    return passed(kName, kMeaning);
+  }
+  return failed(kName, kMeaning, std::move(reason));
+}
+
+Check script_went_on(const CaseEvidence& evidence) {
+  constexpr auto kName = "console_alive";
+  constexpr auto kMeaning = "the console took every line and came to rest";
+  const auto& outcome = evidence.run.outcome;
+  const auto& plan = evidence.prepared.plan;
+  const bool plant_killed = std::any_of(plan.begin(), plan.end(),
+                                        [](const Fault& fault) { return may_end_run(fault.kind); });
+  if (!outcome.complete && !plant_killed) {
+    return failed(kName, kMeaning, outcome.reason);
+  }
+  if (outcome.complete && !outcome.script_failure.empty()) {
+    return failed(kName, kMeaning, outcome.script_failure);
+  }
+  return passed(kName, kMeaning);
+}
+
+}  // namespace towbench::harness

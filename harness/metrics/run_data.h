@@ -1,0 +1,65 @@
+// What a finished run left on disk, as the judge sees it. Nothing here comes from the memory of the
+// controller or the plant: what is not in the folder does not count.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/axis.h"
+#include "harness/metrics/csv_table.h"
+
+namespace towbench::harness {
+
+// Where an axis ends, from the rig's fixture; carriage positions in the truth frame.
+struct AxisLimits {
+  bool exists = true;
+  double hall_min_m = 0;
+  double hall_max_m = 0;
+  double hard_min_m = 0;
+  double hard_max_m = 0;
+  double metres_per_count = 0;
+};
+
+// One line of events.jsonl.
+struct RunEvent {
+  double time_s = 0;
+  std::string side;  // "plant" or "controller"
+  std::string kind;
+  std::string axis;  // "y" or "x"
+  std::uint16_t code = 0;
+  std::uint16_t lines = 0;
+  double value = 0;
+  double energy_J = 0;
+};
+
+struct RunData {
+  CsvTable log;
+  CsvTable truth;
+  std::vector<RunEvent> events;
+  core::PerAxis<AxisLimits> limits;
+
+  // Column of one axis: log_of(kY, "duty_pct") is y_duty_pct. Empty when missing.
+  [[nodiscard]] std::span<const double> log_of(core::Axis axis, std::string_view name) const;
+  [[nodiscard]] std::span<const double> truth_of(core::Axis axis, std::string_view name) const;
+};
+
+// Reads log.csv, truth.csv and events.jsonl. Throws CsvError when one cannot be read.
+[[nodiscard]] RunData load_run_data(const std::filesystem::path& folder,
+                                    const core::PerAxis<AxisLimits>& limits);
+
+// A stretch of time, resolved to seconds of the run; both ends belong to it.
+struct TimeSpan {
+  double from_s = 0;
+  double to_s = std::numeric_limits<double>::max();
+
+  [[nodiscard]] bool holds(double time_s) const noexcept {
+    return time_s >= from_s && time_s <= to_s;
+  }
+};
+
+}  // namespace towbench::harness

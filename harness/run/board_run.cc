@@ -1,0 +1,77 @@
+#include "harness/run/board_run.h"
+
+#include <algorithm>
+
+#include "harness/board_bench/firmware_faults.h"
+#include "harness/board_bench/firmware_run.h"
+#include "harness/fixtures/fixture_error.h"
+
+namespace towbench::harness {
+namespace {
+
+constexpr const char* kTwinFolder = "twin";
+
+}  // namespace
+
+BoardRun::BoardRun(const ExperimentFixture& fixture, const RunOptions& options, std::uint64_t seed)
+    : options_(options), fixture_(fixture) {
+  if (options.person_at_console) {
+    fixture_.experiment.budgets_apply = false;  // they speak of the script
+  }
+  if (!fixture.experiment.faults.empty()) {
+    refuse_faults_beyond_machine(fixture.experiment.faults);
+    const auto sound = fixture_;
+    twin_ = std::make_unique<BoardTwin>(sound, options.firmware, seed);
+    const auto prepared = prepare_for_image(sound, twin_->record());
+    if (const auto pressed = pressed_where_welded(sound, prepared)) {
+      twin_ = std::make_unique<BoardTwin>(*pressed, options.firmware, seed);
+    }
+    fixture_ = with_faults(sound, prepared);
+  }
+}
+
+RunOutcome BoardRun::play(const std::filesystem::path& folder, PlantEnd& plant, BoardTruth& truth) {
+  const FirmwareOptions how{options_.firmware, options_.person_at_console};
+  return run_firmware(fixture_, how, folder, {plant, truth}, options_.watchers, checks_);
+}
+
+void BoardRun::keep_twin(const std::filesystem::path& folder) const {
+  if (twin_) {
+    twin_->copy_to(folder / kTwinFolder);
+  }
+}
+
+void BoardRun::judge_into(const std::filesystem::path& folder, Judgement& judgement) const {
+  auto& checks = judgement.checks;
+  const auto drop = [&](std::string_view name) {
+    std::erase_if(checks, [&](const Check& check) { return check.name == name; });
+  };
+  const auto& faults = fixture_.experiment.board.faults;
+  if (!faults.empty() && !options_.person_at_console) {
+    drop("driven_by_hand");
+  }
+  const bool goes_dark = std::any_of(faults.begin(), faults.end(), [](const BoardFault& fault) {
+    return fault.kind == BoardFault::Kind::kBrownOut;
+  });
+  if (goes_dark) {
+    drop("log_complete");  // an image without a supply logs nothing
+  }
+  if (twin_ || (!faults.empty() && !fixture_.experiment.budgets_apply)) {
+    drop("console_script");  // it speaks of the sound machine
+  }
+  checks.insert(checks.begin(), checks_.begin(), checks_.end());
+  if (twin_) {
+    const auto beside = judge_beside_twin(folder, folder / kTwinFolder);
+    checks.insert(checks.begin(), beside.begin(), beside.end());
+  }
+  judgement.verdict = worst_of(checks);
+}
+
+void refuse_board_plan(const ExperimentFixture& fixture) {
+  if (!fixture.experiment.board.empty()) {
+    throw FixtureError({.file = "experiment"}, "a [[board_fault]] or [[board_budget]]",
+                       "an image on the virtual board: --controller firmware:IMAGE.elf");
+  }
+}
+
+}  // namespace towbench::harness

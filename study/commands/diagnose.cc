@@ -1,0 +1,73 @@
+// towbench diagnose: what a model gets wrong, from measured data (docs/theory/diagnosis.md).
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "harness/checks/check.h"
+#include "study/commands/diagnose_active.h"
+#include "study/commands/diagnose_logs.h"
+#include "study/commands/verbs.h"
+#include "study/diagnose/diagnosis_json.h"
+#include "study/diagnose/headline.h"
+
+namespace towbench::harness {
+namespace {
+
+int diagnose_once(const DiagnoseOptions& options) {
+  const PlantModel plant = load_plant_model(model_of(options), options.axis);
+  const diagnose::Diagnosis d = diagnose_logs(options, plant);
+  write_diagnosis(options, plant, d);
+  if (options.json) {
+    std::fputs(diagnose::diagnosis_json(d).c_str(), stdout);
+  } else {
+    std::fputs(diagnose::headline(d).c_str(), stdout);
+    std::printf("%s\n", (std::filesystem::path(options.out) / "report.html").c_str());
+  }
+  return kExitPass;
+}
+
+int execute_diagnose(const DiagnoseOptions& options, const ActiveOptions& active) {
+  try {
+    return active.wanted ? diagnose_and_run(options, active) : diagnose_once(options);
+  } catch (const UnusableData& error) {
+    std::fprintf(stderr, "towbench: diagnose: %s\n", error.what());
+    return kExitBadInput;
+  }
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<DiagnoseOptions>();
+  auto active = std::make_shared<ActiveOptions>();
+  auto* verb = app.add_subcommand("diagnose", "name what a model gets wrong, from measured data");
+  verb->add_option("--model", options->model, "plant file; default: that of the first run folder")
+      ->check(CLI::ExistingFile);
+  verb->add_option("--data", options->data,
+                   "run folder of the bench, or CSV log; once for each run")
+      ->required()
+      ->check(CLI::ExistingPath);
+  verb->add_option("--holdout", options->holdout, "the same, to judge on; never fitted")
+      ->check(CLI::ExistingPath);
+  verb->add_option("--columns", options->columns, "TOML map of a foreign log's columns")
+      ->check(CLI::ExistingFile);
+  verb->add_option("--axis", options->axis, "axis of the plant")->check(CLI::IsMember({"y", "x"}));
+  verb->add_option("--out", options->out, "folder to write to");
+  verb->add_option("--seed", options->seed, "of the bootstrap and the twins");
+  verb->add_flag("-q,--quiet", options->quiet, "no progress");
+  verb->add_flag("--json", options->json, "print diagnosis.json");
+  add_active_options(*verb, *active);
+  verb->footer(
+      "Example: towbench diagnose --data runs/FOLDER --out found\n"
+      "         towbench diagnose --active --rig hidden.toml --model plant.toml --data "
+      "runs/FOLDER\n"
+      "         towbench diagnose --model plant.toml --data a.csv --data b.csv --columns map.toml\n"
+      "Writes report.html, headline.txt, diagnosis.json, extended_plant.toml, residual.csv.\n"
+      "Exit: 0 diagnosed, 2 the data cannot be diagnosed (one line says why).");
+  verb->callback(
+      [options, active, &exit_code] { exit_code = execute_diagnose(*options, *active); });
+}
+
+}  // namespace towbench::harness

@@ -1,0 +1,110 @@
+#include "study/commands/diagnose_logs.h"
+
+#include <cstdio>
+
+#include <unistd.h>
+
+#include "harness/fixtures/fixture_paths.h"
+#include "harness/record/line_writer.h"
+#include "study/commands/leave_on_signal.h"
+#include "study/diagnose/column_map.h"
+#include "study/diagnose/diagnosis_json.h"
+#include "study/diagnose/extended_plant.h"
+#include "study/diagnose/headline.h"
+#include "study/diagnose/run_reader.h"
+#include "study/diagnosis_page/page.h"
+
+namespace towbench::harness {
+namespace {
+
+// A run folder of the bench stands for the log in it.
+std::filesystem::path log_of(const std::filesystem::path& given) {
+  return std::filesystem::is_directory(given) ? given / "log.csv" : given;
+}
+
+void refuse_fatal(const diagnose::Findings& findings) {
+  for (const auto& finding : findings) {
+    if (finding.kind == diagnose::Finding::Kind::kFatal) {
+      throw UnusableData(finding.name + ": " + finding.sentence);
+    }
+  }
+}
+
+std::vector<diagnose::Run> read_logs(const std::vector<std::string>& paths,
+                                     const DiagnoseOptions& options, diagnose::NominalModel& model,
+                                     diagnose::Findings& findings) {
+  std::vector<diagnose::Run> runs;
+  runs.reserve(paths.size());
+  for (const auto& path : paths) {
+    runs.push_back(read_log(path, options, model, findings));
+  }
+  return runs;
+}
+
+}  // namespace
+
+std::filesystem::path model_of(const DiagnoseOptions& options) {
+  if (!options.model.empty()) {
+    return options.model;
+  }
+  const std::filesystem::path first = options.data.front();
+  const auto plants = std::filesystem::is_directory(first / "inputs" / "plants")
+                          ? toml_files_in(first / "inputs" / "plants")
+                          : std::vector<std::filesystem::path>{};
+  if (plants.size() != 1) {
+    throw UnusableData("no --model, and " + first.string() +
+                       " is no run folder with the one plant it was run with");
+  }
+  return plants.front();
+}
+
+diagnose::Run read_log(const std::string& path, const DiagnoseOptions& options,
+                       diagnose::NominalModel& model, diagnose::Findings& findings) {
+  const auto log = log_of(path);
+  const auto table = diagnose::read_table(log, findings);
+  refuse_fatal(findings);
+  const auto map = options.columns.empty()
+                       ? diagnose::bench_columns(table, model, log.string(), findings)
+                       : diagnose::read_column_map(options.columns, findings);
+  refuse_fatal(findings);
+  model.input_is_held = map.input_hold.value_or(model.input_is_held);
+  diagnose::Run run = diagnose::make_run(table, map, log.string(), findings);
+  refuse_fatal(findings);
+  return run;
+}
+
+diagnose::Diagnosis diagnose_logs(const DiagnoseOptions& options, PlantModel plant) {
+  const LeaveOnSignal until_it_writes;
+  diagnose::Findings findings;
+  diagnose::Request request;
+  request.runs = read_logs(options.data, options, plant.model, findings);
+  request.holdout = read_logs(options.holdout, options, plant.model, findings);
+  request.model = plant.model;
+  request.seed = options.seed;
+  const bool told = !options.quiet && isatty(STDERR_FILENO) != 0;
+  request.progress = [told](const std::string& line) {
+    if (told) {
+      std::fprintf(stderr, "%s\n", line.c_str());
+    }
+  };
+  diagnose::Diagnosis d = diagnose::diagnose(request);
+  d.findings.insert(d.findings.begin(), findings.begin(), findings.end());
+  return d;
+}
+
+void write_diagnosis(const DiagnoseOptions& options, const PlantModel& plant,
+                     const diagnose::Diagnosis& d) {
+  refuse_fatal(d.findings);
+  const std::filesystem::path folder = options.out;
+  std::filesystem::create_directories(folder);
+  write_atomically(folder / "diagnosis.json", diagnose::diagnosis_json(d));
+  write_atomically(folder / "extended_plant.toml", diagnose::extend_plant(plant.plant, d).text);
+  diagnose::write_series(d, folder);
+  write_atomically(
+      folder / "report.html",
+      diagnosis_page::page(
+          "Diagnosis of " + model_of(options).filename().string() + ", axis " + options.axis, d));
+  write_atomically(folder / "headline.txt", diagnose::headline(d));
+}
+
+}  // namespace towbench::harness

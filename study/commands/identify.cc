@@ -1,0 +1,322 @@
+// towbench identify: what a machine's parameters are, from experiments on it.
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "harness/checks/check.h"
+#include "harness/commands/stop_signal.h"
+#include "harness/fixtures/fixture_paths.h"
+#include "harness/record/line_writer.h"
+#include "study/commands/verbs.h"
+#include "study/procedures/chain.h"
+#include "study/procedures/data_study.h"
+#include "study/procedures/identified_plant.h"
+#include "study/procedures/study_page.h"
+#include "study/recovery/recovery.h"
+#include "study/results/identification_set.h"
+
+namespace towbench::harness {
+namespace {
+
+using procedures::ChainResult;
+using procedures::ProcedureOutcome;
+
+constexpr double kSpread = 0.4;  // of drawn machines, ID-0
+
+struct IdentifyOptions {
+  std::string rig;
+  std::string controller;
+  std::string settings;
+  std::string axis = "both";
+  std::vector<std::string> only;
+  std::string out = "identified";
+  std::uint64_t seed = 1;
+  bool resume = false;
+  bool quiet = false;
+  bool json = false;
+  bool blind = false;
+  std::string data;
+  std::string columns;
+  std::uint64_t drawn = 0;
+  std::uint64_t machine = 0;
+  std::uint64_t seeds = 1;
+  std::size_t workers = 1;
+};
+
+void show_progress(const std::string& what, double share, bool wanted) {
+  if (wanted && isatty(STDERR_FILENO) == 1) {
+    std::fprintf(stderr, "\r%s: %.0f %%\033[K", what.c_str(), 100 * share);
+    std::fflush(stderr);
+  }
+}
+
+void clear_progress(bool wanted) {
+  if (wanted && isatty(STDERR_FILENO) == 1) {
+    std::fputs("\r\033[K", stderr);
+  }
+}
+
+std::vector<core::Axis> axes_of(const std::string& axis) {
+  if (axis == "both") {
+    return {core::Axis::kY, core::Axis::kX};
+  }
+  return {axis == "y" ? core::Axis::kY : core::Axis::kX};
+}
+
+void refuse_unknown(const std::vector<std::string>& only,
+                    const std::vector<std::unique_ptr<procedures::Procedure>>& all) {
+  for (const auto& id : only) {
+    std::string ids;
+    bool known = false;
+    for (const auto& each : all) {
+      known = known || each->id() == id;
+      ids += (ids.empty() ? "" : " ") + std::string(each->id());
+    }
+    if (!known) {
+      throw FixtureError({.file = "--only"}, id, ids);
+    }
+  }
+}
+
+void tell_steps(const ChainResult& result) {
+  for (const auto& step : result.steps) {
+    const auto& outcome = step.outcome;
+    const char* word = outcome.status == ProcedureOutcome::Status::kDone      ? "done"
+                       : outcome.status == ProcedureOutcome::Status::kRefused ? "refused"
+                                                                              : "FAILED";
+    fmt::print("{:<9} {} {:<8} {:<34} {}{}\n", step.id, core::name_of(step.axis), word, step.title,
+               outcome.reason,
+               step.from_before ? " (from before)" : fmt::format("{:.1f} s", step.wall_s));
+  }
+}
+
+void tell_estimates(const identify::Estimates& estimates, const std::vector<Recovery>& against) {
+  fmt::print("\n{:<3}{:<31}{:>12}  {:>25}  {}\n", "", "quantity", "value", "95 %",
+             against.empty() ? "unit" : "truth, error");
+  std::size_t next = 0;
+  for (const auto& each : estimates) {
+    const bool judged = next < against.size() && against[next].estimate.quantity == each.quantity &&
+                        against[next].estimate.axis == each.axis &&
+                        against[next].estimate.at == each.at;
+    const auto place = each.at ? fmt::format(" @{:.3g}", *each.at) : "";
+    fmt::print("{:<3}{:<31}{:>12.5g}  {:>12.5g} {:>12.5g}  ", each.axis, each.quantity + place,
+               each.value, each.low, each.high);
+    if (judged) {
+      const auto& r = against[next++];
+      fmt::print("{:.5g}, {:+.2f} % (of {} %){}{}\n", r.truth, r.error_pct, r.tolerance_pct,
+                 r.agrees ? "" : " MISSED", r.covered ? "" : " not covered");
+    } else {
+      fmt::print("{}\n", each.unit);
+    }
+  }
+}
+
+// The emulator itself must take what was written.
+void write_plant(const std::filesystem::path& path, const std::string& text) {
+  (void)read_plant(FixtureFile::parse(text, path));
+  write_atomically(path, text);
+}
+
+int exit_code_of(const ChainResult& result, const std::vector<Recovery>& recoveries) {
+  int code = result.steps.empty() ? kExitInvalid : kExitPass;
+  for (const auto& each : recoveries) {
+    if (!each.agrees || !each.narrow) {
+      code = kExitFail;
+    }
+  }
+  for (const auto& step : result.steps) {
+    if (step.outcome.status == ProcedureOutcome::Status::kFailed) {
+      return kExitInvalid;
+    }
+    if (step.outcome.status == ProcedureOutcome::Status::kRefused) {
+      code = kExitInvalid;
+    }
+  }
+  return code;
+}
+
+// What the command line names, read.
+struct Bench {
+  RigFixture rig;
+  ControllerFixture controller;
+  std::filesystem::path settings;
+};
+
+Bench bench_of(const IdentifyOptions& options) {
+  const auto fixtures = fixtures_directory();
+  const auto named = [&](const std::string& given, const char* folder, const char* standard) {
+    return given.empty() ? fixtures / folder / standard : std::filesystem::path(given);
+  };
+  SourceFiles sources;
+  return {.rig = load_rig(named(options.rig, "rigs", "tow-dry.toml"), sources),
+          .controller =
+              load_controller(named(options.controller, "controllers", "bbmc-tuned.toml"), sources),
+          .settings = options.settings.empty() ? fixtures / "identification"
+                                               : std::filesystem::path(options.settings)};
+}
+
+int tell_everything(const IdentifyOptions& options, const std::string& title,
+                    const procedures::Machine& machine, const ChainResult& result,
+                    const std::vector<Recovery>& recoveries) {
+  const std::filesystem::path out = options.out;
+  identify::write_estimates(out / "estimates.json", result.estimates);
+  if (const auto plant = procedures::identified_plant(machine, result.estimates); !plant.empty()) {
+    write_plant(out / "identified_plant.toml", plant);
+  }
+  write_atomically(out / "report.html", procedures::study_page(title, result, recoveries));
+  if (options.json) {
+    fmt::print("{}\n", identify::to_json(result.estimates).dump(2));
+  } else {
+    if (!options.quiet) {
+      tell_steps(result);
+      tell_estimates(result.estimates, recoveries);
+    }
+    fmt::print("{}\n", (out / "report.html").string());
+  }
+  return exit_code_of(result, recoveries);
+}
+
+// Nothing is moved and no truth is near: the log is all there is.
+int execute_on_log(const IdentifyOptions& options, const Bench& bench) {
+  if (options.axis == "both") {
+    throw FixtureError({.file = "--axis"}, "nothing", "y or x: whose log it is");
+  }
+  const auto axis = axes_of(options.axis).front();
+  const procedures::Machine machine(bench.rig, bench.controller, options.seed);
+  const auto log =
+      procedures::read_brought_log(options.data, options.columns, axis, machine.nameplate(axis));
+  std::filesystem::create_directories(options.out);
+  show_progress("output error on " + log.source, 0, !options.quiet);
+  ChainResult result;
+  procedures::ChainStep step{.id = "log", .title = log.source};
+  step.axis = axis;
+  step.outcome = procedures::study_log({.machine = machine, .axis = axis}, log);
+  result.estimates = step.outcome.estimates;
+  result.steps.push_back(std::move(step));
+  clear_progress(!options.quiet);
+  return tell_everything(options, "Identification from " + options.data, machine, result, {});
+}
+
+int execute_set(const IdentifyOptions& options, const Bench& bench) {
+  IdentificationSet set{.rig = bench.rig,
+                        .controller = bench.controller,
+                        .settings = bench.settings,
+                        .out = options.out,
+                        .machines = options.drawn,
+                        .seeds = options.seeds,
+                        .spread = kSpread,
+                        .workers = options.workers,
+                        .axes = axes_of(options.axis),
+                        .stop = &stop_requested(),
+                        .progress = [&](std::size_t done, std::size_t all) {
+                          show_progress(fmt::format("{} of {} runs", done, all),
+                                        static_cast<double>(done) / static_cast<double>(all),
+                                        !options.quiet);
+                        }};
+  const auto runs = run_set(set);
+  clear_progress(!options.quiet);
+  const auto page = set_page(set, runs);
+  write_atomically(set.out / "set.md", page);
+  fmt::print("{}{}\n", options.quiet ? "" : page, (set.out / "set.md").string());
+  int code = kExitPass;
+  for (const auto& run : runs) {
+    if (!run.done || !run.not_done.empty()) {
+      return kExitInvalid;
+    }
+    for (const auto& each : run.recoveries) {
+      code = each.agrees && each.narrow ? code : kExitFail;
+    }
+  }
+  return code;
+}
+
+int execute_identify(const IdentifyOptions& options) {
+  auto bench = bench_of(options);
+  if (!options.data.empty()) {
+    return execute_on_log(options, bench);
+  }
+  if (options.drawn > 0) {
+    return execute_set(options, bench);
+  }
+  const auto all = procedures::identification_procedures();
+  refuse_unknown(options.only, all);
+  bench.rig = drawn_machine(std::move(bench.rig), options.machine, kSpread);
+  std::filesystem::create_directories(options.out);
+  const LoopWatchers watchers{.stop = &stop_requested(), .progress = {}};
+  const procedures::Machine machine(bench.rig, bench.controller, options.seed, watchers);
+  const procedures::ChainOptions chain{
+      .only = options.only,
+      .axes = axes_of(options.axis),
+      .settings = bench.settings,
+      .out = options.out,
+      .fingerprint = fmt::format("{:016x}-{:016x}-{}-{}", bench.rig.hash, bench.controller.hash,
+                                 options.machine, options.seed),
+      .resume = options.resume,
+      .progress = [&](const std::string& what,
+                      double share) { show_progress(what, share, !options.quiet); },
+      .stop = &stop_requested()};
+  const auto result = procedures::run_chain(machine, all, chain);
+  clear_progress(!options.quiet);
+  // Only now may anybody look at what the machine is.
+  const auto recoveries = options.blind ? std::vector<Recovery>{}
+                                        : judge_recovery(bench.rig.parameters, result.estimates);
+  return tell_everything(options, "Identification of " + bench.rig.name, machine, result,
+                         recoveries);
+}
+
+}  // namespace
+
+void add_identify(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<IdentifyOptions>();
+  auto* verb = app.add_subcommand("identify", "find a machine's parameters by experiments on it");
+  verb->add_option("rig", options->rig, "rig file; fixtures/rigs/tow-dry.toml if not given")
+      ->check(CLI::ExistingFile);
+  verb->add_option("--only", options->only, "this experiment only (EXP-P-3); may be repeated");
+  verb->add_option("--axis", options->axis, "y, x or both")
+      ->check(CLI::IsMember({"y", "x", "both"}));
+  verb->add_option("--controller", options->controller, "controller file")
+      ->check(CLI::ExistingFile);
+  verb->add_option("--settings", options->settings, "folder of the experiments' own files")
+      ->check(CLI::ExistingDirectory);
+  verb->add_option("--seed", options->seed, "of the sensors' noise and of where things stand");
+  verb->add_option("--out", options->out, "folder to write to");
+  verb->add_flag("--resume", options->resume, "continue what was interrupted in that folder");
+  verb->add_flag("--blind", options->blind, "do not set the rig's own parameters beside");
+  verb->add_flag("--quiet", options->quiet, "no progress, no tables");
+  verb->add_flag("--json", options->json, "print estimates.json");
+  verb->add_option("--data", options->data,
+                   "estimate from this log instead: a run folder, BBMC's data log, a CSV file");
+  verb->add_option("--columns", options->columns, "which column of that CSV is what, TOML")
+      ->check(CLI::ExistingFile)
+      ->needs("--data");
+  verb->add_option("--drawn", options->drawn,
+                   "so many machines, the first nominal, the rest drawn within 40 %")
+      ->check(CLI::Range(1, 1000));
+  verb->add_option("--machine", options->machine,
+                   "the machine of that number in such a set, 0: the rig itself")
+      ->check(CLI::Range(0, 999));
+  verb->add_option("--seeds", options->seeds, "with --drawn: seeds of each")
+      ->check(CLI::Range(1, 10000));
+  verb->add_option("--workers", options->workers, "with --drawn: processes at once")
+      ->check(CLI::Range(1, 256));
+  verb->footer(
+      "Example: towbench identify fixtures/rigs/tow-dry.toml --out identified\n"
+      "         towbench identify --data log.csv --axis y --columns map.toml\n"
+      "         towbench identify --machine 2 --axis x --only EXP-P-1 --only EXP-P-3\n"
+      "         towbench identify --drawn 10 --seeds 40 --workers 2 --out set   (hours; "
+      "continues)\n"
+      "Writes estimates.json, identified_plant.toml, report.html. Exit: 0 all experiments done,\n"
+      "1 an estimate misses the emulated machine's own value by more than its demand allows,\n"
+      "2 bad arguments, 4 an experiment was refused or its data are no good.");
+  verb->callback([options, &exit_code] { exit_code = execute_identify(*options); });
+}
+
+}  // namespace towbench::harness

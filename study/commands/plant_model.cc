@@ -1,0 +1,73 @@
+#include "study/commands/plant_model.h"
+
+#include "core/axis.h"
+#include "emulator/plant/derived_mechanics.h"
+#include "harness/fixtures/rig_fixture.h"
+
+namespace towbench::harness {
+namespace {
+
+constexpr double kDegrees = 57.29577951308232;  // of a radian
+
+void add_stated_terms(diagnose::NominalModel& m, const emulator::AxisParameters& p,
+                      const toml::table& stated) {
+  const double r = m.metres_per_motor_rad;
+  const auto friction = stated["friction"];
+  if (friction["breakaway_Nm"]) {
+    m.breakaway_excess_N = (p.friction.breakaway_Nm - p.coulomb_friction_Nm) / r;
+    m.stribeck_speed_m_per_s = p.friction.stribeck_speed_rad_per_s * r;
+    m.stribeck_is_lorentz = p.friction.stribeck_form == emulator::StribeckForm::kLorentz;
+  }
+  for (std::size_t i = 0; i < p.friction.position.position_m.size(); ++i) {
+    m.friction_at_m.push_back(p.friction.position.position_m[i]);
+    m.friction_N.push_back(p.friction.position.friction_Nm[i] / r);
+  }
+  if (stated["chain"] && !p.chain.rigid) {
+    const auto d = emulator::derive(p);
+    m.chain = {.motor_kg = p.rotor_inertia_kg_m2 / (r * r),
+               .stiffness_N_per_m = d.chain_stiffness_N_per_m,
+               .damping_N_s_per_m = d.chain_damping_N_s_per_m,
+               .load_share = p.friction.carriage_share,
+               .play_m = p.gear.backlash_deg / kDegrees * p.sprocket_radius_m + p.chain.slack_m};
+  }
+}
+
+}  // namespace
+
+PlantModel load_plant_model(const std::filesystem::path& path, const std::string& axis) {
+  SourceFiles sources;
+  const RigFixture rig = load_plant(path, sources);
+  PlantModel out{{}, FixtureFile::load(path).table()};
+  const auto* stated = out.plant["axis"][axis].as_table();
+  if (stated == nullptr) {
+    throw FixtureError({.file = path.string(), .key = "axis." + axis}, "nothing",
+                       "the axis that is to be diagnosed");
+  }
+  const auto& a = rig.parameters.axes[axis == "x" ? core::Axis::kX : core::Axis::kY];
+  const auto& p = a.plant;
+  const double r = p.sprocket_radius_m / p.gear_ratio;
+  diagnose::NominalModel& m = out.model;
+  m.axis = axis;
+  m.mass_kg = p.inertia_kg_m2 / (r * r);
+  m.viscous_N_s_per_m = p.viscous_friction_Nm_s_per_rad / (r * r);
+  m.coulomb_N = p.coulomb_friction_Nm / r;
+  const double newton_per_A = p.torque_constant_Nm_per_A / r;
+  m.newton_per_volt = newton_per_A * p.amplifier_gain_A_per_V;
+  m.newton_per_duty_pct = m.newton_per_volt * a.command.pwm_amplitude_V / 100;
+  m.force_limit_N = newton_per_A * p.current_limit_A;
+  m.metres_per_count = emulator::metres_per_count(a);
+  m.metres_per_motor_rad = r;
+  m.sprocket_radius_m = p.sprocket_radius_m;
+  const double volts = p.amplifier.output_limit_ratio * rig.parameters.supply.voltage_V;
+  m.no_load_speed_m_per_s = volts / p.torque_constant_Nm_per_A * r;
+  add_stated_terms(m, p, *stated);
+  if (stated->contains("mass_kg")) {
+    // A direct drive: gear, sprocket and turn of the motor come from no statement of the file.
+    m.metres_per_motor_rad = stated->contains("gear_ratio") ? r : 0;
+    m.sprocket_radius_m = 0;
+    m.no_load_speed_m_per_s = 0;
+  }
+  return out;
+}
+
+}  // namespace towbench::harness

@@ -1,0 +1,189 @@
+// towbench results: docs/measurements/results.md, from one run of everything that has a table in
+// the thesis.
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "harness/checks/check.h"
+#include "harness/commands/stop_signal.h"
+#include "harness/fixtures/fixture_paths.h"
+#include "harness/record/line_writer.h"
+#include "study/commands/study_progress.h"
+#include "study/commands/verbs.h"
+#include "study/procedures/chain.h"
+#include "study/procedures/kept_outcome.h"
+#include "study/procedures/procedures.h"
+#include "study/recovery/tow/tow_recovery.h"
+#include "study/results/kept_tow.h"
+#include "study/results/results_page.h"
+
+namespace towbench::harness {
+namespace {
+
+struct ResultsOptions {
+  std::string out = "results.md";
+  std::string work = "identified";
+  std::uint64_t seed = 1;
+};
+
+std::vector<TrackedSpeed> tracked(const RigFixture& rig, const ControllerFixture& controller,
+                                  std::initializer_list<double> speeds, TrapezoidRun run) {
+  std::vector<TrackedSpeed> all;
+  for (const double speed : speeds) {
+    run.speed_m_per_s = speed;
+    // Three seconds of steady motion, or what the track allows.
+    run.distance_m = std::min(2.2, speed * (run.acceleration_s + run.smooth_s + 3.0));
+    all.push_back({speed, track_trapezoid(rig, controller, run, 1)});
+  }
+  return all;
+}
+
+struct ResultsBench {
+  RigFixture dry;
+  RigFixture wet;
+  ControllerFixture controller;
+  LoopWatchers watchers;
+  std::string fingerprint;  // of what is run, apart from the program and the settings
+};
+
+void measure_tracking(const ResultsBench& bench, Results& results) {
+  results.slow = tracked(bench.dry, bench.controller,
+                         {0.005, 0.010, 0.020, 0.030, 0.040, 0.050, 0.060, 0.070, 0.080, 0.090,
+                          0.100, 0.200, 0.300, 0.400},
+                         {});
+  const TrapezoidRun fast{.smooth_s = 0.243, .settle_s = 0.3};
+  results.fast_air =
+      tracked(bench.dry, bench.controller, {0.05, 0.15, 0.25, 0.35, 0.45, 0.55}, fast);
+  results.fast_water =
+      tracked(bench.wet, bench.controller, {0.05, 0.15, 0.25, 0.35, 0.45, 0.55}, fast);
+}
+
+void identify_machine(const ResultsBench& bench, const ResultsOptions& options,
+                      StudyProgress& progress, Results& results) {
+  const procedures::Machine machine(bench.dry, bench.controller, options.seed, bench.watchers);
+  procedures::ChainOptions chain;
+  chain.settings = fixtures_directory() / "identification";
+  chain.out = options.work;
+  chain.fingerprint = bench.fingerprint;
+  chain.resume = true;
+  chain.stop = &stop_requested();
+  chain.progress = [&](const std::string& what, double share) { progress.show(what, share); };
+  results.identified =
+      procedures::run_chain(machine, procedures::identification_procedures(), chain);
+  for (const auto& step : results.identified.steps) {
+    results.partly_from_before = results.partly_from_before || step.from_before;
+  }
+}
+
+procedures::TowOutcome tow_once(const procedures::TowLoads& loads,
+                                const procedures::TowProcedure& procedure,
+                                const std::filesystem::path& file, const std::string& fingerprint,
+                                StudyProgress& progress, Results& results) {
+  if (const auto before = procedures::kept_outcome(file, fingerprint)) {
+    results.partly_from_before = true;
+    return tow_from_json(*before);
+  }
+  const std::string id(procedure.id());
+  auto settings = fixtures_directory() / "tow" / (id + ".toml");
+  if (!std::filesystem::exists(settings)) {
+    settings.clear();
+  }
+  auto outcome =
+      procedure.run({.loads = loads, .settings = settings, .progress = [&](double share) {
+                       progress.show(id + " " + std::string(procedure.title()), share);
+                     }});
+  if (outcome.status != procedures::ProcedureOutcome::Status::kFailed) {
+    procedures::keep_outcome(file, fingerprint, tow_to_json(outcome));
+  }
+  return outcome;
+}
+
+void tow_everything(const ResultsBench& bench, const ResultsOptions& options,
+                    StudyProgress& progress, Results& results) {
+  const auto rigs = fixtures_directory() / "rigs";
+  const procedures::TowLoads loads(bench.dry, bench.controller, options.seed, rigs, bench.watchers);
+  for (const auto& procedure : procedures::tow_procedures()) {
+    if (stop_requested()) {
+      return;
+    }
+    const std::string id(procedure->id());
+    const auto fingerprint =
+        fmt::format("{}-{}-{}-{}", procedures::program_fingerprint(), bench.fingerprint,
+                    procedures::file_fingerprint(fixtures_directory() / "tow" / (id + ".toml")),
+                    procedures::file_fingerprint(rigs / (procedure->load().rig + ".toml")));
+    auto outcome = tow_once(loads, *procedure,
+                            std::filesystem::path(options.work) / "done" / ("tow-" + id + ".json"),
+                            fingerprint, progress, results);
+    auto recoveries = judge_tow(loads.truth(procedure->load()), outcome);
+    results.tows.push_back(
+        {id, std::string(procedure->title()), std::move(outcome), std::move(recoveries)});
+  }
+}
+
+int code_of(const Results& results) {
+  const auto is_done = [](const procedures::ProcedureOutcome& outcome) {
+    return outcome.status == procedures::ProcedureOutcome::Status::kDone;
+  };
+  for (const auto& step : results.identified.steps) {
+    if (!is_done(step.outcome)) {
+      return kExitInvalid;
+    }
+  }
+  for (const auto& tow : results.tows) {
+    if (!is_done(tow.outcome)) {
+      return kExitInvalid;
+    }
+  }
+  return kExitPass;
+}
+
+int execute_results(const ResultsOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto fixtures = fixtures_directory();
+  SourceFiles sources;
+  ResultsBench bench{
+      .dry = load_rig(fixtures / "rigs" / "tow-dry.toml", sources),
+      .wet = load_rig(fixtures / "rigs" / "tow-cylinder.toml", sources),
+      .controller = load_controller(fixtures / "controllers" / "bbmc-tuned.toml", sources),
+      .watchers = {.stop = &stop_requested(), .progress = {}},
+      .fingerprint = {}};
+  bench.fingerprint =
+      fmt::format("{:016x}-{:016x}-{}", bench.dry.hash, bench.controller.hash, options.seed);
+  StudyProgress progress(true);
+  Results results;
+  results.rig = bench.dry.name;
+  results.truth = bench.dry.parameters;
+  progress.show("Tables 7.6 and 8.3", 0);
+  measure_tracking(bench, results);
+  identify_machine(bench, options, progress, results);
+  tow_everything(bench, options, progress, results);
+  progress.clear();
+  if (stop_requested()) {
+    fmt::print("interrupted; the same command continues\n");
+    return kExitInvalid;
+  }
+  results.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  write_atomically(options.out, results_page(results));
+  fmt::print("{}\n", options.out);
+  return code_of(results);
+}
+
+}  // namespace
+
+void add_results(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<ResultsOptions>();
+  auto* verb = app.add_subcommand("results", "the thesis's tables: thesis, bench, truth");
+  verb->add_option("--out", options->out, "file to write");
+  verb->add_option("--work", options->work, "folder of the identification; what is done stays");
+  verb->add_option("--seed", options->seed, "of the sensors' noise and of where things stand");
+  verb->footer(
+      "Example: towbench results --out docs/measurements/results.md\n"
+      "Exit: 0 written, 4 written, but an experiment was refused or its data are no good.");
+  verb->callback([options, &exit_code] { exit_code = execute_results(*options); });
+}
+
+}  // namespace towbench::harness

@@ -1,0 +1,115 @@
+#include "study/diagnose/column_map.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+namespace towbench::harness::diagnose {
+namespace {
+
+void fatal(Findings& findings, std::string sentence) {
+  findings.push_back({Finding::Kind::kFatal, "columns_unusable", std::move(sentence)});
+}
+
+bool assign(const toml::node& node, std::string& field) {
+  const auto text = node.value_exact<std::string>();
+  field = text.value_or("");
+  return text.has_value();
+}
+
+bool assign(const toml::node& node, double& field) {
+  const auto given = node.value<double>();
+  field = given.value_or(0.0);
+  return given.has_value() && std::isfinite(field) && field != 0.0;
+}
+
+bool assign(const toml::node& node, std::optional<bool>& field) {
+  field = node.value_exact<bool>();
+  return field.has_value();
+}
+
+bool assign(const toml::node& node, bool& field) {
+  const auto given = node.value_exact<bool>();
+  field = given.value_or(false);
+  return given.has_value();
+}
+
+// False when the key is unknown or its value is of the wrong kind.
+bool set(ColumnMap& map, std::string_view key, const toml::node& node) {
+  if (key == "time") return assign(node, map.time);
+  if (key == "position") return assign(node, map.position);
+  if (key == "input") return assign(node, map.input);
+  if (key == "reference") return assign(node, map.reference);
+  if (key == "other_position") return assign(node, map.other_position);
+  if (key == "time_scale_s") return assign(node, map.time_scale_s);
+  if (key == "position_scale_m") return assign(node, map.position_scale_m);
+  if (key == "input_scale_N") return assign(node, map.input_scale_N);
+  if (key == "other_position_scale_m") return assign(node, map.other_position_scale_m);
+  if (key == "position_is_count") return assign(node, map.position_is_count);
+  if (key == "input_hold") return assign(node, map.input_hold);
+  return false;
+}
+
+}  // namespace
+
+ColumnMap read_column_map(const std::filesystem::path& path, Findings& findings) {
+  ColumnMap map;
+  try {
+    const toml::table table = toml::parse_file(path.string());
+    for (const auto& [key, node] : table) {
+      if (!set(map, key.str(), node)) {
+        fatal(findings, fmt::format("{}:{}: '{}' is no key of a column map, or its value is of the "
+                                    "wrong kind; known: time position input reference "
+                                    "other_position, *_scale_*, position_is_count, input_hold",
+                                    path.string(), node.source().begin.line, key.str()));
+      }
+    }
+  } catch (const toml::parse_error& error) {
+    fatal(findings,
+          fmt::format("{}:{}: {}", path.string(), error.source().begin.line, error.description()));
+  }
+  if (map.position.empty() || map.input.empty()) {
+    fatal(findings,
+          fmt::format("{}: a column map names at least position and input", path.string()));
+  }
+  return map;
+}
+
+ColumnMap bench_columns(const Table& table, const NominalModel& model, const std::string& file,
+                        Findings& findings) {
+  ColumnMap map;
+  const std::string axis = model.axis + "_";
+  const std::string other = model.axis == "y" ? "x_" : "y_";
+  if (table.find(axis + "count") != nullptr && model.metres_per_count > 0) {
+    map.position = axis + "count";
+    map.position_scale_m = model.metres_per_count;
+    map.position_is_count = true;
+  } else {
+    map.position = axis + "position_m";
+  }
+  if (table.find(axis + "duty_pct") != nullptr && model.newton_per_duty_pct > 0) {
+    map.input = axis + "duty_pct";
+    map.input_scale_N = model.newton_per_duty_pct;
+  } else {
+    map.input = axis + "force_N";
+  }
+  if (table.find(axis + "reference_m") != nullptr) {
+    map.reference = axis + "reference_m";
+  }
+  if (table.find(other + "position_m") != nullptr) {
+    map.other_position = other + "position_m";
+  }
+  for (const auto* name : {&map.time, &map.position, &map.input}) {
+    if (table.find(*name) == nullptr) {
+      fatal(findings,
+            fmt::format("{}: no column '{}' as in a log of the bench, its header has: {}; "
+                        "name the columns with --columns MAP.toml",
+                        file, *name, fmt::join(table.names, " ")));
+      break;
+    }
+  }
+  return map;
+}
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,42 @@
+// Which column of a foreign log is what, and in which unit. The bench's own names need no map.
+//
+//   time = "t_s"          seconds, or time_scale_s per unit
+//   position = "qm_m"     metres, or position_scale_m per unit (a count, say)
+//   input = "vir_V"       force, or input_scale_N per unit
+//   reference = "qg_m"    optional, same scale as position
+//   other_position = ""   optional, metres, for cross-axis coupling
+//   input_hold = false    the input is not held for one sample in the baseline model
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "study/diagnose/finding.h"
+#include "study/diagnose/nominal_model.h"
+#include "study/diagnose/table.h"
+
+namespace towbench::harness::diagnose {
+
+struct ColumnMap {
+  std::string time = "time_s";
+  std::string position;
+  std::string input;
+  std::string reference;
+  std::string other_position;
+  double time_scale_s = 1;
+  double position_scale_m = 1;
+  double input_scale_N = 1;
+  double other_position_scale_m = 1;
+  bool position_is_count = false;  // then the middle of a count is half a count above its number
+  std::optional<bool> input_hold;
+};
+
+// Reads a map; unknown keys and wrong types are fatal findings.
+[[nodiscard]] ColumnMap read_column_map(const std::filesystem::path& path, Findings& findings);
+
+// The bench's own log, by the columns it has: count before position, duty before force.
+[[nodiscard]] ColumnMap bench_columns(const Table& table, const NominalModel& model,
+                                      const std::string& file, Findings& findings);
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,287 @@
+#include "study/diagnose/extended_plant.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "study/diagnose/known_terms.h"
+
+namespace towbench::harness::diagnose {
+namespace {
+
+constexpr int kKnots = 17;
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+// Load side to the side of the file: forces and coefficients times r or r^2.
+class Writer {
+ public:
+  Writer(toml::table& axis, const Diagnosis& d)
+      : axis_(axis),
+        d_(d),
+        motor_side_(axis.contains("inertia_kg_m2")),
+        r_(motor_side_ ? d.context.model.metres_per_motor_rad : 1.0),
+        excess_Nm_(d.context.model.breakaway_excess_N * r_) {}
+
+  void parameters() {
+    const Theta theta = d_.selection.after.theta();
+    const double mass = std::max(1e-12, theta[kMass]);
+    viscous_ = std::max(0.0, theta[kViscous]);
+    coulomb_ = std::max(0.0, theta[kCoulomb]) * r_;
+    axis_.insert_or_assign(motor_side_ ? "inertia_kg_m2" : "mass_kg", mass * r_ * r_);
+    axis_.insert_or_assign(
+        motor_side_ ? "viscous_friction_Nm_s_per_rad" : "viscous_friction_N_s_per_m",
+        viscous_ * r_ * r_);
+    set_coulomb(coulomb_);
+    keep_stiffness(mass);
+  }
+
+  // False when the emulator has no word for the effect.
+  bool express(const Cause& cause) {
+    const std::string& name = cause.term.effect->name;
+    if (!motor_side_) {
+      return false;
+    }
+    if (name == "position_friction") return position_friction(cause);
+    if (name == "position_force") return position_force(cause);
+    if (name == "chain_elasticity") return chain(cause);
+    return friction(name, cause) || disturbance(name, cause);
+  }
+
+  // A constant force is a tilt of the rails, which the carriage climbs: b = M g sin(tilt).
+  bool tilt(double bias_N) {
+    constexpr double kGravity_m_per_s2 = 9.80665;
+    const double carriage_kg = d_.selection.after.theta()[kMass] - d_.context.model.chain.motor_kg;
+    const double sine = bias_N / (std::max(1e-9, carriage_kg) * kGravity_m_per_s2);
+    if (!motor_side_ || std::abs(sine) > 0.17) {
+      return false;
+    }
+    table("disturbances").insert_or_assign("tilt_deg", std::asin(sine) * kDegrees);
+    return true;
+  }
+
+  // Break-away keeps its distance to Coulomb friction, and must not lie below it.
+  void keep_consistent() {
+    auto* friction = axis_["friction"].as_table();
+    if (friction == nullptr || !friction->contains("breakaway_Nm")) {
+      return;
+    }
+    friction->insert_or_assign("breakaway_Nm", coulomb_ + excess_Nm_);
+  }
+
+ private:
+  void set_coulomb(double value) {
+    axis_.insert_or_assign(motor_side_ ? "coulomb_friction_Nm" : "coulomb_friction_N", value);
+  }
+  toml::table& table(const char* key) {
+    if (axis_[key].as_table() == nullptr) {
+      axis_.insert_or_assign(key, toml::table{});
+    }
+    return *axis_[key].as_table();
+  }
+
+  // What adds to friction. The excess over Coulomb friction of a file that states one stays.
+  bool friction(const std::string& name, const Cause& cause) {
+    const double beta = cause.beta[0];
+    if (name == "stribeck") {
+      if (d_.context.model.breakaway_excess_N > 0) {
+        return false;  // two of them: the file has one place
+      }
+      excess_Nm_ = std::max(0.0, beta) * r_;
+      table("friction").insert_or_assign("breakaway_Nm", coulomb_ + excess_Nm_);
+      table("friction").insert_or_assign("stribeck_speed_rad_per_s", cause.term.scales[0] / r_);
+      table("friction").insert_or_assign("stribeck_form", "gaussian");
+      return true;
+    }
+    if (name == "coulomb_asymmetry" && coulomb_ > 0) {
+      return share("coulomb", beta * r_ / coulomb_);
+    }
+    if (name == "viscous_asymmetry" && viscous_ > 0) {
+      return share("viscous", beta / viscous_);
+    }
+    if (name == "load_dependent_friction" && beta <= 0.9) {
+      table("friction").insert_or_assign("load_ratio", std::max(0.0, beta));
+      return true;
+    }
+    return false;
+  }
+  bool share(const char* key, double value) {
+    if (std::abs(value) > 0.9) {
+      return false;
+    }
+    auto& friction = table("friction");
+    if (friction["asymmetry"].as_table() == nullptr) {
+      friction.insert_or_assign("asymmetry", toml::table{});
+    }
+    friction["asymmetry"].as_table()->insert_or_assign(key, value);
+    return true;
+  }
+
+  // What pushes or plays. A ripple's force that the command must make is less of what it adds.
+  bool disturbance(const std::string& name, const Cause& cause) {
+    const Context& c = d_.context;
+    if (name == "cable_spring" && cause.beta[0] >= 0) {
+      table("disturbances")
+          .insert_or_assign("cable",
+                            toml::table{{"stiffness_N_per_m", cause.beta[0]},
+                                        {"reference_m", 0.5 * (c.stroke_min_m + c.stroke_max_m)}});
+      return true;
+    }
+    if (name == "torque_ripple" && r_ > 0) {
+      // -(a cos + b sin) = A sin(k theta + phi)
+      const double phase = std::atan2(-cause.beta[0], -cause.beta[1]);
+      table("disturbances")
+          .insert_or_assign(
+              "torque_ripple",
+              toml::table{{"amplitude_Nm", std::hypot(cause.beta[0], cause.beta[1]) * r_},
+                          {"periods_per_turn", cause.term.scales[0] * 2 * std::numbers::pi * r_},
+                          {"phase_deg", phase * kDegrees}});
+      return true;
+    }
+    if (name == "backlash" && c.model.sprocket_radius_m > 0) {
+      table("gear").insert_or_assign("backlash_deg",
+                                     cause.term.scales[0] / c.model.sprocket_radius_m * kDegrees);
+      return true;
+    }
+    return false;
+  }
+
+  // The file has the chain by its free mode and its damping ratio.
+  bool chain(const Cause& cause) {
+    if (!d_.context.model.elastic() || cause.beta.size() != 2 || cause.beta[0] <= -0.9) {
+      return false;
+    }
+    scale_chain(std::sqrt(1 + cause.beta[0]),
+                std::max(0.0, 1 + cause.beta[1]) / std::sqrt(1 + cause.beta[0]));
+    return true;
+  }
+  // Another carriage on the same spring swings otherwise.
+  void keep_stiffness(double mass_kg) {
+    const auto& m = d_.context.model;
+    if (!m.elastic() || !motor_side_) {
+      return;
+    }
+    const auto mobility = [&](double mass) {
+      return 1 / m.chain.motor_kg + 1 / std::max(1e-3, mass - m.chain.motor_kg);
+    };
+    const double ratio = std::sqrt(mobility(mass_kg) / mobility(m.mass_kg));
+    scale_chain(ratio, ratio);
+  }
+  void scale_chain(double frequency, double damping) {
+    const auto scale = [&](const char* key, double by) {
+      const auto& node = table("chain")[key];
+      const double given = node.is_table() ? node["value"].value_or(0.0) : node.value_or(0.0);
+      table("chain").insert_or_assign(key, given * by);
+    };
+    scale("resonance_Hz", frequency);
+    scale("damping_ratio", damping);
+  }
+
+  // The force that pushes, as a torque at the motor; its mean is the bias.
+  bool position_force(const Cause& cause) {
+    toml::array at;
+    toml::array torque;
+    for (const auto& [x_m, force_N] : shape_of(cause)) {
+      at.push_back(x_m);
+      torque.push_back(-force_N * r_);
+    }
+    table("disturbances")
+        .insert_or_assign("position_force", toml::table{{"position_m", at}, {"torque_Nm", torque}});
+    return true;
+  }
+  // Knots of sum_k beta_k cos(k pi x), force that the command must make in addition.
+  [[nodiscard]] std::vector<std::pair<double, double>> shape_of(const Cause& cause) const {
+    const Context& c = d_.context;
+    std::vector<std::pair<double, double>> knots;
+    for (int knot = 0; knot < kKnots; ++knot) {
+      const double x = static_cast<double>(knot) / (kKnots - 1);
+      double sum = 0;
+      for (Eigen::Index k = 0; k < cause.beta.size(); ++k) {
+        sum += cause.beta[k] * std::cos(static_cast<double>(k + 1) * std::numbers::pi * x);
+      }
+      knots.emplace_back(c.stroke_min_m + x * (c.stroke_max_m - c.stroke_min_m), sum);
+    }
+    return knots;
+  }
+
+  // The table holds added friction, never negative: the shape's least value goes to Coulomb's
+  // level.
+  bool position_friction(const Cause& cause) {
+    const auto& m = d_.context.model;
+    const auto stated_Nm = [&](double x_m) {
+      return m.friction_at_m.empty() ? 0.0 : interpolated(m.friction_at_m, m.friction_N, x_m) * r_;
+    };
+    std::vector<std::pair<double, double>> shape = shape_of(cause);
+    double least = 0;
+    for (auto& [x_m, friction] : shape) {
+      friction = friction * r_ + stated_Nm(x_m);
+      least = std::min(least, friction);
+    }
+    toml::array at;
+    toml::array friction;
+    for (const auto& [x_m, value] : shape) {
+      at.push_back(x_m);
+      friction.push_back(value - least);
+    }
+    coulomb_ = std::max(0.0, coulomb_ + least);
+    set_coulomb(coulomb_);
+    table("friction")
+        .insert_or_assign("position", toml::table{{"position_m", at}, {"friction_Nm", friction}});
+    return true;
+  }
+
+  toml::table& axis_;
+  const Diagnosis& d_;
+  bool motor_side_;
+  double r_;
+  double excess_Nm_;
+  double coulomb_ = 0;  // of the file's side
+  double viscous_ = 0;  // load side
+};
+
+bool something_found(const Diagnosis& d) {
+  return !d.selection.causes.empty() ||
+         std::any_of(d.parameters.begin(), d.parameters.end(),
+                     [](const ParameterShift& shift) { return shift.moved; });
+}
+
+}  // namespace
+
+ExtendedPlant extend_plant(const toml::table& plant, const Diagnosis& d) {
+  ExtendedPlant out;
+  toml::table extended = plant;
+  auto* axis = extended["axis"][d.context.model.axis].as_table();
+  std::string head = "# Written by towbench diagnose: the plant file with what was found.\n";
+  if (axis != nullptr) {
+    Writer writer(*axis, d);
+    if (something_found(d)) {
+      writer.parameters();
+    }
+    for (const ParameterShift& shift : d.parameters) {
+      if (shift.name == "bias" && shift.moved && !writer.tilt(shift.fitted.value)) {
+        out.left_out.push_back("constant_bias");
+        head += "# found, but no key of the plant says it: constant_bias\n";
+      }
+    }
+    for (const Cause& cause : d.selection.causes) {
+      if (!writer.express(cause)) {
+        out.left_out.push_back(cause.term.effect->name);
+        head += fmt::format("# found, but no key of the plant says it: {} ({})\n",
+                            cause.term.effect->name, cause.term.effect->cause);
+      }
+    }
+    if (something_found(d)) {
+      writer.keep_consistent();
+    }
+  }
+  std::ostringstream text;
+  text << toml::toml_formatter{
+      extended, toml::toml_formatter::default_flags & ~toml::format_flags::allow_literal_strings};
+  out.text = head + text.str() + "\n";
+  return out;
+}
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,12 @@
+// What a person reads: the first five lines say what is wrong, how sure, what it gains, what next.
+#pragma once
+
+#include <string>
+
+#include "study/diagnose/diagnosis.h"
+
+namespace towbench::harness::diagnose {
+
+[[nodiscard]] std::string headline(const Diagnosis& diagnosis);
+
+}  // namespace towbench::harness::diagnose

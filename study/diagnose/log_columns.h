@@ -1,0 +1,28 @@
+// The columns of a table that a run is made of, and the rows of it that can be used.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "study/diagnose/column_map.h"
+#include "study/diagnose/finding.h"
+#include "study/diagnose/table.h"
+
+namespace towbench::harness::diagnose {
+
+struct LogColumns {
+  const std::vector<double>* time = nullptr;
+  const std::vector<double>* position = nullptr;
+  const std::vector<double>* input = nullptr;
+  const std::vector<double>* reference = nullptr;       // null: none
+  const std::vector<double>* other_position = nullptr;  // null: none
+  std::vector<std::size_t> rows;  // with sane numbers in time, position and input
+};
+
+// Named findings: column_missing, column_twice, bad_rows, not_a_number, absurd_values, too_short,
+// constant_position, constant_input. After a fatal one there is nothing to go on with.
+[[nodiscard]] LogColumns find_columns(const Table& table, const ColumnMap& map,
+                                      const std::string& file, Findings& findings);
+
+}  // namespace towbench::harness::diagnose

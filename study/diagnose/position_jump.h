@@ -1,0 +1,14 @@
+// A position that jumps: the counter was preset, or lost its place. No body moves like that, and
+// one such sample would be the fastest motion of the log and hide all the rest.
+#pragma once
+
+#include "study/diagnose/finding.h"
+#include "study/diagnose/run.h"
+
+namespace towbench::harness::diagnose {
+
+// Joins the pieces: what lies before a jump is moved into the frame of what follows. The sample at
+// the jump counts as missing. Tells where.
+void join_position_jumps(Run& run, Findings& findings);
+
+}  // namespace towbench::harness::diagnose

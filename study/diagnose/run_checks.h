@@ -1,0 +1,15 @@
+// What a run must not do if its columns are what the map and the model take them for.
+#pragma once
+
+#include "study/diagnose/finding.h"
+#include "study/diagnose/nominal_model.h"
+#include "study/diagnose/run.h"
+
+namespace towbench::harness::diagnose {
+
+// Named findings: position_unit_off (faster than the machine can be), input_unit_off (more than its
+// whole command), position_sign_reversed (against its reference); reference_unit_off and
+// reference_not_followed (then the run goes on without its reference).
+void check_run(Run& run, const NominalModel& model, Findings& findings);
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,16 @@
+// From a table to a run: units, uniform time, gaps, steps, with what is odd told by name.
+#pragma once
+
+#include <string>
+
+#include "study/diagnose/column_map.h"
+#include "study/diagnose/run.h"
+
+namespace towbench::harness::diagnose {
+
+// Named findings: those of log_columns.h, time_grid.h and position_jump.h. After a fatal one the
+// run is unusable.
+[[nodiscard]] Run make_run(const Table& table, const ColumnMap& map, std::string name,
+                           Findings& findings);
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,194 @@
+#include "study/diagnose/table.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "study/diagnose/bounded_lines.h"
+
+namespace towbench::harness::diagnose {
+namespace {
+
+constexpr std::size_t kMostColumns = 512;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r\"");
+  if (first == std::string_view::npos) {
+    return {};
+  }
+  return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
+}
+
+char separator_of(std::string_view header) {
+  const auto count = [&](char sign) { return std::count(header.begin(), header.end(), sign); };
+  char most = ',';
+  for (const char sign : {';', '\t'}) {
+    most = count(sign) > count(most) ? sign : most;
+  }
+  return most;
+}
+
+double number(std::string_view text) {
+  double value = 0;
+  const auto* end = text.data() + text.size();
+  const auto* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  const auto result = std::from_chars(begin, end, value);
+  const bool whole = result.ec == std::errc{} && result.ptr == end;
+  return whole ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+class Reader {
+ public:
+  Reader(const std::filesystem::path& path, Findings& findings)
+      : file_(path.string()), lines_(path), findings_(findings) {}
+
+  Table read() {
+    if (read_header()) {
+      read_rows();
+    }
+    return std::move(table_);
+  }
+
+ private:
+  void refuse(std::string name, const std::string& sentence) {
+    findings_.push_back({Finding::Kind::kFatal, std::move(name), sentence});
+  }
+
+  bool read_header() {
+    std::string_view line;
+    bool found = false;
+    while (!found && lines_.next(line)) {
+      line.remove_prefix(line.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
+      found = !line.empty() && line.front() != '#';
+    }
+    if (!found && !lines_.line_too_long()) {
+      refuse("file_unreadable", file_ + ": cannot be opened, or is empty");
+      return false;
+    }
+    if (lines_.line_too_long() || line.find('\0') != std::string_view::npos ||
+        line.find('\r') != std::string_view::npos) {
+      refuse("header_unusable",
+             fmt::format("{}:{}: no text in lines that end in a line feed; a log is CSV, UTF-8",
+                         file_, lines_.number()));
+      return false;
+    }
+    separator_ = separator_of(line);
+    split(line);
+    for (const auto cell : cells_) {
+      table_.names.emplace_back(cell);
+    }
+    return header_is_usable();
+  }
+
+  bool header_is_usable() {
+    const std::size_t count = table_.names.size();
+    const std::string where = fmt::format("{}:{}", file_, lines_.number());
+    if (count < 3 || count > kMostColumns) {
+      refuse("header_unusable",
+             fmt::format("{}: the header has {} column{}; a log names time, position and input, "
+                         "{} at most, parted by commas, semicolons or tabs",
+                         where, count, count == 1 ? "" : "s", kMostColumns));
+      return false;
+    }
+    if (std::all_of(cells_.begin(), cells_.end(),
+                    [](std::string_view cell) { return !std::isnan(number(cell)); })) {
+      refuse("header_unusable", where + ": numbers where the columns should be named");
+      return false;
+    }
+    table_.columns.resize(count);
+    return true;
+  }
+
+  void read_rows() {
+    std::string_view line;
+    while (lines_.next(line)) {
+      if (!line.empty() && line.front() != '#') {
+        add_row(line);
+      }
+      if (table_.rows() > kMostRows) {
+        refuse("too_long", fmt::format("{}: more than {} rows; cut it into runs of some minutes",
+                                       file_, kMostRows));
+        return;
+      }
+    }
+    if (lines_.line_too_long()) {
+      refuse("rows_unlike_header", fmt::format("{}:{}: a line of more than {} bytes", file_,
+                                               lines_.number(), kLongestLine));
+    } else if (table_.bad_rows > table_.rows()) {
+      refuse("rows_unlike_header",
+             fmt::format("{}:{}: {} cells, and the header names {} columns; so in {} more rows{}",
+                         file_, first_bad_line_, first_bad_cells_, table_.names.size(),
+                         table_.bad_rows - 1,
+                         separator_ == ',' && first_bad_cells_ > table_.names.size()
+                             ? "; decimal commas between commas?"
+                             : ""));
+    } else if (table_.rows() == 0) {
+      refuse("no_rows", file_ + ": a header, and nothing below it");
+    }
+  }
+
+  void split(std::string_view line) {
+    cells_.clear();
+    while (true) {
+      const auto end = line.find(separator_);
+      cells_.push_back(trimmed(line.substr(0, end)));
+      if (end == std::string_view::npos) {
+        return;
+      }
+      line.remove_prefix(end + 1);
+    }
+  }
+
+  void add_row(std::string_view line) {
+    if (separator_ != ',' && line.find(',') != std::string_view::npos) {
+      pointed_.assign(line);
+      std::replace(pointed_.begin(), pointed_.end(), ',', '.');
+      line = pointed_;
+    }
+    split(line);
+    if (cells_.size() == table_.names.size() + 1 && cells_.back().empty()) {
+      cells_.pop_back();
+    }
+    if (cells_.size() != table_.names.size()) {
+      first_bad_line_ = table_.bad_rows == 0 ? lines_.number() : first_bad_line_;
+      first_bad_cells_ = table_.bad_rows == 0 ? cells_.size() : first_bad_cells_;
+      ++table_.bad_rows;
+      return;
+    }
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      table_.columns[i].push_back(number(cells_[i]));
+    }
+    table_.line.push_back(static_cast<std::uint32_t>(lines_.number()));
+  }
+
+  std::string file_;
+  BoundedLines lines_;
+  Findings& findings_;
+  Table table_;
+  char separator_ = ',';
+  std::vector<std::string_view> cells_;
+  std::string pointed_;
+  std::size_t first_bad_line_ = 0;
+  std::size_t first_bad_cells_ = 0;
+};
+
+}  // namespace
+
+const std::vector<double>* Table::find(std::string_view name) const noexcept {
+  const auto at = std::find(names.begin(), names.end(), name);
+  return at == names.end() ? nullptr : &columns[static_cast<std::size_t>(at - names.begin())];
+}
+
+std::size_t Table::count(std::string_view name) const noexcept {
+  return static_cast<std::size_t>(std::count(names.begin(), names.end(), name));
+}
+
+Table read_table(const std::filesystem::path& path, Findings& findings) {
+  return Reader(path, findings).read();
+}
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,155 @@
+#include "study/diagnosis_page/page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "harness/report/html.h"
+#include "study/diagnose/headline.h"
+#include "study/diagnosis_page/pictures.h"
+#include "study/procedures/svg_plot.h"
+
+namespace towbench::harness::diagnosis_page {
+namespace {
+
+using diagnose::Cause;
+using diagnose::Diagnosis;
+using report::escaped;
+using report::heading;
+
+constexpr const char* kStyle =
+    "body{font-family:sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}"
+    "table{border-collapse:collapse;margin:1rem 0}td,th{padding:.2rem .7rem;text-align:left;"
+    "border-bottom:1px solid #ddd;vertical-align:top}pre{background:#f4f4f4;padding:.8rem;"
+    "white-space:pre-wrap}figure{margin:1.5rem 0}figcaption{color:#555}svg{width:100%;height:auto}";
+
+using Row = std::vector<std::string>;
+
+std::string table(const Row& head, const std::vector<Row>& rows) {
+  const auto line = [](const Row& cells, const char* tag) {
+    std::string out = "<tr>";
+    for (const auto& cell : cells) {
+      out += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
+    }
+    return out + "</tr>\n";
+  };
+  std::string out = "<table>\n" + line(head, "th");
+  for (const Row& row : rows) {
+    out += line(row, "td");
+  }
+  return out + "</table>\n";
+}
+
+std::string sizes_of(const Cause& cause) {
+  std::string out;
+  for (std::size_t j = 0; j < cause.term.effect->coefficients.size(); ++j) {
+    const auto i = static_cast<Eigen::Index>(j);
+    const double half = 1.96 * std::sqrt(std::max(0.0, cause.covariance(i, i)));
+    out += fmt::format("{}{} {:.4g} ± {:.2g}", j == 0 ? "" : ", ",
+                       cause.term.effect->coefficients[j], cause.beta[i], half);
+  }
+  for (std::size_t j = 0; j < cause.term.scales.size(); ++j) {
+    out += fmt::format(", {} {:.4g}", cause.term.effect->scales[j], cause.term.scales[j]);
+  }
+  return out;
+}
+
+std::string causes(const Diagnosis& d) {
+  std::vector<Row> rows;
+  for (const Cause& cause : d.selection.causes) {
+    std::string rivals;
+    for (const auto& rival : cause.rivals) {
+      rivals += (rivals.empty() ? "" : ", ") + rival.term.effect->name;
+    }
+    rows.push_back({cause.term.effect->name, cause.term.effect->cause, sizes_of(cause),
+                    cause.p_value < 1e-300 ? "< 1e-300" : fmt::format("{:.1e}", cause.p_value),
+                    fmt::format("{:.1f} % [{:.1f}, {:.1f}]", 100 * cause.gain.ci99.value,
+                                100 * cause.gain.ci99.low, 100 * cause.gain.ci99.high),
+                    rivals.empty() ? "none" : rivals});
+  }
+  return rows.empty() ? "<p>None.</p>\n"
+                      : table({"effect", "the model lacks", "size (95 %)", "p, corrected",
+                               "own gain on held-out data (99 %)", "cannot be told from"},
+                              rows);
+}
+
+std::string parameters(const Diagnosis& d) {
+  std::vector<Row> rows;
+  for (const auto& shift : d.parameters) {
+    std::string others;
+    for (const auto& name : shift.indistinguishable_from) {
+      others += (others.empty() ? "" : ", ") + name;
+    }
+    rows.push_back({shift.name, fmt::format("{:.5g}", shift.supplied),
+                    fmt::format("{:.5g} [{:.5g}, {:.5g}]", shift.fitted.value, shift.fitted.low,
+                                shift.fitted.high),
+                    shift.unit, shift.moved ? "moved" : "as stated", others});
+  }
+  return table({"parameter", "stated", "fitted (95 %)", "unit, load side", "is", "or else"}, rows);
+}
+
+// A model that stays has nothing to confirm: its refit moved nothing that matters, and what that
+// moved in simulation is chance.
+bool stays(const Diagnosis& d) {
+  return std::find(d.verdicts.begin(), d.verdicts.end(), "model_adequate") != d.verdicts.end();
+}
+
+std::string confirmed(const Diagnosis& d) {
+  if (stays(d)) {
+    return "<p>Nothing was found that could be.</p>\n";
+  }
+  const diagnose::Confirmation& c = d.confirmed;
+  std::vector<Row> rows;
+  const auto add = [&](const std::string& what, const diagnose::Improvement& i, double scale,
+                       const char* unit) {
+    if (i.before_rms > 0) {
+      rows.push_back({what, fmt::format("{:.3g} {}", scale * i.before_rms, unit),
+                      fmt::format("{:.3g} {}", scale * i.after_rms, unit),
+                      fmt::format("{:.1f} % [{:.1f}, {:.1f}]", 100 * i.gain.value, 100 * i.gain.low,
+                                  100 * i.gain.high)});
+    }
+  };
+  add(fmt::format("place after {:g} s under the measured input, {} windows", diagnose::kWindow_s,
+                  c.windows),
+      c.position_m, 1e3, "mm");
+  add("force that the controller commands in closed loop", c.force_N, 1, "N");
+  return rows.empty() ? "<p>No held-out stretch was long enough.</p>\n"
+                      : table({"error on held-out data, rms", "model as supplied", "as extended",
+                               "gain (95 %)"},
+                              rows);
+}
+
+std::string not_testable(const Diagnosis& d) {
+  std::vector<Row> rows;
+  for (const auto& entry : d.not_testable) {
+    rows.push_back({entry.effect, entry.why, entry.needs});
+  }
+  return rows.empty() ? "<p>Nothing.</p>\n" : table({"effect", "why", "needs"}, rows);
+}
+
+}  // namespace
+
+std::string page(const std::string& title, const Diagnosis& d) {
+  std::string out =
+      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+      "<meta name=\"viewport\" content=\"width=device-width\">" +
+      fmt::format("<title>{}</title><style>{}</style></head><body>\n", escaped(title), kStyle) +
+      heading(1, title) + "<pre>" + escaped(diagnose::headline(d)) + "</pre>\n";
+  if (!diagnose::is_fatal(d.findings)) {
+    out += heading(2, "Causes") + causes(d);
+    out += heading(2, "Parameters") + parameters(d);
+    out += heading(2, "Confirmed by simulation") + confirmed(d);
+    out += heading(2, "Pictures");
+    for (const auto& figure : pictures(d)) {
+      out +=
+          fmt::format("<figure>{}<figcaption>{}. {}</figcaption></figure>\n",
+                      procedures::svg_plot(figure), escaped(figure.title), escaped(figure.caption));
+    }
+    out += heading(2, "What this data cannot show") + not_testable(d);
+  }
+  return out + "</body></html>\n";
+}
+
+}  // namespace towbench::harness::diagnosis_page

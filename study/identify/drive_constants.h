@@ -1,0 +1,43 @@
+// K_T and K_amp from runs at one steady speed under different pushes on the load.
+//
+//   K_T i = tau_friction(direction) - r F      r = R/n, F: force sensor, on the load
+//   i = K_amp v_c                              v_c = duty x PWM amplitude
+//
+// Friction is the same in runs of one direction at one speed over one stretch, and so are the
+// biases of both sensors within one session: only differences count. A push also moves the carriage
+// on its chain to where friction is a little more or less. That adds to the slope of one direction
+// what it takes from the other's, so each has a slope of its own and their mean counts, over the
+// same way in both.
+//
+// How far the stretches of one direction lie apart tells how sure a slope is; with one alone, the
+// deviations given. Torque over command is a slope of its own: of K_T and K_amp the current
+// monitor's errors fall out.
+#pragma once
+
+#include <vector>
+
+#include "study/identify/window_means.h"
+
+namespace towbench::harness::identify {
+
+struct PushedRun {
+  bool towards_max = true;
+  int stretch = 0;  // of the way: friction may differ from one to the next
+  Mean current_A;
+  Mean force_N;
+  Mean command_V;
+};
+
+struct DriveConstants {
+  double torque_constant_Nm_per_A = 0;
+  double torque_constant_deviation = 0;
+  double amplifier_gain_A_per_V = 0;
+  double amplifier_gain_deviation = 0;
+  double torque_per_volt_deviation = 0;  // of K_T K_amp, relative
+  bool found = false;                    // false: pushes or currents do not differ
+};
+
+[[nodiscard]] DriveConstants find_drive_constants(const std::vector<PushedRun>& runs,
+                                                  double metres_per_rad);
+
+}  // namespace towbench::harness::identify

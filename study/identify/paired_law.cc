@@ -1,0 +1,104 @@
+#include "study/identify/paired_law.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include <boost/math/distributions/students_t.hpp>
+
+namespace towbench::harness::identify {
+namespace {
+
+constexpr Eigen::Index kUnknown = 3;  // dC, dB, dv
+constexpr double kSame = 1e-6;        // a twin's gear is written to so many digits
+
+struct Pairs {
+  Eigen::MatrixXd slopes;  // of the law, weighted
+  Eigen::VectorXd differences;
+  Eigen::VectorXd by_excess;  // slope by S - C
+};
+
+// Of one speed, both directions.
+struct SpeedPairs {
+  double speed = 0;
+  double weight = 0;
+  double sum = 0;  // of weighted differences
+};
+
+std::vector<SpeedPairs> by_speed(const std::vector<SteadyRun>& machine,
+                                 const std::vector<SteadyRun>& twin) {
+  std::vector<SpeedPairs> speeds;
+  for (const auto& one : machine) {
+    const double w = std::fabs(one.speed_rad_per_s);
+    const auto other = std::find_if(twin.begin(), twin.end(), [&](const SteadyRun& each) {
+      return std::fabs(one.speed_rad_per_s - each.speed_rad_per_s) < kSame * w;
+    });
+    if (other == twin.end()) {
+      continue;
+    }
+    if (speeds.empty() || std::fabs(speeds.back().speed - w) > kSame * w) {
+      speeds.push_back({.speed = w});
+    }
+    const double deviation = std::hypot(one.deviation_Nm, other->deviation_Nm);
+    const double weight = 1 / (deviation * deviation);
+    speeds.back().weight += weight;
+    speeds.back().sum += weight * (std::fabs(one.torque_Nm) - std::fabs(other->torque_Nm));
+  }
+  return speeds;
+}
+
+Pairs paired(const FrictionLaw& law, const std::vector<SpeedPairs>& speeds) {
+  const auto n = static_cast<Eigen::Index>(speeds.size());
+  Pairs pairs{Eigen::MatrixXd(n, kUnknown), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& [w, weight, sum] = speeds[static_cast<std::size_t>(i)];
+    const double ratio = w / law.stribeck_rad_per_s;
+    const double fall = std::exp(-ratio * ratio);
+    const double root = std::sqrt(weight);
+    pairs.slopes.row(i) << root, root * w,
+        root * law.excess_Nm * fall * 2 * ratio * ratio / law.stribeck_rad_per_s;
+    pairs.by_excess[i] = root * fall;
+    pairs.differences[i] = sum / root;
+  }
+  return pairs;
+}
+
+}  // namespace
+
+LawShift find_law_shift(const FrictionLaw& of_twin, double excess_deviation_Nm,
+                        const std::vector<SteadyRun>& machine, const std::vector<SteadyRun>& twin) {
+  constexpr Eigen::Index kFewest = 6;
+  constexpr double kNormal95 = 1.959964;
+  constexpr double kAnswer = 0.58;  // 1/sqrt(3)
+  LawShift shift;
+  const auto pairs = paired(of_twin, by_speed(machine, twin));
+  const Eigen::Index n = pairs.differences.size();
+  if (n < kFewest) {
+    return shift;
+  }
+  const auto solver = pairs.slopes.colPivHouseholderQr();
+  if (solver.rank() < kUnknown) {
+    return shift;
+  }
+  const Eigen::Vector3d found = solver.solve(pairs.differences);
+  const Eigen::Vector3d by_excess = excess_deviation_Nm * solver.solve(pairs.by_excess);
+  const auto freedom = static_cast<double>(n - kUnknown);
+  const double wider = boost::math::quantile(boost::math::students_t(freedom), 0.975) / kNormal95;
+  const double noise =
+      wider * wider * (pairs.differences - pairs.slopes * found).squaredNorm() / freedom;
+  const Eigen::Matrix3d covariance =
+      noise * Eigen::Matrix3d(pairs.slopes.transpose() * pairs.slopes).inverse();
+  const auto deviation = [&](Eigen::Index i) {
+    return std::hypot(std::sqrt(covariance(i, i)), by_excess[i], kAnswer * found[i]);
+  };
+  shift.coulomb_Nm = found[0];
+  shift.viscous_Nm_s_per_rad = found[1];
+  shift.stribeck_rad_per_s = found[2];
+  shift.coulomb_deviation_Nm = deviation(0);
+  shift.viscous_deviation = deviation(1);
+  shift.stribeck_deviation = deviation(2);
+  shift.found = true;
+  return shift;
+}
+
+}  // namespace towbench::harness::identify

@@ -1,0 +1,146 @@
+#include "study/identify/tow/block_mean.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <boost/math/distributions/students_t.hpp>
+
+namespace towbench::harness::identify {
+
+UncertainMean mean_of_repeats(std::span<const double> repeats) {
+  const auto n = static_cast<double>(repeats.size());
+  UncertainMean mean{.deviation = std::numeric_limits<double>::infinity()};
+  if (repeats.empty()) {
+    return mean;
+  }
+  for (const double each : repeats) {
+    mean.value += each / n;
+  }
+  if (repeats.size() < 2) {
+    return mean;
+  }
+  double squares = 0;
+  for (const double each : repeats) {
+    squares += (each - mean.value) * (each - mean.value);
+  }
+  mean.freedom = n - 1;
+  mean.deviation = std::sqrt(squares / mean.freedom / n);
+  return mean;
+}
+
+namespace {
+
+std::vector<double> means_of_blocks(std::span<const double> samples, std::size_t block_rows) {
+  constexpr std::size_t kFewest = 4;
+  constexpr std::size_t kMost = 40;
+  const auto blocks =
+      std::clamp(samples.size() / std::max<std::size_t>(block_rows, 1), kFewest, kMost);
+  std::vector<double> means;
+  for (std::size_t block = 0; block < blocks; ++block) {
+    const std::size_t first = block * samples.size() / blocks;
+    const std::size_t last = (block + 1) * samples.size() / blocks;
+    double sum = 0;
+    for (const double each : samples.subspan(first, last - first)) {
+      sum += each;
+    }
+    means.push_back(sum / static_cast<double>(last - first));
+  }
+  return means;
+}
+
+// Scatter about the line through evenly spaced values.
+UncertainMean mean_about_line(std::span<const double> values) {
+  const auto n = static_cast<double>(values.size());
+  auto mean = mean_of_repeats(values);
+  double cross = 0;
+  double square = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double at = static_cast<double>(i) - 0.5 * (n - 1);
+    cross += at * (values[i] - mean.value);
+    square += at * at;
+  }
+  double squares = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double at = static_cast<double>(i) - 0.5 * (n - 1);
+    const double rest = values[i] - mean.value - cross / square * at;
+    squares += rest * rest;
+  }
+  mean.freedom = n - 2;
+  mean.deviation = std::sqrt(squares / mean.freedom / n);
+  return mean;
+}
+
+std::vector<double> running_mean(std::span<const double> samples, std::size_t rows) {
+  std::vector<double> means;
+  double sum = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    sum += samples[i];
+    if (i >= rows) {
+      sum -= samples[i - rows];
+    }
+    if (i + 1 >= rows) {
+      means.push_back(sum / static_cast<double>(rows));
+    }
+  }
+  return means;
+}
+
+constexpr std::size_t kFewestSamples = 8;
+
+}  // namespace
+
+UncertainMean block_mean(std::span<const double> samples, std::size_t block_rows) {
+  if (samples.size() < kFewestSamples) {
+    return {.deviation = std::numeric_limits<double>::infinity()};
+  }
+  return mean_of_repeats(means_of_blocks(samples, block_rows));
+}
+
+std::vector<double> without_swing(std::span<const double> samples, std::size_t rows) {
+  return running_mean(running_mean(samples, rows), rows);
+}
+
+UncertainMean steady_mean(std::span<const double> samples, double period_s) {
+  if (samples.size() < kFewestSamples) {
+    return {.deviation = std::numeric_limits<double>::infinity()};
+  }
+  const auto swing = static_cast<std::size_t>(std::lround(kSwing_s / period_s));
+  auto mean = mean_about_line(means_of_blocks(samples, swing));
+  if (samples.size() > 2 * swing) {
+    double sum = 0;
+    const auto quiet = without_swing(samples, swing);
+    for (const double each : quiet) {
+      sum += each;
+    }
+    mean.value = sum / static_cast<double>(quiet.size());
+  }
+  return mean;
+}
+
+UncertainMean combine(double share_a, const UncertainMean& a, double share_b,
+                      const UncertainMean& b) {
+  const double variance_a = share_a * share_a * a.deviation * a.deviation;
+  const double variance_b = share_b * share_b * b.deviation * b.deviation;
+  const double variance = variance_a + variance_b;
+  UncertainMean sum{.value = share_a * a.value + share_b * b.value,
+                    .deviation = std::sqrt(variance),
+                    .freedom = a.freedom + b.freedom};
+  const double doubt = variance_a * variance_a / std::max(a.freedom, 1.0) +
+                       variance_b * variance_b / std::max(b.freedom, 1.0);
+  if (doubt > 0) {
+    sum.freedom = variance * variance / doubt;
+  }
+  return sum;
+}
+
+double student_factor(double freedom) {
+  constexpr double kUpper = 0.975;
+  // Beyond this Student's t is the normal distribution to four digits.
+  constexpr double kMany = 1e5;
+  return boost::math::quantile(
+      boost::math::students_t_distribution<double>(std::clamp(freedom, 1.0, kMany)), kUpper);
+}
+
+}  // namespace towbench::harness::identify

@@ -1,0 +1,78 @@
+#include "study/identify/tow/sinusoidal_tow.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace towbench::harness::identify {
+namespace {
+
+std::size_t first_moving(const Recording& run, core::Axis axis) {
+  const auto& log = run.axes[axis];
+  std::size_t row = 1;
+  while (row < run.rows() &&
+         !(log.mode[row] == kFollowsReference && log.reference_velocity_m_per_s[row] != 0)) {
+    ++row;
+  }
+  return row;
+}
+
+// Rows at which the reference begins to move towards max.
+std::vector<std::size_t> period_starts(const Recording& run, core::Axis axis, std::size_t first) {
+  const auto& speed = run.axes[axis].reference_velocity_m_per_s;
+  std::vector<std::size_t> starts;
+  for (std::size_t i = first; i < run.rows(); ++i) {
+    if (speed[i] > 0 && speed[i - 1] <= 0) {
+      starts.push_back(i);
+    }
+  }
+  return starts;
+}
+
+}  // namespace
+
+std::optional<SinusoidalDrag> sinusoidal_tow(const Recording& with,
+                                             std::span<const double> column_with,
+                                             const Recording& without,
+                                             std::span<const double> column_without,
+                                             core::Axis axis,
+                                             const SinusoidalTowSettings& settings) {
+  const std::size_t start = first_moving(with, axis);
+  const std::size_t other = first_moving(without, axis);
+  const auto starts = period_starts(with, axis, start);
+  const auto& speed = with.axes[axis].reference_velocity_m_per_s;
+  if (column_with.size() != with.rows() || column_without.size() != without.rows() ||
+      starts.size() < 2 * settings.skip + 3) {
+    return std::nullopt;
+  }
+  double fastest = 0;
+  for (const double each : speed) {
+    fastest = std::max(fastest, std::fabs(each));
+  }
+  std::vector<double> masses;
+  std::vector<double> drags;
+  for (std::size_t k = settings.skip; k + 1 + settings.skip < starts.size(); ++k) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (std::size_t i = starts[k]; i < starts[k + 1]; ++i) {
+      const std::size_t twin = other + (i - start);
+      if (twin >= without.rows() || i + 1 >= with.rows() ||
+          std::fabs(speed[i]) < settings.slow_share * fastest) {
+        continue;
+      }
+      const double a = (speed[i + 1] - speed[i - 1]) / (2 * with.period_s);
+      const Eigen::Vector3d row(a, std::fabs(speed[i]) * speed[i], 1.0);
+      normal += row * row.transpose();
+      right += row * (settings.scale * (column_with[i] - column_without[twin]));
+    }
+    const Eigen::Vector3d solution = normal.ldlt().solve(right);
+    masses.push_back(solution(0));
+    drags.push_back(solution(1));
+  }
+  return SinusoidalDrag{.periods = masses.size(),
+                        .added_mass_kg = mean_of_repeats(masses),
+                        .quadratic_drag_N_s2_per_m2 = mean_of_repeats(drags)};
+}
+
+}  // namespace towbench::harness::identify

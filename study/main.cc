@@ -1,0 +1,11 @@
+// The composition root of the experiments that estimate.
+#include <array>
+
+#include "harness/commands/command.h"
+#include "study/commands/verbs.h"
+
+int main(int argc, char** argv) {
+  using namespace towbench::harness;
+  constexpr std::array<AddVerb, 4> kVerbs{add_identify, add_tow, add_results, add_diagnose};
+  return run_command_line(kVerbs, argc, argv);
+}

@@ -1,0 +1,36 @@
+#include "study/procedures/data_study.h"
+
+#include <fmt/format.h>
+
+#include "study/procedures/pulse_start.h"
+#include "study/procedures/two_mass_report.h"
+
+namespace towbench::harness::procedures {
+
+ProcedureOutcome study_log(const ProcedureContext& context, const BroughtLog& log) {
+  constexpr double kCutoff_Hz = 20;
+  std::string why;
+  // Knots of the friction's map closer and closer, as far as the log bears them.
+  for (const double spacing_m : {1.0, 0.5, 0.25, 0.12}) {
+    const auto start = pulse_start(context, log.recording, spacing_m);
+    const auto fit = identify::fit_two_mass(start, log.recording, context.axis);
+    why = unexplained(fit);
+    if (!why.empty()) {
+      continue;
+    }
+    ProcedureOutcome outcome;
+    report_two_mass({.context = context,
+                     .data = log.recording,
+                     .fit = fit,
+                     .knots_are_bends = false,
+                     .cutoff_Hz = kCutoff_Hz,
+                     .procedure = "log",
+                     .input = log.source},
+                    outcome);
+    return outcome;
+  }
+  return ProcedureOutcome::failed(
+      fmt::format("the two-mass model does not explain the {}: {}", log.source, why));
+}
+
+}  // namespace towbench::harness::procedures

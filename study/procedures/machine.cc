@@ -1,0 +1,141 @@
+#include "study/procedures/machine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/random.h"
+#include "harness/link/in_process_plant.h"
+#include "harness/link/unrecorded_plant.h"
+#include "study/procedures/memory_recorder.h"
+#include "study/procedures/recording_frames.h"
+
+namespace towbench::harness::procedures {
+namespace {
+
+Nameplate nameplate_of(const emulator::RigParameters& rig, core::Axis which) {
+  const auto& axis = rig.axes[which];
+  const auto& plant = axis.plant;
+  return {.exists = axis.exists,
+          .gear_ratio = plant.gear_ratio,
+          .sprocket_radius_m = plant.sprocket_radius_m,
+          .counts_per_turn = static_cast<double>(axis.encoder.counts_per_turn),
+          .rotor_inertia_kg_m2 = plant.rotor_inertia_kg_m2,
+          .resistance_ohm = plant.winding.resistance_ohm,
+          .inductance_H = plant.winding.inductance_H + plant.winding.choke_inductance_H,
+          .current_limit_A = plant.current_limit_A,
+          .current_loop_bandwidth_Hz = plant.amplifier.current_loop_bandwidth_Hz,
+          .pwm_amplitude_V = axis.command.pwm_amplitude_V,
+          .output_limit_V = plant.amplifier.output_limit_ratio * rig.supply.voltage_V,
+          .has_current_monitor = axis.current_monitor.fitted};
+}
+
+// Text decides: two conversations of one session stand in different places and hear other noise.
+std::uint64_t seed_of(std::uint64_t session, const std::string& name) {
+  std::uint64_t hash = 0xcbf29ce484222325U ^ session;
+  for (const char c : name) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  }
+  return hash;
+}
+
+}  // namespace
+
+Machine::Machine(RigFixture rig, ControllerFixture controller, std::uint64_t seed,
+                 LoopWatchers watchers)
+    : rig_(std::move(rig)),
+      controller_(std::move(controller)),
+      seed_(seed),
+      watchers_(std::move(watchers)),
+      has_force_sensor_(rig_.parameters.force_sensor.fitted) {
+  for (const auto axis : core::kAxes) {
+    nameplates_[axis] = nameplate_of(rig_.parameters, axis);
+  }
+}
+
+Machine Machine::twin(core::Axis axis, const emulator::AxisParameters& known) const {
+  auto rig = rig_;
+  rig.parameters.axes[axis].plant = known;
+  return {std::move(rig), controller_, seed_of(seed_, "twin"), watchers_};
+}
+
+identify::Recording Machine::play(const Conversation& conversation) const {
+  return play(conversation, controller_.configuration);
+}
+
+identify::Recording Machine::play(const Conversation& conversation,
+                                  const bbmc::Configuration& configuration) const {
+  constexpr double kHandIsOff_m = 1e-3;
+  const auto seed = seed_of(seed_, conversation.name);
+  core::Random random(seed);
+  auto parameters = rig_.parameters;
+  for (const auto axis : core::kAxes) {
+    parameters.axes[axis].start_m =
+        conversation.start_m[axis] + kHandIsOff_m * (2 * random.uniform() - 1);
+  }
+  Experiment experiment;
+  experiment.name = conversation.name;
+  experiment.duration_limit_s = conversation.limit_s;
+  experiment.console = conversation.steps;
+  experiment.events = conversation.events;
+
+  UnrecordedPlant nobody;
+  InProcessPlant plant(parameters, seed, experiment.events, nobody);
+  MemoryRecorder recorder(conversation.keeps_idle_rows);
+  SensorTap tapped(plant, recorder);
+  LockstepBench bench(configuration, rig_.hash, tapped, &recorder);
+  const auto outcome = harness::play(experiment, bench, recorder, watchers_);
+
+  auto recording = recorder.take();
+  drop_other_frames(recording);
+  recording.period_s = core::seconds(configuration.control_period_ns());
+  for (const auto axis : core::kAxes) {
+    recording.rad_per_count[axis] = 2 * std::numbers::pi / nameplates_[axis].counts_per_turn;
+    recording.metres_per_count[axis] =
+        recording.rad_per_count[axis] * nameplates_[axis].metres_per_rad();
+  }
+  if (!recording.trouble.empty()) {
+    // the fault that was latched says more than how the script ended
+  } else if (!outcome.complete) {
+    recording.trouble = outcome.reason;
+  } else if (!outcome.script_failure.empty()) {
+    recording.trouble = outcome.script_failure;
+  } else if (outcome.rows_lost > 0) {
+    recording.trouble = fmt::format("{} rows of the log were lost", outcome.rows_lost);
+  }
+  simulated_s_ += core::seconds(outcome.end_ns);
+  return recording;
+}
+
+ConsoleStep say(std::string text, std::string expect) {
+  ConsoleStep step;
+  step.send = std::move(text);
+  step.expect = std::move(expect);
+  return step;
+}
+
+ConsoleStep move(std::string text, double timeout_s) {
+  ConsoleStep step;
+  step.send = std::move(text);
+  step.expect = "done";
+  step.wait_idle = true;
+  step.timeout_s = timeout_s;
+  return step;
+}
+
+std::vector<ConsoleStep> declare_position(const Conversation& conversation,
+                                          const Machine& machine) {
+  std::vector<ConsoleStep> steps;
+  for (const auto axis : core::kAxes) {
+    if (machine.nameplate(axis).exists) {
+      steps.push_back(say(fmt::format("reset poscalib {} {:.6f}m", core::name_of(axis),
+                                      conversation.start_m[axis])));
+    }
+  }
+  return steps;
+}
+
+}  // namespace towbench::harness::procedures

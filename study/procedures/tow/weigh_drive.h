@@ -1,0 +1,50 @@
+// The drive's scale by a known weight (identify/tow/drive_scale.h): one tow in air with a weight
+// over a pulley that begins to pull on the way, and its twin without.
+#pragma once
+
+#include <string>
+
+#include "core/parameter.h"
+#include "study/identify/tow/drive_scale.h"
+#include "study/procedures/tow/tow_loads.h"
+
+namespace towbench::harness::procedures {
+
+struct WeighSettings {
+  double weight_N = 16.0;
+  double speed_y_m_per_s = 0.1;
+  double distance_y_m = 2.2;
+  double speed_x_m_per_s = 0.04;
+  double distance_x_m = 0.4;
+  double start_y_m = 0.450;
+  double start_x_m = 0.12;
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("weight_N", weight_N, core::between(0.5, 25.0), "over the pulley, against the motion");
+    v.value("speed_y_m_per_s", speed_y_m_per_s, core::between(1e-3, 1.0), "of the tow on Y");
+    v.value("distance_y_m", distance_y_m, core::between(0.01, 10.0), "of the tow on Y");
+    v.value("speed_x_m_per_s", speed_x_m_per_s, core::between(1e-3, 1.0), "of the tow on X");
+    v.value("distance_x_m", distance_x_m, core::between(0.01, 10.0), "of the tow on X");
+    v.value("start_y_m", start_y_m, core::between(0.0, 10.0), "where Y begins");
+    v.value("start_x_m", start_x_m, core::between(0.0, 10.0), "where X begins");
+  }
+};
+
+struct WeighedDrive {
+  identify::DriveScale scale;
+  std::string trouble;  // empty: it was found
+};
+
+// Why it cannot be done, or empty.
+[[nodiscard]] std::string why_not(const Machine& machine, core::Axis axis,
+                                  const WeighSettings& settings);
+
+// `machine`: with nothing in the water.
+[[nodiscard]] WeighedDrive weigh_drive(const Machine& machine, core::Axis axis,
+                                       const WeighSettings& settings);
+
+// A machine's own configuration, with the controller told to expect a load.
+[[nodiscard]] bbmc::Configuration expecting_load(const Machine& machine, double load_N);
+
+}  // namespace towbench::harness::procedures

@@ -1,0 +1,176 @@
+#include "study/results/identification_set.h"
+
+#include <cstdio>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/random.h"
+#include "study/procedures/chain.h"
+#include "study/procedures/kept_outcome.h"
+
+namespace towbench::harness {
+namespace {
+
+using procedures::ProcedureOutcome;
+
+std::filesystem::path folder_of(const IdentificationSet& set, std::uint64_t machine,
+                                std::uint64_t seed) {
+  return set.out / fmt::format("machine-{}", machine) / fmt::format("seed-{}", seed);
+}
+
+std::string fingerprint_of(const IdentificationSet& set, const RigFixture& rig,
+                           std::uint64_t machine, std::uint64_t seed) {
+  return fmt::format("{:016x}-{:016x}-{}-{}-{}", rig.hash, set.controller.hash, machine, set.spread,
+                     seed);
+}
+
+nlohmann::json to_json(const std::vector<Recovery>& recoveries,
+                       const procedures::ChainResult& result) {
+  nlohmann::json json{{"recoveries", nlohmann::json::array()},
+                      {"not_done", nlohmann::json::array()}};
+  for (const auto& each : recoveries) {
+    json["recoveries"].push_back(
+        {{"estimate", identify::to_json({each.estimate})}, {"truth", each.truth}});
+  }
+  for (const auto& step : result.steps) {
+    if (step.outcome.status != ProcedureOutcome::Status::kDone) {
+      json["not_done"].push_back(
+          fmt::format("{} {}: {}", step.id, core::name_of(step.axis), step.outcome.reason));
+    }
+  }
+  return json;
+}
+
+// One machine, one seed, in a process of its own.
+int identify_one(const IdentificationSet& set, std::uint64_t number, std::uint64_t seed) {
+  const auto rig = drawn_machine(set.rig, number, set.spread);
+  const procedures::Machine machine(rig, set.controller, seed, {.stop = set.stop, .progress = {}});
+  const auto folder = folder_of(set, number, seed);
+  const auto fingerprint = fingerprint_of(set, rig, number, seed);
+  const auto result = procedures::run_chain(machine, procedures::identification_procedures(),
+                                            {.only = {},
+                                             .axes = set.axes,
+                                             .settings = set.settings,
+                                             .out = folder,
+                                             .fingerprint = fingerprint,
+                                             .resume = true,
+                                             .progress = {},
+                                             .stop = set.stop});
+  if (set.stop != nullptr && set.stop->load()) {
+    return 1;
+  }
+  procedures::keep_outcome(folder / "judged.json", procedures::program_fingerprint() + fingerprint,
+                           to_json(judge_recovery(rig.parameters, result.estimates), result));
+  return 0;
+}
+
+SetRun read_run(const IdentificationSet& set, std::uint64_t machine, std::uint64_t seed) {
+  SetRun run{.machine = machine, .seed = seed};
+  const auto rig = drawn_machine(set.rig, machine, set.spread);
+  const auto kept = procedures::kept_outcome(
+      folder_of(set, machine, seed) / "judged.json",
+      procedures::program_fingerprint() + fingerprint_of(set, rig, machine, seed));
+  if (!kept) {
+    return run;
+  }
+  run.done = true;
+  kept->at("not_done").get_to(run.not_done);
+  for (const auto& each : kept->at("recoveries")) {
+    const auto judged =
+        judge_recovery(rig.parameters, identify::estimates_from_json(each.at("estimate")));
+    run.recoveries.insert(run.recoveries.end(), judged.begin(), judged.end());
+  }
+  return run;
+}
+
+}  // namespace
+
+RigFixture drawn_machine(RigFixture rig, std::uint64_t number, double spread) {
+  if (number == 0) {
+    return rig;
+  }
+  core::Random random(0x6d616368 + number);
+  const auto factor = [&] { return 1 - spread + 2 * spread * random.uniform(); };
+  for (const auto axis : core::kAxes) {
+    auto& plant = rig.parameters.axes[axis].plant;
+    // The rotor itself is well known; what is drawn is what it carries.
+    plant.inertia_kg_m2 =
+        plant.rotor_inertia_kg_m2 + (plant.inertia_kg_m2 - plant.rotor_inertia_kg_m2) * factor();
+    plant.viscous_friction_Nm_s_per_rad *= factor();
+    const double dry = factor();  // break-away stays above sliding friction
+    plant.coulomb_friction_Nm *= dry;
+    plant.friction.breakaway_Nm *= dry;
+    plant.torque_constant_Nm_per_A *= factor();
+    plant.amplifier_gain_A_per_V *= factor();
+    plant.chain.resonance_Hz *= factor();
+    plant.chain.damping_ratio *= factor();
+  }
+  return rig;
+}
+
+std::vector<SetRun> run_set(const IdentificationSet& set) {
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> wanted;
+  std::size_t there = 0;
+  const auto all = static_cast<std::size_t>(set.machines * set.seeds);
+  // Seed after seed of all machines: a set that is stopped is a smaller one of all of them.
+  for (std::uint64_t seed = 1; seed <= set.seeds; ++seed) {
+    for (std::uint64_t machine = 0; machine < set.machines; ++machine) {
+      if (read_run(set, machine, seed).done) {
+        ++there;
+      } else {
+        wanted.emplace_back(machine, seed);
+      }
+    }
+  }
+  std::size_t busy = 0;
+  const auto wait_for_one = [&] {
+    int status = 0;
+    if (wait(&status) > 0) {
+      --busy;
+      ++there;
+    }
+    if (set.progress) {
+      set.progress(there, all);
+    }
+  };
+  for (const auto& [machine, seed] : wanted) {
+    if (set.stop != nullptr && set.stop->load()) {
+      break;
+    }
+    if (busy == set.workers) {
+      wait_for_one();
+    }
+    const pid_t child = fork();
+    if (child < 0) {
+      throw std::runtime_error("no process can be started");
+    }
+    if (child == 0) {
+      int code = 1;
+      try {
+        code = identify_one(set, machine, seed);
+      } catch (const std::exception& error) {
+        std::fprintf(stderr, "machine %llu seed %llu: %s\n",
+                     static_cast<unsigned long long>(machine),
+                     static_cast<unsigned long long>(seed), error.what());
+      }
+      _exit(code);
+    }
+    ++busy;
+  }
+  while (busy > 0) {
+    wait_for_one();
+  }
+  std::vector<SetRun> runs;
+  for (std::uint64_t machine = 0; machine < set.machines; ++machine) {
+    for (std::uint64_t seed = 1; seed <= set.seeds; ++seed) {
+      runs.push_back(read_run(set, machine, seed));
+    }
+  }
+  return runs;
+}
+
+}  // namespace towbench::harness

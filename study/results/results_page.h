@@ -1,0 +1,41 @@
+// docs/measurements/results.md: every table of the thesis's chapters 7 and 8 with what the bench
+// found and what is true of the emulated machine beside it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/procedures/chain.h"
+#include "study/procedures/tow/tow_procedure.h"
+#include "study/recovery/recovery.h"
+#include "study/results/tracked_run.h"
+
+namespace towbench::harness {
+
+struct TrackedSpeed {
+  double speed_m_per_s = 0;
+  TrackedRun run;
+};
+
+struct TowResult {
+  std::string id;
+  std::string title;
+  procedures::TowOutcome outcome;
+  std::vector<Recovery> recoveries;
+};
+
+struct Results {
+  std::string rig;
+  emulator::RigParameters truth;  // of the machine
+  procedures::ChainResult identified;
+  std::vector<TowResult> tows;
+  std::vector<TrackedSpeed> slow;      // the 14 speeds of Table 7.6, thesis's trapezoids
+  std::vector<TrackedSpeed> fast_air;  // the 6 speeds of Table 8.3
+  std::vector<TrackedSpeed> fast_water;
+  double wall_s = 0;
+  bool partly_from_before = false;  // an interrupted set was continued
+};
+
+[[nodiscard]] std::string results_page(const Results& results);
+
+}  // namespace towbench::harness

@@ -1,0 +1,145 @@
+// Every tow experiment on the nominal machine and on two drawn ones: what it estimates, against
+// what the emulated water is.
+#include <algorithm>
+#include <string>
+#include <tuple>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "study/procedures/tow/feasibility.h"
+#include "study/recovery/tow/tow_recovery.h"
+
+namespace towbench::harness {
+namespace {
+
+using procedures::ProcedureOutcome;
+using procedures::TowLoads;
+using ::testing::HasSubstr;
+
+RigFixture nominal() {
+  SourceFiles sources;
+  return load_rig("fixtures/rigs/tow-dry.toml", sources);
+}
+
+ControllerFixture controller() {
+  SourceFiles sources;
+  return load_controller("fixtures/controllers/bbmc-tuned.toml", sources);
+}
+
+// Friction, inertia, motor and chain as one built machine differs from the next. The motor constant
+// only ever lower: a higher one could not reach the thesis's 0.55 m/s at 10.8 V, and is refused.
+RigFixture drawn(std::uint64_t machine) {
+  auto rig = nominal();
+  core::Random random(0x746f77 + machine);
+  const auto factor = [&](double low, double high) {
+    return low + (high - low) * random.uniform();
+  };
+  for (const auto which : core::kAxes) {
+    auto& plant = rig.parameters.axes[which].plant;
+    plant.inertia_kg_m2 *= factor(0.9, 1.1);
+    plant.viscous_friction_Nm_s_per_rad *= factor(0.7, 1.1);
+    const double dry = factor(0.7, 1.1);
+    plant.coulomb_friction_Nm *= dry;
+    plant.friction.breakaway_Nm *= dry;
+    plant.torque_constant_Nm_per_A *= factor(0.9, 1.0);
+    plant.amplifier_gain_A_per_V *= factor(0.9, 1.1);
+    plant.chain.resonance_Hz *= factor(0.9, 1.2);
+  }
+  return rig;
+}
+
+RigFixture machine(int number) {
+  return number == 0 ? nominal() : drawn(static_cast<std::uint64_t>(number));
+}
+
+void expect_recovered(const procedures::TowProcedure& procedure, const RigFixture& rig,
+                      std::uint64_t seed) {
+  const TowLoads loads(rig, controller(), seed, "fixtures/rigs");
+  const auto outcome = procedure.run({.loads = loads});
+  ASSERT_EQ(outcome.status, ProcedureOutcome::Status::kDone) << outcome.reason;
+  for (const auto& each : judge_tow(loads.truth(procedure.load()), outcome)) {
+    const auto at = each.estimate.at ? " at " + std::to_string(*each.estimate.at) : std::string();
+    EXPECT_TRUE(each.agrees) << each.estimate.quantity << at << ": " << each.estimate.value
+                             << " expected " << each.truth << ", " << each.error_pct << " %";
+    EXPECT_TRUE(each.narrow) << each.estimate.quantity << at << ": " << each.width_pct << " % wide";
+  }
+}
+
+class TowExperiment : public ::testing::TestWithParam<std::tuple<std::size_t, int>> {};
+
+TEST_P(TowExperiment, RecoversWhatTheWaterIs) {
+  const auto [which, number] = GetParam();
+  const auto all = procedures::tow_procedures();
+  ASSERT_LT(which, all.size());
+  expect_recovered(*all[which], machine(number), static_cast<std::uint64_t>(11 + number));
+}
+
+INSTANTIATE_TEST_SUITE_P(AllOnThreeMachines, TowExperiment,
+                         ::testing::Combine(::testing::Range<std::size_t>(0, 8),
+                                            ::testing::Values(0, 1, 2)),
+                         [](const auto& instance) {
+                           std::string name(
+                               procedures::tow_procedures()[std::get<0>(instance.param)]->id());
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name + "_machine_" + std::to_string(std::get<1>(instance.param));
+                         });
+
+// (8.6) takes friction that it does not know for drag.
+TEST(BlindPrediction, ReadsTooMuchFromTheNearEndAndTooLittleFromMidTank) {
+  const TowLoads loads(nominal(), controller(), 3, "fixtures/rigs");
+  const auto exp_1 = procedures::straight_drag();
+  const auto outcome = exp_1->run({.loads = loads});
+  ASSERT_EQ(outcome.status, ProcedureOutcome::Status::kDone) << outcome.reason;
+  const double truth = loads.truth(exp_1->load()).water.object.quadratic_drag_N_s2_per_m2;
+  const auto value = [&](const char* quantity) {
+    return identify::find(outcome.estimates, quantity, "y")->value;
+  };
+  EXPECT_GT(value("mbdp_near_drag_N_s2_per_m2"), 1.05 * truth);
+  EXPECT_LT(value("mbdp_middle_drag_N_s2_per_m2"), 0.95 * truth);
+}
+
+std::string refusal(const procedures::TowProcedure& procedure, const RigFixture& rig) {
+  const TowLoads loads(rig, controller(), 1, "fixtures/rigs");
+  const auto outcome = procedure.run({.loads = loads});
+  EXPECT_EQ(outcome.status, ProcedureOutcome::Status::kRefused);
+  EXPECT_EQ(outcome.simulated_s, 0.0);
+  EXPECT_TRUE(outcome.estimates.empty());
+  return outcome.reason;
+}
+
+TEST(TowRefusals, NameTheMissingForceSensor) {
+  auto rig = nominal();
+  rig.parameters.force_sensor.fitted = false;
+  for (const auto& procedure : procedures::tow_procedures()) {
+    if (procedure->id() != "EXP-4") {
+      EXPECT_THAT(refusal(*procedure, rig), HasSubstr("no force sensor")) << procedure->id();
+    }
+  }
+}
+
+TEST(TowRefusals, NameTheAxisThatIsMissing) {
+  auto rig = nominal();
+  rig.parameters.axes[core::Axis::kX].exists = false;
+  EXPECT_THAT(refusal(*procedures::curved_drag(), rig), HasSubstr("no x axis"));
+}
+
+TEST(TowRefusals, NameTheVoltageThatIsMissing) {
+  auto rig = nominal();
+  rig.parameters.supply.voltage_V = 11.0;
+  EXPECT_THAT(refusal(*procedures::straight_drag(), rig), HasSubstr("V at the motor"));
+}
+
+TEST(TowRefusals, NameTravelAndSteadyTimeThatAreMissing) {
+  const TowLoads loads(nominal(), controller(), 1, "fixtures/rigs");
+  const auto machine = loads.with({});
+  EXPECT_THAT(procedures::no_travel(machine, core::Axis::kY, 0.5, 4.0), HasSubstr("soft limits"));
+  EXPECT_THAT(procedures::too_fast(machine, core::Axis::kX, 0.5, 0.0), HasSubstr("limit"));
+  EXPECT_THAT(procedures::too_short(0.5, 0.5, 0.8, 0.2, 1.0), HasSubstr("steady speed"));
+  EXPECT_THAT(procedures::not_in_water(loads, {.rig = "tow-dry"}), HasSubstr("in the water"));
+  EXPECT_EQ(procedures::not_in_water(loads, {.rig = "tow-cylinder"}), "");
+}
+
+}  // namespace
+}  // namespace towbench::harness

@@ -1,0 +1,113 @@
+# shellcheck shell=bash disable=SC2154,SC2034
+# The stages that guard main. Sourced by test.sh, which says what a stage is.
+
+stage_lint() { count "$root/tools/lint.sh" "$root"; }
+
+# Tests that take long for what they add are named, each with what it protects, in a file.
+names_in() { sed -nE 's/^([^ #]+) *;.*/\1/p' "$root/tests/$1"; }
+long_tests() { names_in long_tests.txt | paste -sd'|'; }
+
+# A line that names no test any more would hide that a test has gone.
+every_long_test_exists() {
+  local all pattern status=0
+  all=$(ctest --test-dir "$build/release" -N)
+  while read -r pattern; do
+    grep -qE "$pattern" <<<"$all" || { echo "tests/long_tests.txt: no test is named $pattern"; status=1; }
+  done < <(names_in long_tests.txt)
+  return "$status"
+}
+
+stage_tests() {
+  built release
+  count every_long_test_exists
+  run_ctest release . -E "$(long_tests)"
+  slowest_tests release >"$build/slowest_tests.txt"
+}
+
+slowest_tests() {
+  sed -nE 's/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+).* (Passed|\*\*\*Failed) +([0-9.]+) sec.*/\3 \1/p' \
+    "$build/$1.ctest.log" | sort -rn | sed -n 1,50p
+}
+
+stage_board() {
+  built release towbench-bench bbmc_record replay_on_board
+  build_baremetal
+  reported "$build/board.log" board_checks
+}
+
+board_checks() {
+  "$root/tools/baremetal_duty.sh" "$build/release" "$root" && "$root/tests/board/demo_on_board.sh" "$build/release" "$root"
+}
+
+stage_carriers() {
+  local status=0 log=$build/carriers.log
+  built release towbench-bench test_protocol test_bbmc
+  "$root/tests/carriers/run.sh" "$root" "$build/release" 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
+  passed=$((passed + $(grep -c '^@@ passed' "$log")))
+  note=$(sed -n -e 's/^@@ \(real time unproven\).*/; \1/p' \
+    -e 's/^@@ passed: by the wall clock over \(.*\), 10 kHz.*, valid in \(.*\)$/; real time over \1 in \2/p' "$log" | tr -d '\n')
+  case $status in
+    0) ;;
+    99) skip_reason=$(sed -n 's/^carriers: //p' "$log" | tail -n 1) ;;
+    *) failed=$((failed + 1)) ;;
+  esac
+  return "$status"
+}
+
+# Where threads are: the lock-free queues, the carriers, and the controller between them.
+stage_sanitize_thread() {
+  built tsan test_core test_protocol test_bbmc
+  local folder
+  for folder in core protocol bbmc; do
+    TSAN_OPTIONS=halt_on_error=1 run_ctest tsan "tests/$folder" -E "$(left_out)" || return 1
+  done
+}
+
+# What the sanitizers leave to --all.
+left_out() {
+  { names_in long_tests.txt; if [[ $everything == false ]]; then names_in whole_runs.txt; fi; } | paste -sd'|'
+}
+
+# One build of clang serves this stage and the fuzzer. Whole runs are left to --all: their parts are
+# tested one by one, at a tenth of the cost.
+stage_sanitize_address() {
+  local targets=(test_core test_protocol test_board test_harness_report test_harness)
+  if [[ $everything == true ]]; then targets+=(test_bbmc test_emulator); fi
+  built sanitize "${targets[@]}" towbench-bench towbench-panel
+  LSAN_OPTIONS=suppressions=$root/tests/support/leaks_of_libraries.txt:print_suppressions=0 \
+    ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 run_ctest sanitize tests -E "$(left_out)|NOT_BUILT" -LE browser
+}
+
+stage_fuzz() {
+  local seconds=10 targets
+  if [[ $everything == true ]]; then seconds=60; fi
+  built sanitize fuzz_targets
+  targets=("$build"/sanitize/tests/fuzz/*_fuzz)
+  "$build/sanitize/tests/fuzz/make_fuzz_seeds" "$build/fuzz/corpus" || { failed=$((failed + 1)); return 1; }
+  [[ -x ${targets[0]} ]] || { echo 'no fuzz target was built'; return 1; }
+  # Two at a time: as many as the smallest supported machine has cores.
+  if printf '%s\0' "${targets[@]}" |
+    xargs -0 -P 2 -n 1 "$root/tools/fuzz_one.sh" "$root" "${TOWBENCH_FUZZ_SECONDS:-$seconds}"; then
+    passed=$((passed + ${#targets[@]}))
+  else
+    failed=$((failed + 1))
+    return 1
+  fi
+}
+
+# What a first start depends on; where it is as it was when the stage passed here, the stage is left out.
+first_start_key() {
+  (cd "$root" && git ls-files -s towbench tools/launcher tools/fresh_start.sh cmake CMakePresets.json reports/package-lock.json \
+    '*CMakeLists.txt' && git diff HEAD -- towbench tools/launcher tools/fresh_start.sh cmake '*CMakeLists.txt') | sha256sum | cut -d' ' -f1
+}
+
+stage_fresh_start() {
+  local key kept=${XDG_CACHE_HOME:-$HOME/.cache}/towbench/fresh_start
+  key=$(first_start_key)
+  if [[ $everything == false && -e $kept/$key ]]; then
+    skip_reason='launcher, build files and packages are as when it passed last'
+    return 99
+  fi
+  reported "$build/fresh_start.log" "$root/tools/fresh_start.sh" "$root" || return
+  mkdir -p "$kept" && touch "$kept/$key"
+}

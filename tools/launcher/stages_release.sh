@@ -1,0 +1,93 @@
+# shellcheck shell=bash disable=SC2154,SC2034
+# The stages of `./towbench test --all`, and those on request. Sourced by test.sh.
+
+stage_long_tests() {
+  built release
+  run_ctest release . -R "$(long_tests)"
+}
+
+# Units hide a missing include; here every source stands for itself. Checked, not optimised.
+stage_alone() {
+  built alone all benchmarks
+  passed=$((passed + 1))
+}
+
+stage_tidy() { count "$root/tools/clang_tidy.sh" "$root" --everything; }
+
+stage_step_cost() {
+  built release bbmc_step_cost
+  reported "$build/step_cost.log" "$root/tools/control_step_cost.sh" "$build/release"
+}
+
+stage_armhf() {
+  built release towbench-bench bbmc_record bbmc_controller_process
+  reported "$build/armhf.log" "$root/tools/armhf_duty.sh" "$build/release" "$root"
+}
+
+stage_package() { reported "$build/package.log" "$root/tools/package_in_bare_debian.sh" "$root"; }
+
+stage_campaign() {
+  built release towbench-bench
+  count "$bench_program" campaign standard --fresh --out "$build/campaign"
+  count "$bench_program" campaign log-full --fresh --out "$build/campaign-log-full"
+}
+
+# Every effect under two seeds, hidden by another generator: named, and nothing else, in 19 of 20.
+stage_diagnosis() {
+  built release diagnose_campaign
+  local log=$build/diagnosis_campaign.log right all
+  "$build/release/tests/study/diagnose/diagnose_campaign" 2 2>&1 | tee "$log"
+  read -r right all < <(sed -nE 's/^right and alone: ([0-9]+) of ([0-9]+)$/\1 \2/p' "$log")
+  count test "$((right * 20))" -ge "$((all * 19))"
+}
+
+# A mutant replaces one object of a library, so every source must be an object of its own.
+stage_mutants() {
+  built mutants mutants towbench-bench
+  count "$root/tests/mutants/score.sh" "$build/mutants" "$root"
+}
+
+# The guard is guarded: ten slips, each of which must turn it red.
+stage_guard_mutations() { count "$root/tests/mutants/guard_mutations.sh" "$root"; }
+
+stage_slurm() {
+  # Slurm serves this stage alone; without it the bench is whole.
+  ((EUID == 0)) && { apt-get update && DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends slurm-wlm munge; } \
+    >"$build/slurm-install.log" 2>&1 </dev/null
+  built release towbench-bench
+  local status=0
+  "$root/tests/slurm/slurm_test.sh" "$bench_program" "$root" || status=$?
+  if ((status == 99)); then
+    skip_reason='there is no Slurm to be had here (see above)'
+  elif ((status == 0)); then
+    passed=$((passed + 1))
+  fi
+  return "$status"
+}
+
+stage_build_times() { count "$root/tools/build_times.sh" "$root"; }
+
+stage_carrier_table() {
+  local here=$root/tests/carriers kernel=$build/carriers/kernel tree=$build/release log=$build/carrier_table.log
+  built release towbench-bench benchmark_protocol_carriers
+  {
+    "$here/jobs.sh" "$root" "$tree" table-host
+    "$here/fetch_kernel.sh" "$kernel" &&
+      "$here/boot.sh" "$kernel" 900 "$here/jobs.sh $root $tree table-machine"
+  } >"$log" 2>&1
+  echo '| carrier | encoder data | trapezoid-400 | on the wire, to plant + to controller | worst case, digest at 1 kHz | turn: bare, ours, ratio | tracking error, peak | rms, steady |'
+  echo '| --- | --- | --- | ---: | ---: | ---: | ---: | ---: |'
+  sed -n 's/^@@ row //p' "$log"
+  [[ $(grep -c '^@@ row' "$log") == 6 ]] || { tail -n 20 "$log"; failed=$((failed + 1)); return 1; }
+  passed=$((passed + 1))
+}
+
+# The ratios are printed, not judged: they are this host's, at this hour.
+stage_panel_cost() {
+  local here=$root/tests/browser work=$build/panel_cost browser
+  built release towbench-bench towbench-panel
+  browser=$(sh "$here/find_browser.sh") || { failed=$((failed + 1)); return 1; }
+  sh "$here/install.sh" "$work/packages"
+  count env CHROMIUM="$browser" node "$work/packages/measure_panel.mjs" \
+    "$build/release/bin/towbench-bench" "$root" "$work/runs" "${TOWBENCH_BLOCKS:-25}"
+}
