@@ -21,6 +21,7 @@ for page in $pages; do
   case $page in
     README.md) limit=90 ;;
     */README.md) limit=40 ;;
+    docs/reference/verbs.md | docs/measurements/*) limit=1000 ;; # written by programs
     *) limit=400 ;;
   esac
   [ "$lines" -le "$limit" ] || complain "$page: $lines lines, at most $limit"

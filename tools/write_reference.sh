@@ -31,9 +31,11 @@ help_of() { # help_of PROGRAM VERB
   for verb in demo run list validate emulate control replay report campaign doctor completion; do help_of "$bench" "$verb"; done
   help_of "$panel" panel
   for verb in identify tow results diagnose; do help_of "$study" "$verb"; done
-  printf '\n## test\n```text\n'
-  bash "$root/towbench" test --help
-  printf '```\n'
+  for verb in test package; do
+    printf '\n## %s\n```text\n' "$verb"
+    bash "$root/towbench" "$verb" --help
+    printf '```\n'
+  done
 } >"$out/verbs.md"
 
 {
