@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "harness/judge/check.h"
+#include "harness/checks/check.h"
 #include "tests/harness/fixtures/temporary_fixtures.h"
 #include "tests/support/program_output.h"
 
