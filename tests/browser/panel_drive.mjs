@@ -82,7 +82,7 @@ export async function driveRuns({ checks, person, page, bench, root, runs, shots
       assert.ok(events.includes(`"side":"hand","kind":"${kind}"`), `no ${kind} in events.jsonl`);
     }
     const said = replay(driven);
-    assert.equal(said.match(/identical/g)?.length, 3, said);
+    assert.equal(said.match(/identical/g)?.length, 4, said);
   });
 
   await checks.run("an end-stop that is tripped by hand stops the axis", async () => {
@@ -108,7 +108,7 @@ export async function driveRuns({ checks, person, page, bench, root, runs, shots
     await person.over();
     const events = readFileSync(join(runs, await person.folder(), "events.jsonl"), "utf8");
     assert.match(events, /"side":"hand","kind":"fault"[^\n]*encoder\.y frozen/);
-    assert.equal(replay(await person.folder()).match(/identical/g)?.length, 3);
+    assert.equal(replay(await person.folder()).match(/identical/g)?.length, 4);
   });
 
   await checks.run("a run by the wall clock is watched, typed into and finished", async () => {
