@@ -75,7 +75,7 @@ stage_sanitize_address() {
   if [[ $everything == true ]]; then targets+=(test_bbmc test_emulator); fi
   built sanitize "${targets[@]}" towbench-bench towbench-panel
   LSAN_OPTIONS=suppressions=$root/tests/support/leaks_of_libraries.txt:print_suppressions=0 \
-    ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 run_ctest sanitize tests -E "$(left_out)|NOT_BUILT" -LE browser
+    ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 run_ctest sanitize tests -E "$(left_out)|NOT_BUILT|^architecture" -LE browser
 }
 
 stage_fuzz() {
