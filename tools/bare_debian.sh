@@ -17,6 +17,7 @@ make_bare_debian() {
   # shellcheck disable=SC2016  # the format is for apt-get
   mirror=$(apt-get indextargets --format '$(SITE)' 'Created-By: Packages' 2>/dev/null | grep -m1 debian || true)
   bare=$(mktemp -d "${TMPDIR:-/tmp}/towbench-bare.XXXX")
+  chmod 755 "$bare" # the root of every user there
   trap remove_bare_debian EXIT
   echo "making a bare Debian 12 in $bare"
   debootstrap --variant=minbase bookworm "$bare" "${mirror:-http://deb.debian.org/debian}" >"$bare.log" 2>&1 || {
