@@ -72,10 +72,17 @@ left_out() {
 # tested one by one, at a tenth of the cost.
 stage_sanitize_address() {
   local targets=(test_core test_protocol test_board test_harness_report test_harness)
-  if [[ $everything == true ]]; then targets+=(test_bbmc test_emulator); fi
+  local folders=(core protocol board harness) folder
+  if [[ $everything == true ]]; then
+    targets+=(test_bbmc test_emulator)
+    folders+=(bbmc emulator)
+  fi
   built sanitize "${targets[@]}" towbench-bench towbench-panel
-  LSAN_OPTIONS=suppressions=$root/tests/support/leaks_of_libraries.txt:print_suppressions=0 \
-    ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 run_ctest sanitize tests -E "$(left_out)|NOT_BUILT|^architecture" -LE browser
+  for folder in "${folders[@]}"; do
+    LSAN_OPTIONS=suppressions=$root/tests/support/leaks_of_libraries.txt:print_suppressions=0 \
+      ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 \
+      run_ctest sanitize "tests/$folder" -E "$(left_out)|NOT_BUILT" -LE browser || return 1
+  done
 }
 
 stage_fuzz() {
