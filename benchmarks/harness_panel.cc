@@ -18,7 +18,7 @@
 #include <time.h>
 
 #include "harness/panel/frames.h"
-#include "harness/panel/live_hand.h"
+#include "harness/panel/live_operator.h"
 #include "harness/panel/turns.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // Faults of the machine under an image on the virtual board. When they begin is found in the run of
-// the same image without them (board_twin.h), and what they have changed is read from both records.
+// the same image without them (reference_board.h), and what they have changed is read from both records.
 #pragma once
 
 #include <filesystem>

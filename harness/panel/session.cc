@@ -11,8 +11,8 @@
 #include "harness/fixtures/canonical_hash.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/panel/autogroup.h"
-#include "harness/panel/live_hand.h"
-#include "harness/panel/realtime_hand.h"
+#include "harness/panel/live_operator.h"
+#include "harness/panel/realtime_operator.h"
 #include "harness/panel/turns.h"
 #include "harness/report/report.h"
 

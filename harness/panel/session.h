@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "harness/panel/live_tap.h"
-#include "harness/panel/run_hand.h"
+#include "harness/panel/run_operator.h"
 #include "harness/run/experiment_run.h"
 
 namespace towbench::harness {

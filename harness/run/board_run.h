@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "harness/board_bench/board_truth.h"
-#include "harness/board_bench/board_twin.h"
+#include "harness/board_bench/reference_board.h"
 #include "harness/link/plant_end.h"
 #include "harness/run/experiment_run.h"
 

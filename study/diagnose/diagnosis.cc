@@ -7,7 +7,7 @@
 
 #include "study/diagnose/context.h"
 #include "study/diagnose/known_terms.h"
-#include "study/diagnose/lookalikes.h"
+#include "study/diagnose/aliased_effects.h"
 #include "study/diagnose/model_checks.h"
 #include "study/diagnose/run_checks.h"
 #include "study/diagnose/score.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "study/diagnose/effect.h"
-#include "study/diagnose/twin.h"
+#include "study/diagnose/simulated_reference.h"
 
 namespace towbench::harness::diagnose {
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "study/diagnose/revision.h"
-#include "study/diagnose/rivals.h"
+#include "study/diagnose/alternatives.h"
 
 namespace towbench::harness::diagnose {
 namespace {

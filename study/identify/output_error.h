@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "study/identify/two_mass_twin.h"
+#include "study/identify/two_mass_simulation.h"
 
 namespace towbench::harness::identify {
 

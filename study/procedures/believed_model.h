@@ -2,7 +2,7 @@
 #pragma once
 
 #include "emulator/plant/axis_parameters.h"
-#include "study/identify/two_mass_twin.h"
+#include "study/identify/two_mass_simulation.h"
 #include "study/procedures/procedure.h"
 
 namespace towbench::harness::procedures {

@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 
 #include "harness/fixtures/rig_fixture.h"
-#include "study/identify/two_mass_twin.h"
+#include "study/identify/two_mass_simulation.h"
 #include "study/procedures/believed_model.h"
 #include "study/procedures/duty_apart.h"
 #include "study/procedures/identified_plant.h"

@@ -9,7 +9,7 @@
 
 #include "harness/experiment/experiment_toml.h"
 #include "harness/fault_plan/fault_text.h"
-#include "harness/panel/live_hand.h"
+#include "harness/panel/live_operator.h"
 #include "harness/run/experiment_run.h"
 #include "tests/harness/end_to_end/run_support.h"
 

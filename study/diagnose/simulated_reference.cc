@@ -1,4 +1,4 @@
-#include "study/diagnose/twin.h"
+#include "study/diagnose/simulated_reference.h"
 
 #include <algorithm>
 #include <cmath>

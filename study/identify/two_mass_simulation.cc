@@ -1,4 +1,4 @@
-#include "study/identify/two_mass_twin.h"
+#include "study/identify/two_mass_simulation.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "harness/panel/realtime_hand.h"
+#include "harness/panel/realtime_operator.h"
 
 #include <utility>
 

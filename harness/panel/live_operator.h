@@ -17,7 +17,7 @@
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/lockstep/hand.h"
 #include "harness/lockstep/lockstep_bench.h"
-#include "harness/panel/run_hand.h"
+#include "harness/panel/run_operator.h"
 
 namespace towbench::harness {
 

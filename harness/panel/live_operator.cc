@@ -1,4 +1,4 @@
-#include "harness/panel/live_hand.h"
+#include "harness/panel/live_operator.h"
 
 #include <algorithm>
 #include <utility>

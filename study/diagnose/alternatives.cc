@@ -1,4 +1,4 @@
-#include "study/diagnose/rivals.h"
+#include "study/diagnose/alternatives.h"
 
 #include <Eigen/QR>
 #include <algorithm>

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/spsc_queue.h"
-#include "harness/panel/run_hand.h"
+#include "harness/panel/run_operator.h"
 
 namespace towbench::harness {
 

@@ -1,4 +1,4 @@
-#include "harness/board_bench/board_twin.h"
+#include "harness/board_bench/reference_board.h"
 
 #include "harness/board_bench/firmware_run.h"
 #include "harness/link/in_process_plant.h"

@@ -1,4 +1,4 @@
-#include "study/diagnose/lookalikes.h"
+#include "study/diagnose/aliased_effects.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
