@@ -3,9 +3,9 @@
 //
 // `seconds_of_log` 15, 30, 60 a run: cost should grow as the data do, `us_per_sample` stay. Beside
 // it the same data through a plain sparse regression (sequentially thresholded least squares;
-// Brunton, Proctor, Kutz 2016) over one group of columns an effect: no twin, no correction for
-// correlated noise, no held-out gain. `over_sparse` is the ratio of the two, of one and the same
-// process and data.
+// Brunton, Proctor, Kutz 2016) over one group of columns an effect: no simulated reference, no
+// correction for correlated noise, no held-out gain. `over_sparse` is the ratio of the two, of one
+// and the same process and data.
 #include <Eigen/QR>
 #include <chrono>
 #include <map>

@@ -162,7 +162,7 @@ void odeint_rk4_10us(benchmark::State& state) {
   odeint_rk4(state, 10, 0.005);
 }
 
-// As fine as is still worth running: what the smoothing leaves is not the step's to mend.
+// As fine as is still worth running: what the smoothing leaves is not for the step to remove.
 void odeint_rk4_2us(benchmark::State& state) {
   odeint_rk4(state, 50, 0.001);
 }

@@ -1,4 +1,4 @@
-// What it costs a run at full speed that a panel looks on and may steer: the loop's own time with
+// What it costs a run at full speed that a panel observes and may steer: the loop's own time with
 // the panel's tap, hand and frames (made twenty times a second on another thread, as for an open
 // page) over the loop's time without, in alternation.
 #include <algorithm>
@@ -42,13 +42,13 @@ double plain_s(const ExperimentFixture& fixture, const fs::path& out) {
 }
 
 double watched_s(Session& session, FrameMaker& frames, const char* experiment) {
-  look_on();
+  observe_only();
   session.start({.experiment = experiment, .pace = {.speed = 0, .paused = false}});
   while (session.state().phase != Session::Phase::kOver) {
     benchmark::DoNotOptimize(frames.next());
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  take_turns();
+  share_processor();
   std::ifstream stream(session.runs() / session.state().folder / "result.json");
   return nlohmann::json::parse(stream).at("wall_time_s").get<double>();
 }
@@ -101,7 +101,7 @@ class ThreadTime {
 double thread_s(const ExperimentFixture& fixture, const fs::path& out, LiveTap* tap) {
   ThreadTime time;
   const std::atomic<bool> stop{false};
-  LiveHand hand(fixture, 1, {.speed = 0, .paused = false}, false, stop);
+  LiveOperator hand(fixture, 1, {.speed = 0, .paused = false}, false, stop);
   RunOptions options;
   options.out = out;
   options.watchers = time.watchers();

@@ -33,6 +33,7 @@ for extension in "$@"; do
       open(my $in, "<", $file) or next;  # listed by git and not yet committed as deleted
       my $fenced = 0;
       while (my $line = <$in>) {
+        next if $line =~ /kept word:/;  # a value that other data depends on
         my $text = $line;
         if ($file =~ /\.md$/) {
           if ($text =~ /^\s*```/) { $fenced = !$fenced; next; }

@@ -22,7 +22,7 @@ shellcheck -x "${scripts[@]}" || status=1
 sh tools/check_includes.sh . || status=1
 sh tools/check_folder_cycles.sh . || status=1
 sh tools/check_pages.sh . || status=1
-sh tools/check_words.sh . md || status=1
+sh tools/check_words.sh . md cc h ts toml sh py || status=1
 sh tools/check_commits.sh . "${TOWBENCH_LINT_BASE:-795b709}" || status=1
 
 # An absolute path of somebody's machine in a tracked file is a mistake, always.

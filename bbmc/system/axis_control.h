@@ -37,8 +37,8 @@ class AxisControl {
   // Whether the encoder can be believed.
   TOWBENCH_REALTIME [[nodiscard]] core::ErrorCode judge_encoder() noexcept;
   // Whether the axis moves where or as fast as it must not, by count and speed alone. Asked once an
-  // exchange: too fast is what is too fast twice, because a lying encoder's last two edges may make
-  // a speed of anything.
+  // exchange: too fast is what is too fast twice, because the last two edges of a wrong encoder
+  // reading may make a speed of anything.
   TOWBENCH_REALTIME [[nodiscard]] bool breaks_limits() noexcept;
   TOWBENCH_REALTIME [[nodiscard]] bool amplifier_failed(core::Nanoseconds now_ns,
                                                         bool ready) const noexcept;

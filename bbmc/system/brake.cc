@@ -73,7 +73,7 @@ void Brake::begin(const BrakeInput& input, bool coasting) noexcept {
   updated_ns_ = now_ns;
   push_until_ns_ = now_ns;
   torque_Nm_ = 0;
-  stalest_ns_ = 0;
+  max_age_ns_ = 0;
   coasting_ = coasting;
   blind_ = false;
   late_ = false;
@@ -143,20 +143,20 @@ void Brake::begin_again_after_gap(const BrakeInput& input) noexcept {
   }
 }
 
-void Brake::heed_age(const BrakeInput& input) noexcept {
-  if (input.age_ns >= stalest_ns_ || input.now_ns - stalest_at_ns_ > kLatenessLasts_ns) {
-    stalest_ns_ = input.age_ns;
-    stalest_at_ns_ = input.now_ns;
+void Brake::update_latency(const BrakeInput& input) noexcept {
+  if (input.age_ns >= max_age_ns_ || input.now_ns - max_age_at_ns_ > kLatenessLasts_ns) {
+    max_age_ns_ = input.age_ns;
+    max_age_at_ns_ = input.now_ns;
   }
   const bool was_late = late_;
-  late_ = stalest_ns_ > kPrompt_ns;
+  late_ = max_age_ns_ > kPrompt_ns;
   if (late_ && !was_late) {
     push(input);
   }
 }
 
 double Brake::damped_gain_Nm_s_per_rad() const noexcept {
-  const double delay_s = core::seconds(stalest_ns_ + kOwnDelay_ns);
+  const double delay_s = core::seconds(max_age_ns_ + kOwnDelay_ns);
   return kDampedGainTimesDelay * settings_.rotor_inertia_kg_m2 / delay_s *
          std::max(0.0, 1.0 - 4.0 * delay_s * free_chain_Hz_);
 }
@@ -218,7 +218,7 @@ BrakeState Brake::update(const BrakeInput& input) noexcept {
   }
   const core::Nanoseconds since_ns = input.now_ns - updated_ns_;
   begin_again_after_gap(input);
-  heed_age(input);
+  update_latency(input);
   asks_ = late_ ? EndAsks::kNothing : end_.update(input, torque_Nm_, since_ns, since_ns > kGap_ns);
   const BrakeState state = judge(input);
   torque_Nm_ = state != BrakeState::kBraking || coasting_ || gives_way_

@@ -7,11 +7,11 @@
 // takes the carriage's swing out instead of letting it run on. Standstill counts only when it
 // lasts, because the motor passes through zero while the carriage still swings.
 //
-// An encoder that lies, or an amplifier that inverts or does not follow, makes this law push: when
-// the speed grows well beyond what it was, or has not fallen long after it should have, the drive
-// is given up. But a chain that skips throws the light motor as fast: so at first the drive is only
-// taken away. A motor that was thrown is slow again within half a swing on the chain, and the brake
-// goes on; one that was pushed is not.
+// A wrong encoder reading, or an amplifier that inverts or does not follow, makes this law push:
+// when the speed grows well beyond what it was, or has not fallen long after it should have, the
+// drive is given up. But a chain that skips throws the light motor as fast: so at first the drive
+// is only taken away. A motor that was thrown is slow again within half a swing on the chain, and
+// the brake goes on; one that was pushed is not.
 //
 // A speed that comes late (a slow link, a clock that leapt ahead) turns that law into an
 // oscillator: the light motor answers within 2 ms. Then the brake first takes the axis's momentum
@@ -77,7 +77,7 @@ class Brake {
   void begin_again_after_gap(const BrakeInput& input) noexcept;
   void push(const BrakeInput& input) noexcept;
   [[nodiscard]] bool runs_away(core::Nanoseconds now_ns, double speed_count_per_s) noexcept;
-  void heed_age(const BrakeInput& input) noexcept;
+  void update_latency(const BrakeInput& input) noexcept;
   [[nodiscard]] double damped_gain_Nm_s_per_rad() const noexcept;
   [[nodiscard]] double wanted_torque_Nm(const BrakeInput& input) const noexcept;
   [[nodiscard]] core::Nanoseconds rigid_stop_ns(double speed_count_per_s) const noexcept;
@@ -95,8 +95,8 @@ class Brake {
   core::Nanoseconds blind_until_ns_ = 0;
   double blind_direction_ = 0;            // of the motion
   core::Nanoseconds unexplained_ns_ = 0;  // last time it had not
-  core::Nanoseconds stalest_ns_ = 0;      // the greatest age of late
-  core::Nanoseconds stalest_at_ns_ = 0;   // when that was
+  core::Nanoseconds max_age_ns_ = 0;      // the greatest age of late
+  core::Nanoseconds max_age_at_ns_ = 0;   // when that was
   core::Nanoseconds updated_ns_ = 0;
   core::Nanoseconds push_from_ns_ = 0;
   core::Nanoseconds push_until_ns_ = 0;

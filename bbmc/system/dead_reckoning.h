@@ -3,9 +3,10 @@
 //
 //   omega = omega(t - 64 ms) + 1/J integral of tau_motor dt      friction left out: a few per cent
 //
-// A lying encoder is found within 50 ms (60 ms on a machine that is not the one configured), so
-// what it said 64 ms ago is true, unless it has lied from the start. Then it is found within 5 mm,
-// which at more than 0.078 m/s takes less than 64 ms: slower speeds are not believed here.
+// A wrong encoder reading is found within 50 ms (60 ms on a machine that is not the one
+// configured), so what it said 64 ms ago is true, unless it has lied from the start. Then it is
+// found within 5 mm, which at more than 0.078 m/s takes less than 64 ms: slower speeds are not
+// believed here.
 //
 // Where only the link is in doubt, what the encoder said last was true. But the motor swings on the
 // chain: the speed of the axis as a whole is the mean over the last 112 ms (a swing of Y's

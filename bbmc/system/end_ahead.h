@@ -18,7 +18,7 @@
 // chain pulls with that torque, pressing would only make the axis swing. There the motor turns back
 // at a fifth of the speed with which the end-stop was reached, while the carriage runs on, and only
 // where it might run on too far on a chain softer and with a carriage heavier by a tenth than the
-// drawings': a host that falls asleep meanwhile leaves the motor turning.
+// drawings': a host that is suspended meanwhile leaves the motor turning.
 #pragma once
 
 #include "bbmc/system/axis_configuration.h"

@@ -75,7 +75,7 @@ std::optional<std::uint32_t> DebugProbe::stack_used() const {
   constexpr std::uint8_t kPaint = 0xA5;
   const StackPlace place = stack_of(board_);
   if (place.size == 0) {
-    return stack_of_stranger();
+    return stack_of_third_party();
   }
   const auto bytes = board_.memory(place.bottom, place.size);
   const auto touched =
@@ -85,7 +85,7 @@ std::optional<std::uint32_t> DebugProbe::stack_used() const {
 
 // Memory outside the image is zero before the start. Around where interrupts found the stack it is
 // followed both ways, until a gap of zeros says that it has ended.
-std::optional<std::uint32_t> DebugProbe::stack_of_stranger() const {
+std::optional<std::uint32_t> DebugProbe::stack_of_third_party() const {
   constexpr std::uint32_t kGapBelow = 1U << 20U;
   constexpr std::uint32_t kGapAbove = 1U << 12U;
   const std::uint32_t known = board_.profile().highest_stack();

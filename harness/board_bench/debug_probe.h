@@ -1,6 +1,6 @@
 // A debugger's view of the bench's own BBMC on the virtual board (bbmc/baremetal/debug_port.h): its
 // parameters before the start, its telemetry while it runs. An image that has no such port is a
-// stranger: nothing is known of it but its pins and its console.
+// third-party image: nothing is known of it but its pins and its console.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +29,9 @@ class DebugProbe {
   [[nodiscard]] std::uint64_t rows_lost() const noexcept {
     return port_ == nullptr ? 0 : port_->lost;
   }
-  // Deepest use of the stack, in bytes: of the bench's own image by its paint, of a stranger's by
-  // the zeros below it. None where a stranger's stack lies among its other data.
+  // Deepest use of the stack, in bytes: of the bench's own image by its paint, of a third-party
+  // image by the zeros below it. None where the stack of a third-party image lies among its other
+  // data.
   [[nodiscard]] std::optional<std::uint32_t> stack_used() const;
   // 0 where the image has no such symbols.
   [[nodiscard]] std::uint32_t stack_size() const;
@@ -40,7 +41,7 @@ class DebugProbe {
     return port_ != nullptr && port_->magic == bbmc::DebugPort::kMagic;
   }
 
-  [[nodiscard]] std::optional<std::uint32_t> stack_of_stranger() const;
+  [[nodiscard]] std::optional<std::uint32_t> stack_of_third_party() const;
 
   board::Board& board_;
   bbmc::DebugPort* port_ = nullptr;

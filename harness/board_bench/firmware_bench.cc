@@ -5,7 +5,7 @@
 namespace towbench::harness {
 namespace {
 
-// A stranger is idle when nothing has been driven and nothing typed for so long.
+// A third-party image is idle when nothing has been driven and nothing typed for so long.
 constexpr core::Nanoseconds kQuiet_ns = 300 * core::kNanosecondsPerMillisecond;
 // Rows wait in the image at most for one long reply of its console.
 constexpr std::size_t kDecodedKept = 4096;

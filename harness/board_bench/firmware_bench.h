@@ -46,7 +46,8 @@ class FirmwareBench {
   void type(std::string_view bytes);
   // The board was switched off and on: the image counts its time from here.
   void restarted() noexcept { row_seen_ = false; }
-  // False until an image that is known has started; a stranger's script waits for its prompt.
+  // False until an image that is known has started; the script of a third-party image waits for its
+  // prompt.
   [[nodiscard]] bool listens() const noexcept {
     return !probe_.has_port() || (row_seen_ && now_ns_ >= kStartUp_ns);
   }
@@ -58,7 +59,7 @@ class FirmwareBench {
   [[nodiscard]] std::string failure() const;
 
   [[nodiscard]] DebugProbe& probe() noexcept { return probe_; }
-  // Rows of a stranger's log are this far apart.
+  // Rows of the log of a third-party image are this far apart.
   static constexpr core::Nanoseconds kStartUp_ns = 10 * core::kNanosecondsPerMillisecond;
   static constexpr core::Nanoseconds kPinRow_ns = core::kNanosecondsPerMillisecond;
 

@@ -74,15 +74,15 @@ void refuse_faults_beyond_machine(const FaultPlan& faults) {
   }
 }
 
-PreparedPlan prepare_for_image(const ExperimentFixture& sound, const CaseRecord& twin) {
+PreparedPlan prepare_for_image(const ExperimentFixture& sound, const CaseRecord& reference) {
   for (const Fault& fault : sound.experiment.faults) {
-    if (twin.log.empty() && asks_controller(fault.trigger)) {
+    if (reference.log.empty() && asks_controller(fault.trigger)) {
       refuse(fault,
              "a time, a position, a speed or the edge of a line: this image tells nobody of its "
              "motions and faults");
     }
   }
-  return prepare(sound.experiment.faults, sound, twin);
+  return prepare(sound.experiment.faults, sound, reference);
 }
 
 ExperimentFixture with_faults(const ExperimentFixture& sound, const PreparedPlan& prepared) {
@@ -107,11 +107,11 @@ std::optional<ExperimentFixture> pressed_where_welded(const ExperimentFixture& s
   return pressed;
 }
 
-std::vector<Check> judge_beside_twin(const std::filesystem::path& folder,
-                                     const std::filesystem::path& twin) {
+std::vector<Check> judge_beside_reference(const std::filesystem::path& folder,
+                                          const std::filesystem::path& reference) {
   double fired_s = -1;
   for (const char* name : {"truth.csv", "log.csv"}) {
-    const double differs_s = first_difference_s(folder / name, twin / name);
+    const double differs_s = first_difference_s(folder / name, reference / name);
     fired_s = fired_s < 0 ? differs_s : differs_s < 0 ? fired_s : std::min(fired_s, differs_s);
   }
   Check fired;
@@ -128,7 +128,7 @@ std::vector<Check> judge_beside_twin(const std::filesystem::path& folder,
   contact.name = "no_hard_end_contact";
   contact.meaning = "the carriage meets no hard end that it does not meet without the fault";
   const auto contacts = contacts_in(folder);
-  const auto before = contacts_in(twin);
+  const auto before = contacts_in(reference);
   contact.value = static_cast<double>(contacts);
   contact.max = static_cast<double>(before);
   contact.verdict = contacts <= before ? Verdict::kPass : Verdict::kFail;

@@ -1,5 +1,6 @@
 // Faults of the machine under an image on the virtual board. When they begin is found in the run of
-// the same image without them (reference_board.h), and what they have changed is read from both records.
+// the same image without them (reference_board.h), and what they have changed is read from both
+// records.
 #pragma once
 
 #include <filesystem>
@@ -15,10 +16,10 @@ namespace towbench::harness {
 // Throws FixtureError for a fault that needs more than the machine: a link, or a host.
 void refuse_faults_beyond_machine(const FaultPlan& faults);
 
-// The plan of a sound experiment, with its moments. Throws FixtureError for one that the twin does
-// not meet, or that only an image with a record of its own would tell.
+// The plan of a sound experiment, with its moments. Throws FixtureError for one that the reference
+// run does not meet, or that only an image with a record of its own would tell.
 [[nodiscard]] PreparedPlan prepare_for_image(const ExperimentFixture& sound,
-                                             const CaseRecord& twin);
+                                             const CaseRecord& reference);
 // As events and as built.
 [[nodiscard]] ExperimentFixture with_faults(const ExperimentFixture& sound,
                                             const PreparedPlan& prepared);
@@ -29,7 +30,7 @@ void refuse_faults_beyond_machine(const FaultPlan& faults);
 
 // From the records of both runs: whether anything differs (INVALID when nothing does), and whether
 // the carriage met a hard end that it did not meet without.
-[[nodiscard]] std::vector<Check> judge_beside_twin(const std::filesystem::path& folder,
-                                                   const std::filesystem::path& twin);
+[[nodiscard]] std::vector<Check> judge_beside_reference(const std::filesystem::path& folder,
+                                                        const std::filesystem::path& reference);
 
 }  // namespace towbench::harness

@@ -28,8 +28,8 @@ class Both final : public emulator::PlantObserver {
 
 }  // namespace
 
-BoardTwin::BoardTwin(const ExperimentFixture& sound, const std::filesystem::path& image,
-                     std::uint64_t seed) {
+ReferenceBoard::ReferenceBoard(const ExperimentFixture& sound, const std::filesystem::path& image,
+                               std::uint64_t seed) {
   PlantRecorder recorder(files_.path(), nullptr);
   Both both(recorder, record_);
   BoardTruth truth(both);
@@ -40,7 +40,7 @@ BoardTwin::BoardTwin(const ExperimentFixture& sound, const std::filesystem::path
   recorder.flush();
 }
 
-void BoardTwin::copy_to(const std::filesystem::path& folder) const {
+void ReferenceBoard::copy_to(const std::filesystem::path& folder) const {
   std::filesystem::copy(files_.path(), folder, std::filesystem::copy_options::recursive);
 }
 

@@ -11,10 +11,11 @@
 
 namespace towbench::harness {
 
-class BoardTwin {
+class ReferenceBoard {
  public:
   // Runs. Throws FixtureError when the image cannot be loaded.
-  BoardTwin(const ExperimentFixture& sound, const std::filesystem::path& image, std::uint64_t seed);
+  ReferenceBoard(const ExperimentFixture& sound, const std::filesystem::path& image,
+                 std::uint64_t seed);
 
   // Truth and events of the plant; rows and events of an image that tells them (debug_probe.h).
   [[nodiscard]] const CaseRecord& record() const noexcept { return record_; }

@@ -123,8 +123,8 @@ void read_campaign(const std::filesystem::path& path, Campaign& campaign, Canoni
   for (const auto& motion : motions) {
     auto plain =
         without_expectations(load_experiment(file.resolve(motion, reader.place_of("motions"))));
-    auto twin = run_twin(plain, plain.experiment.seed);
-    campaign.motions.push_back({std::move(plain), std::move(twin)});
+    auto reference = run_reference(plain, plain.experiment.seed);
+    campaign.motions.push_back({std::move(plain), std::move(reference)});
   }
   check_motions(campaign, reader);
 }

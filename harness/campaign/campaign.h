@@ -28,10 +28,11 @@ struct CampaignEntry {
   std::uint64_t seeds = 0;            // 0: as the campaign
 };
 
-// A motion on which faults are tried: an experiment without its expectations, and its twin.
+// A motion on which faults are tried: an experiment without its expectations, and its reference
+// run.
 struct CampaignMotion {
   ExperimentFixture plain;
-  std::unique_ptr<CaseRecord> twin;
+  std::unique_ptr<CaseRecord> reference;
 };
 
 class DrawnMachines;
@@ -49,7 +50,7 @@ struct Campaign {
   double spread = 0.1;         // they differ from it by up to so much, relative
   std::filesystem::path file;
   std::vector<CampaignEntry> entries;
-  std::vector<CampaignMotion> motions;   // twins have been run
+  std::vector<CampaignMotion> motions;   // reference runs have been run
   std::vector<std::string> carriers;     // empty: in one process
   std::vector<std::string> refused;      // "part kind over carrier: why"
   std::unique_ptr<DrawnMachines> drawn;  // once drawn (drawn_machines.h)

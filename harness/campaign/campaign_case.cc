@@ -63,8 +63,8 @@ CaseVerdict verdict_of(const Campaign& campaign, const CampaignCase& one) {
   if (on_record) {
     return verdict_on_record(campaign, motion, one);
   }
-  const auto prepared = prepare(plan, motion.plain, *motion.twin);
-  return judge_case(motion.plain, prepared, *motion.twin, motion.plain.experiment.seed);
+  const auto prepared = prepare(plan, motion.plain, *motion.reference);
+  return judge_case(motion.plain, prepared, *motion.reference, motion.plain.experiment.seed);
 }
 
 // Nothing was there for the fault to act on: no edge to drop, no duty above the saturation, or a

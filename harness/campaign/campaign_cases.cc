@@ -102,10 +102,10 @@ class CaseList {
                   const std::string& kind, const FaultPlace& place) {
     Fault fault;
     fault.place = place;
-    const auto spans = phases_of(*motion.twin, trigger_axis(fault, *motion.twin));
+    const auto spans = phases_of(*motion.reference, trigger_axis(fault, *motion.reference));
     // The motion itself; what is tried afterwards belongs to the script.
     const auto end_ns = onset_of({.kind = FaultTrigger::Kind::kEvent, .name = "motion_end"},
-                                 fault.place.axis, *motion.twin);
+                                 fault.place.axis, *motion.reference);
     for (const auto& phase : entry.phases) {
       std::vector<PhaseSpan> fitting;
       std::copy_if(spans.begin(), spans.end(), std::back_inserter(fitting),

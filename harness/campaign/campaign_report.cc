@@ -241,7 +241,8 @@ std::string campaign_report(const CampaignReport& report, const Results& results
       report.title, name_of(sum.verdict()), sum.cases, sum.fired, sum.detected, sum.handled,
       sum.failed, sum.invalid, sum.missing);
   text +=
-      "Injected: made to happen. Fired: a plant or sensor signal differs from the fault-free twin. "
+      "Injected: made to happen. Fired: a plant or sensor signal differs from the fault-free "
+      "reference run. "
       "Detected: the controller latched a fault. Handled: every requirement that applies held; a "
       "fault that nobody can see is handled when nothing worse follows.\n\n";
   text += fmt::format(

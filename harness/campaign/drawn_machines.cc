@@ -164,8 +164,8 @@ const CampaignMotion& DrawnMachines::motion(std::size_t machine, const std::stri
   if (found == motions_.end()) {
     auto plain =
         without_expectations(load_experiment(folder_of(folder_, machine) / (name + ".toml")));
-    auto twin = run_twin(plain, plain.experiment.seed);
-    motions_.push_back({std::move(plain), std::move(twin)});
+    auto reference = run_reference(plain, plain.experiment.seed);
+    motions_.push_back({std::move(plain), std::move(reference)});
     found = motions_.end() - 1;
   }
   return *found;

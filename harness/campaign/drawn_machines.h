@@ -22,7 +22,8 @@ class DrawnMachines {
   // filesystem_error.
   DrawnMachines(const Campaign& campaign, std::filesystem::path folder);
 
-  // Of machine 1 .. machines. Runs the twin when it is asked for; keeps those of one machine.
+  // Of machine 1 .. machines. Runs the reference run when it is asked for; keeps those of one
+  // machine.
   [[nodiscard]] const CampaignMotion& motion(std::size_t machine, const std::string& name);
   // The file of a motion on a machine; the fixture's own for machine 0.
   [[nodiscard]] static std::filesystem::path file_of(const Campaign& campaign,

@@ -282,7 +282,7 @@ int execute_campaign(const CampaignOptions& options) {
 
 void add_campaign(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CampaignOptions>();
-  auto* verb = app.add_subcommand("campaign", "try faults on motions, by the thousand");
+  auto* verb = app.add_subcommand("campaign", "run a fault-injection campaign");
   verb->add_option("campaign", options->campaign,
                    "name of a campaign of fixtures/campaigns, or a path")
       ->capture_default_str();

@@ -1,4 +1,4 @@
-// towbench doctor: is this host fit for wires and for real time, and what would mend it.
+// towbench doctor: is this host fit for wires and for real time, and what would improve it.
 #include <cstdio>
 #include <memory>
 
@@ -37,10 +37,10 @@ int execute_doctor(const DoctorOptions& options) {
       lines.push_back({{"subject", finding.subject},
                        {"fit", name_of(finding.fit)},
                        {"found", finding.found},
-                       {"mend", finding.mend}});
+                       {"remedy", finding.remedy}});
     } else {
       fmt::print("{:<8} {:<12} {}{}\n", name_of(finding.fit), finding.subject, finding.found,
-                 finding.mend.empty() ? "" : "; " + finding.mend);
+                 finding.remedy.empty() ? "" : "; " + finding.remedy);
     }
   }
   if (options.json) {
@@ -54,7 +54,7 @@ int execute_doctor(const DoctorOptions& options) {
 
 void add_doctor(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DoctorOptions>();
-  auto* verb = app.add_subcommand("doctor", "what this host is fit for, and how to mend it");
+  auto* verb = app.add_subcommand("doctor", "what this host is fit for, and how to improve it");
   verb->add_option("--seconds", options->seconds, "how long to measure its lateness; 0: not at all")
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();

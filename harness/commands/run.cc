@@ -95,7 +95,7 @@ void add_run(CLI::App& app, int& exit_code) {
                    "name of an experiment of fixtures/experiments, or a path")
       ->required();
   verb->add_option("--fault", options->faults,
-                   "break something: \"PART KIND at=TIME ...\"; several make several faults")
+                   "break something: \"PART KIND at=TIME ...\"; may be repeated")
       ->take_all();
   verb->add_option("--fault-plan", options->fault_plan, "break what this file says");
   add_experiment_options(*verb, options->shared);

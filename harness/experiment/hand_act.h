@@ -11,8 +11,8 @@
 namespace towbench::harness {
 
 struct HandAct {
-  // What is broken and mended stands in the experiment's faults too; those make it happen.
-  enum class Kind : std::uint8_t { kTyped, kFault, kMended, kChanged, kClock, kHolds, kFinished };
+  // What is broken and cleared stands in the experiment's faults too; those make it happen.
+  enum class Kind : std::uint8_t { kTyped, kFault, kCleared, kChanged, kClock, kHolds, kFinished };
   core::Nanoseconds time_ns = 0;  // of the exchange before which it was done
   Kind kind = Kind::kClock;
   // Bytes for the console; a fault in words; what was changed before the start; what was done to
@@ -23,7 +23,7 @@ struct HandAct {
   [[nodiscard]] bool disturbs() const noexcept { return kind < Kind::kClock; }
 };
 
-inline constexpr std::string_view kHandActNames[] = {"typed", "fault", "mended",  "changed",
+inline constexpr std::string_view kHandActNames[] = {"typed", "fault", "cleared", "changed",
                                                      "clock", "holds", "finished"};
 [[nodiscard]] inline std::string_view name_of(HandAct::Kind kind) noexcept {
   return kHandActNames[static_cast<std::size_t>(kind)];

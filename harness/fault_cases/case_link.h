@@ -95,7 +95,7 @@ class CaseLink final : public PlantEnd {
     std::uint64_t digest = 0;
   };
 
-  // What befalls the peer or the bus by then.
+  // What happens to the peer or the bus by then.
   void strike(core::Nanoseconds time_ns) noexcept;
   [[nodiscard]] bool is_lost() const noexcept { return lost_ != core::ErrorCode::kNone; }
   // A node that is off its bus puts nothing on it, and hears of that from its driver.

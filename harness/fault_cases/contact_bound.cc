@@ -50,8 +50,8 @@ const Contact* first_contact(const CaseEvidence& evidence, Contact& contact) {
 }
 
 // When the controller was in a position to know that the axis had to stop: a switch of that axis
-// told it, it latched a fault itself, a lying encoder had to be found, or its own (true) position
-// said so. Never: nothing could have told.
+// told it, it latched a fault itself, a wrong encoder reading had to be found, or its own (true)
+// position said so. Never: nothing could have told.
 Nanoseconds could_know_ns(const CaseEvidence& evidence, const Contact& contact) {
   const auto& run = evidence.run;
   Nanoseconds known_ns = kNever;
@@ -66,10 +66,10 @@ Nanoseconds could_know_ns(const CaseEvidence& evidence, const Contact& contact) 
     known_ns = std::min(known_ns, fault->time_ns);
   }
   const auto& plan = evidence.prepared.plan;
-  const bool encoder_lies = std::any_of(plan.begin(), plan.end(), [](const Fault& fault) {
+  const bool encoder_is_wrong = std::any_of(plan.begin(), plan.end(), [](const Fault& fault) {
     return fault.place.part == FaultPart::kEncoder && fault.row().duty == FaultDuty::kStop;
   });
-  return encoder_lies ? std::min(known_ns, evidence.cause_ns + kDetection_ns) : known_ns;
+  return encoder_is_wrong ? std::min(known_ns, evidence.cause_ns + kDetection_ns) : known_ns;
 }
 
 // When the drive is taken away, braking included: a kill demands it, and over a link that is lost
@@ -153,8 +153,8 @@ Check no_preventable_contact(const CaseEvidence& evidence) {
   auto unavoidable = passed(kName, kMeaning);
   unavoidable.value = contact.speed_m_per_s;
   unavoidable.unit = "m/s";
-  // What the controller did before the fault began did no harm: the twin touches nothing. A host
-  // that does not run reacts when it runs again.
+  // What the controller did before the fault began did no harm: the reference run touches nothing.
+  // A host that does not run reacts when it runs again.
   const auto known_ns =
       served_ns(evidence, std::max(could_know_ns(evidence, contact), evidence.cause_ns));
   if (known_ns == kNever || known_ns + kBestReaction_ns >= contact.time_ns) {

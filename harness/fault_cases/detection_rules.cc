@@ -125,7 +125,7 @@ MaybeCheck no_false_trip(const CaseEvidence& evidence) {
   if (!harmless) {
     return std::nullopt;
   }
-  if (fault != nullptr && evidence.twin.first_fault() == nullptr) {
+  if (fault != nullptr && evidence.reference.first_fault() == nullptr) {
     return failed(
         kName, kMeaning,
         fmt::format("fault {}: {}", core::number_of(fault->code), core::describe(fault->code)));
@@ -140,7 +140,7 @@ MaybeCheck bounce_while_leaving_is_ignored(const CaseEvidence& evidence) {
   if (fault == nullptr || fault->kind != kBounce) {
     return std::nullopt;
   }
-  const auto& edges = evidence.twin.plant_events;
+  const auto& edges = evidence.reference.plant_events;
   const auto line = fault->place.hall_line();
   const auto index = static_cast<std::size_t>(fault - evidence.prepared.plan.data());
   const auto edge = std::find_if(edges.begin(), edges.end(), [&](const auto& event) {
@@ -157,7 +157,7 @@ MaybeCheck bounce_while_leaving_is_ignored(const CaseEvidence& evidence) {
         run.controller_events.begin(), run.controller_events.end(),
         [](const auto& event) { return event.kind == bbmc::ControllerEvent::Kind::kFaultLatched; });
   };
-  if (faults_of(evidence.run) > faults_of(evidence.twin)) {
+  if (faults_of(evidence.run) > faults_of(evidence.reference)) {
     return failed(kName, kMeaning, "it was stopped once more than with a sound switch");
   }
   return passed(kName, kMeaning);
@@ -167,10 +167,10 @@ MaybeCheck fault_number_fits(const CaseEvidence& evidence) {
   constexpr auto kName = "fault_number";
   constexpr auto kMeaning = "what is latched names what happened";
   const auto* latched = evidence.run.first_fault();
-  const auto* of_twin = evidence.twin.first_fault();
-  const bool same_as_twin =
-      latched != nullptr && of_twin != nullptr && latched->code == of_twin->code;
-  if (latched == nullptr || same_as_twin) {
+  const auto* of_reference = evidence.reference.first_fault();
+  const bool same_as_reference =
+      latched != nullptr && of_reference != nullptr && latched->code == of_reference->code;
+  if (latched == nullptr || same_as_reference) {
     return std::nullopt;
   }
   const auto number = core::number_of(latched->code);
@@ -188,7 +188,7 @@ MaybeCheck fault_number_fits(const CaseEvidence& evidence) {
                (fault.row().duty == FaultDuty::kNothing && (between(303, 315) || number == 350));
         break;
       case FaultPart::kEncoder:
-        // A lying encoder may put the axis anywhere; that it lies must still be told.
+        // A wrong encoder reading may put the axis anywhere; that it is wrong must still be told.
         fits = fits || between(must_be_found(fault) ? 310 : 303, 315) || number == 350;
         break;
       case FaultPart::kAmplifier:

@@ -15,7 +15,7 @@ namespace towbench::harness {
 namespace {
 
 Injection injection_of(const FaultPlan& plan, const std::vector<core::Nanoseconds>& onsets_ns,
-                       const ExperimentFixture& fixture, const CaseRecord& twin,
+                       const ExperimentFixture& fixture, const CaseRecord& reference,
                        std::size_t without, bool over_can) {
   Injection injection;
   injection.over_can = over_can;
@@ -25,10 +25,10 @@ Injection injection_of(const FaultPlan& plan, const std::vector<core::Nanosecond
       // A welded contact shows only when somebody presses it: the sound one is pressed too.
       auto pressed = plan[i];
       pressed.kind = FaultKind::kPressed;
-      inject(pressed, onsets_ns[i] + kHandComes_ns, twin, end_ns, injection);
+      inject(pressed, onsets_ns[i] + kHandComes_ns, reference, end_ns, injection);
     }
     if (i != without && plan[i].row().start == FaultStart::kAnyTime) {
-      inject(plan[i], onsets_ns[i], twin, end_ns, injection);
+      inject(plan[i], onsets_ns[i], reference, end_ns, injection);
     }
   }
   finish(injection);
@@ -50,18 +50,18 @@ constexpr std::size_t kAll = ~std::size_t{0};
 
 // From the run without this fault alone, everything else being equal.
 Check fired_check(const ExperimentFixture& plain, const PreparedPlan& prepared,
-                  const CaseRecord& twin, const CaseRecord& run, std::uint64_t seed,
+                  const CaseRecord& reference, const CaseRecord& run, std::uint64_t seed,
                   std::size_t index, core::Nanoseconds& fired_ns) {
   Check check;
   check.name = prepared.plan.size() == 1 ? "fault_fired" : fmt::format("fault_{}_fired", index + 1);
   check.meaning = "a plant or sensor signal differs from the run without the fault";
   check.unit = "s";
   if (prepared.plan.size() == 1 && prepared.plan[0].kind != FaultKind::kWelded) {
-    fired_ns = first_difference_ns(run, twin);
+    fired_ns = first_difference_ns(run, reference);
   } else {
     const auto other = run_case(plain, rig_of(prepared.plan, plain, index),
-                                injection_of(prepared.plan, prepared.onsets_ns, plain, twin, index,
-                                             prepared.injection.over_can),
+                                injection_of(prepared.plan, prepared.onsets_ns, plain, reference,
+                                             index, prepared.injection.over_can),
                                 {.seed = seed});
     fired_ns = first_difference_ns(run, *other);
   }
@@ -77,7 +77,8 @@ Check fired_check(const ExperimentFixture& plain, const PreparedPlan& prepared,
 }  // namespace
 
 PreparedPlan prepare_at(const FaultPlan& plan, const std::vector<core::Nanoseconds>& onsets_ns,
-                        const ExperimentFixture& fixture, const CaseRecord& twin, bool over_can) {
+                        const ExperimentFixture& fixture, const CaseRecord& reference,
+                        bool over_can) {
   PreparedPlan prepared{.plan = plan, .onsets_ns = onsets_ns};
   prepared.built = rig_of(plan, fixture, kAll);
   if (const char* wrong = emulator::inconsistency(prepared.built)) {
@@ -88,37 +89,37 @@ PreparedPlan prepare_at(const FaultPlan& plan, const std::vector<core::Nanosecon
       throw FixtureError({.file = "fault plan"}, describe(fault), "an axis that the rig has");
     }
   }
-  prepared.injection = injection_of(plan, onsets_ns, fixture, twin, kAll, over_can);
+  prepared.injection = injection_of(plan, onsets_ns, fixture, reference, kAll, over_can);
   return prepared;
 }
 
 PreparedPlan prepare(const FaultPlan& plan, const ExperimentFixture& fixture,
-                     const CaseRecord& twin, bool over_can) {
+                     const CaseRecord& reference, bool over_can) {
   std::vector<core::Nanoseconds> onsets_ns;
   for (const auto& fault : plan) {
     if (fault.row().start == FaultStart::kWholeRun) {
       onsets_ns.push_back(0);
       continue;
     }
-    const auto onset = onset_of(fault.trigger, trigger_axis(fault, twin), twin);
+    const auto onset = onset_of(fault.trigger, trigger_axis(fault, reference), reference);
     if (!onset) {
       throw FixtureError({.file = "fault plan"}, describe(fault),
                          "a condition that the fault-free run meets");
     }
     onsets_ns.push_back(*onset);
   }
-  return prepare_at(plan, onsets_ns, fixture, twin, over_can);
+  return prepare_at(plan, onsets_ns, fixture, reference, over_can);
 }
 
-std::unique_ptr<CaseRecord> run_twin(const ExperimentFixture& plain, std::uint64_t seed,
-                                     bool over_can) {
+std::unique_ptr<CaseRecord> run_reference(const ExperimentFixture& plain, std::uint64_t seed,
+                                          bool over_can) {
   Injection nothing;
   nothing.over_can = over_can;
   return run_case(plain, plain.rig.parameters, nothing, {.seed = seed});
 }
 
 CaseVerdict judge_case(const ExperimentFixture& plain, const PreparedPlan& prepared,
-                       const CaseRecord& twin, std::uint64_t seed,
+                       const CaseRecord& reference, std::uint64_t seed,
                        std::unique_ptr<CaseRecord>* run_out) {
   CaseVerdict verdict;
   auto run = run_case(plain, prepared.built, prepared.injection, {.seed = seed});
@@ -129,7 +130,7 @@ CaseVerdict judge_case(const ExperimentFixture& plain, const PreparedPlan& prepa
       continue;
     }
     core::Nanoseconds fired_ns = -1;
-    verdict.checks.push_back(fired_check(plain, prepared, twin, *run, seed, i, fired_ns));
+    verdict.checks.push_back(fired_check(plain, prepared, reference, *run, seed, i, fired_ns));
     verdict.fired = verdict.fired && fired_ns >= 0;
     if (fired_ns >= 0) {
       // Signals are compared once an exchange; a cause inside it is known to the nanosecond.
@@ -141,12 +142,12 @@ CaseVerdict judge_case(const ExperimentFixture& plain, const PreparedPlan& prepa
   }
   cause_ns = std::max<core::Nanoseconds>(cause_ns, 0);
   const auto* fault = run->first_fault();
-  const auto* twin_fault = twin.first_fault();
+  const auto* reference_fault = reference.first_fault();
   verdict.detected =
-      fault != nullptr && (twin_fault == nullptr || twin_fault->code != fault->code ||
-                           twin_fault->time_ns != fault->time_ns);
+      fault != nullptr && (reference_fault == nullptr || reference_fault->code != fault->code ||
+                           reference_fault->time_ns != fault->time_ns);
   verdict.figures = figures_of(*run, cause_ns);
-  const CaseEvidence evidence{plain, prepared, twin, *run, cause_ns, seed};
+  const CaseEvidence evidence{plain, prepared, reference, *run, cause_ns, seed};
   if (verdict.fired) {  // what did not happen says nothing about the controller
     judge_requirements(evidence, verdict);
   }

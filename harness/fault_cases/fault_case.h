@@ -24,18 +24,18 @@ struct PreparedPlan {
   Injection injection{};
 };
 [[nodiscard]] PreparedPlan prepare(const FaultPlan& plan, const ExperimentFixture& fixture,
-                                   const CaseRecord& twin, bool over_can = false);
+                                   const CaseRecord& reference, bool over_can = false);
 // With the beginnings known already (a run folder's, a child process's).
 [[nodiscard]] PreparedPlan prepare_at(const FaultPlan& plan,
                                       const std::vector<core::Nanoseconds>& onsets_ns,
-                                      const ExperimentFixture& fixture, const CaseRecord& twin,
+                                      const ExperimentFixture& fixture, const CaseRecord& reference,
                                       bool over_can = false);
 
 // All that the requirements look at.
 struct CaseEvidence {
   const ExperimentFixture& fixture;
   const PreparedPlan& prepared;
-  const CaseRecord& twin;  // no fault
+  const CaseRecord& reference;  // no fault
   const CaseRecord& run;
   core::Nanoseconds cause_ns = 0;
   std::uint64_t seed = 1;
@@ -43,7 +43,7 @@ struct CaseEvidence {
 
 struct CaseVerdict {
   bool fired = false;     // every fault of the plan
-  bool detected = false;  // a fault was latched that the twin does not have
+  bool detected = false;  // a fault was latched that the reference run does not have
   bool handled = false;   // every requirement held
   std::vector<Check> checks;
   CaseFigures figures;
@@ -51,13 +51,13 @@ struct CaseVerdict {
 };
 
 // The fault-free run of an experiment, without its expectations.
-[[nodiscard]] std::unique_ptr<CaseRecord> run_twin(const ExperimentFixture& plain,
-                                                   std::uint64_t seed, bool over_can = false);
+[[nodiscard]] std::unique_ptr<CaseRecord> run_reference(const ExperimentFixture& plain,
+                                                        std::uint64_t seed, bool over_can = false);
 
 // Runs and judges. Faults that strike the record are left out: there is none in memory. `plain` is
 // without expectations; `run_out` takes the record when it is not null.
 [[nodiscard]] CaseVerdict judge_case(const ExperimentFixture& plain, const PreparedPlan& prepared,
-                                     const CaseRecord& twin, std::uint64_t seed,
+                                     const CaseRecord& reference, std::uint64_t seed,
                                      std::unique_ptr<CaseRecord>* run_out = nullptr);
 
 }  // namespace towbench::harness

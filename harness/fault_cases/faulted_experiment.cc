@@ -53,9 +53,9 @@ FaultedExperiment::FaultedExperiment(const ExperimentFixture& fixture, std::uint
     : plain_(without_expectations(fixture)),
       faulted_(plain_),
       seed_(seed),
-      twin_(run_twin(plain_, seed, carrier == CarrierKind::kCan)),
+      reference_(run_reference(plain_, seed, carrier == CarrierKind::kCan)),
       prepared_(
-          prepare(plan_over(fixture, carrier), plain_, *twin_, carrier == CarrierKind::kCan)) {
+          prepare(plan_over(fixture, carrier), plain_, *reference_, carrier == CarrierKind::kCan)) {
   auto& events = faulted_.experiment.events;
   events.insert(events.end(), prepared_.injection.events.begin(), prepared_.injection.events.end());
   std::stable_sort(events.begin(), events.end(),
@@ -77,7 +77,7 @@ CaseVerdict FaultedExperiment::judge_into(const std::filesystem::path& folder, R
                                           Judgement& judgement) const {
   auto& checks = judgement.checks;
   std::unique_ptr<CaseRecord> run;
-  auto verdict = judge_case(plain_, prepared_, *twin_, seed_, &run);
+  auto verdict = judge_case(plain_, prepared_, *reference_, seed_, &run);
   const auto& host = prepared_.injection.host;
   facts.ordinary = judgement.verdict;
   auto of_record = judge_record(folder, host, *run, facts);

@@ -23,8 +23,8 @@ void add_faults(ExperimentFixture& fixture, const FaultPlan& plan);
 
 class FaultedExperiment {
  public:
-  // Runs the twin and finds when everything begins. Throws FixtureError, also for a fault that the
-  // carrier cannot have.
+  // Runs the reference run and finds when everything begins. Throws FixtureError, also for a fault
+  // that the carrier cannot have.
   FaultedExperiment(const ExperimentFixture& fixture, std::uint64_t seed,
                     CarrierKind carrier = CarrierKind::kInProcess);
 
@@ -49,7 +49,7 @@ class FaultedExperiment {
   ExperimentFixture plain_;
   ExperimentFixture faulted_;
   std::uint64_t seed_;
-  std::unique_ptr<CaseRecord> twin_;
+  std::unique_ptr<CaseRecord> reference_;
   PreparedPlan prepared_;
 };
 

@@ -18,13 +18,13 @@ using enum FaultKind;
 
 class Injector {
  public:
-  Injector(const Fault& fault, core::Nanoseconds at_ns, const CaseRecord& twin,
+  Injector(const Fault& fault, core::Nanoseconds at_ns, const CaseRecord& reference,
            core::Nanoseconds end_ns, Injection& into)
       : fault_(fault),
         at_ns_(at_ns),
         until_ns_(fault.duration_s ? at_ns + core::nanoseconds(*fault.duration_s) : end_ns),
         lasts_(!fault.duration_s),
-        twin_(twin),
+        reference_(reference),
         random_(fault.seed),
         into_(into) {}
 
@@ -153,9 +153,9 @@ class Injector {
     }
   }
 
-  // Of the machine, in the twin; -1 when none comes.
+  // Of the machine, in the reference run; -1 when none comes.
   [[nodiscard]] core::Nanoseconds next_edge_ns(InputLine line) const {
-    for (const auto& event : twin_.plant_events) {
+    for (const auto& event : reference_.plant_events) {
       if (event.kind == emulator::PlantEventKind::kInputLineChanged && event.time_ns >= at_ns_ &&
           static_cast<InputLine>(static_cast<int>(event.value)) == line) {
         return event.time_ns;
@@ -319,7 +319,7 @@ class Injector {
       return;
     }
     const double length_s = fault_.kind == kMissedTicks
-                                ? parameter(0) * core::seconds(twin_.outcome.control_period_ns)
+                                ? parameter(0) * core::seconds(reference_.outcome.control_period_ns)
                                 : parameter(0);
     host.stalls.push_back({at_ns_, at_ns_ + core::nanoseconds(length_s)});
   }
@@ -328,16 +328,16 @@ class Injector {
   core::Nanoseconds at_ns_;
   core::Nanoseconds until_ns_;
   bool lasts_;
-  const CaseRecord& twin_;
+  const CaseRecord& reference_;
   core::Random random_;
   Injection& into_;
 };
 
 }  // namespace
 
-void inject(const Fault& fault, core::Nanoseconds at_ns, const CaseRecord& twin,
+void inject(const Fault& fault, core::Nanoseconds at_ns, const CaseRecord& reference,
             core::Nanoseconds end_ns, Injection& injection) {
-  Injector(fault, at_ns, twin, end_ns, injection).run();
+  Injector(fault, at_ns, reference, end_ns, injection).run();
 }
 
 void finish(Injection& injection) {

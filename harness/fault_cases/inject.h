@@ -8,9 +8,10 @@
 
 namespace towbench::harness {
 
-// Adds one fault that begins at `at_ns`. `twin` is the run without it: where a contact is to bounce
-// at its next edge, the twin knows when that is. `end_ns` is where the run ends at the latest.
-void inject(const Fault& fault, core::Nanoseconds at_ns, const CaseRecord& twin,
+// Adds one fault that begins at `at_ns`. `reference` is the run without it: where a contact is
+// to bounce at its next edge, the reference run knows when that is. `end_ns` is where the run ends
+// at the latest.
+void inject(const Fault& fault, core::Nanoseconds at_ns, const CaseRecord& reference,
             core::Nanoseconds end_ns, Injection& injection);
 // Puts events in order; after the last inject().
 void finish(Injection& injection);

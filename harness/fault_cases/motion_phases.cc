@@ -41,9 +41,9 @@ std::string_view phase_at(const CaseRecord& run, core::Axis axis, std::size_t i)
   return speed < kStands_m_per_s ? "hold" : "cruise";
 }
 
-std::optional<core::Nanoseconds> event_onset(const std::string& name, const CaseRecord& twin) {
+std::optional<core::Nanoseconds> event_onset(const std::string& name, const CaseRecord& reference) {
   const auto controller = [&](Kind kind) -> std::optional<core::Nanoseconds> {
-    for (const auto& event : twin.controller_events) {
+    for (const auto& event : reference.controller_events) {
       if (event.kind == kind) {
         return event.time_ns;
       }
@@ -61,7 +61,7 @@ std::optional<core::Nanoseconds> event_onset(const std::string& name, const Case
   }
   constexpr std::array<std::string_view, 5> kLines{"y_min", "y_max", "x_min", "x_max",
                                                    "kill_switch"};
-  for (const auto& event : twin.plant_events) {
+  for (const auto& event : reference.plant_events) {
     if (event.kind != emulator::PlantEventKind::kInputLineChanged) {
       continue;
     }
@@ -75,14 +75,15 @@ std::optional<core::Nanoseconds> event_onset(const std::string& name, const Case
 
 // First moment at which `value`, less `level`, has changed its sign; on the line between two rows.
 template <typename Value>
-std::optional<core::Nanoseconds> crossing(const CaseRecord& twin, double level, Value value) {
-  for (std::size_t i = 1; i < twin.truth.size(); ++i) {
-    const double before = value(twin.truth[i - 1]) - level;
-    const double after = value(twin.truth[i]) - level;
+std::optional<core::Nanoseconds> crossing(const CaseRecord& reference, double level, Value value) {
+  for (std::size_t i = 1; i < reference.truth.size(); ++i) {
+    const double before = value(reference.truth[i - 1]) - level;
+    const double after = value(reference.truth[i]) - level;
     if (before != after && ((before < 0) != (after < 0))) {
       const double share = before / (before - after);
-      const auto span_ns = static_cast<double>(twin.truth[i].time_ns - twin.truth[i - 1].time_ns);
-      return twin.truth[i - 1].time_ns + static_cast<core::Nanoseconds>(share * span_ns);
+      const auto span_ns =
+          static_cast<double>(reference.truth[i].time_ns - reference.truth[i - 1].time_ns);
+      return reference.truth[i - 1].time_ns + static_cast<core::Nanoseconds>(share * span_ns);
     }
   }
   return std::nullopt;
@@ -115,7 +116,7 @@ core::Axis moving_axis(const CaseRecord& run) {
   return core::Axis::kY;
 }
 
-core::Axis trigger_axis(const Fault& fault, const CaseRecord& twin) {
+core::Axis trigger_axis(const Fault& fault, const CaseRecord& reference) {
   switch (fault.place.part) {
     case FaultPart::kEndStop:
     case FaultPart::kEncoder:
@@ -123,31 +124,31 @@ core::Axis trigger_axis(const Fault& fault, const CaseRecord& twin) {
     case FaultPart::kDriveTrain:
       return fault.place.axis;
     default:
-      return moving_axis(twin);
+      return moving_axis(reference);
   }
 }
 
 std::optional<core::Nanoseconds> onset_of(const FaultTrigger& trigger, core::Axis axis,
-                                          const CaseRecord& twin) {
+                                          const CaseRecord& reference) {
   std::optional<core::Nanoseconds> met;
   switch (trigger.kind) {
     case FaultTrigger::Kind::kTime:
       met = core::nanoseconds(trigger.value);
       break;
     case FaultTrigger::Kind::kPosition:
-      met =
-          crossing(twin, trigger.value, [&](const auto& row) { return row.axes[axis].carriage_m; });
+      met = crossing(reference, trigger.value,
+                     [&](const auto& row) { return row.axes[axis].carriage_m; });
       break;
     case FaultTrigger::Kind::kSpeed:
-      met = crossing(twin, trigger.value, [&](const auto& row) {
+      met = crossing(reference, trigger.value, [&](const auto& row) {
         return std::fabs(row.axes[axis].carriage_speed_m_per_s);
       });
       break;
     case FaultTrigger::Kind::kEvent:
-      met = event_onset(trigger.name, twin);
+      met = event_onset(trigger.name, reference);
       break;
     case FaultTrigger::Kind::kPhase:
-      for (const auto& span : phases_of(twin, axis)) {
+      for (const auto& span : phases_of(reference, axis)) {
         if (span.phase == trigger.name) {
           met = span.from_ns;
           break;

@@ -21,11 +21,12 @@ struct PhaseSpan {  // `phase`: one of kPhaseNames
 
 // When the trigger's condition is first met; none when it never is.
 [[nodiscard]] std::optional<core::Nanoseconds> onset_of(const FaultTrigger& trigger,
-                                                        core::Axis axis, const CaseRecord& twin);
+                                                        core::Axis axis,
+                                                        const CaseRecord& reference);
 
 // The axis that moves first (Y when none does): whose phases a fault of no axis goes by.
 [[nodiscard]] core::Axis moving_axis(const CaseRecord& run);
 // Whose motion decides when a fault begins.
-[[nodiscard]] core::Axis trigger_axis(const Fault& fault, const CaseRecord& twin);
+[[nodiscard]] core::Axis trigger_axis(const Fault& fault, const CaseRecord& reference);
 
 }  // namespace towbench::harness

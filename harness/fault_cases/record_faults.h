@@ -1,4 +1,4 @@
-// What befalls the host that writes the record, done for real: the kernel refuses to let a file
+// What happens to the host that writes the record, done for real: the kernel refuses to let a file
 // grow, or ends the process.
 #pragma once
 

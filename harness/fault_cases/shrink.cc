@@ -26,9 +26,9 @@ constexpr double kSmallestTime_s = 1e-3;
 std::optional<Check> broken_rule(const ExperimentFixture& fixture, std::uint64_t seed,
                                  const std::string& wanted) {
   try {
-    const auto twin = run_twin(fixture, seed);
-    const auto prepared = prepare(fixture.experiment.faults, fixture, *twin);
-    const auto verdict = judge_case(fixture, prepared, *twin, seed);
+    const auto reference = run_reference(fixture, seed);
+    const auto prepared = prepare(fixture.experiment.faults, fixture, *reference);
+    const auto verdict = judge_case(fixture, prepared, *reference, seed);
     for (const auto& check : verdict.checks) {
       if (check.verdict == Verdict::kFail && (wanted.empty() || check.name == wanted)) {
         return check;

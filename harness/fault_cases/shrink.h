@@ -2,7 +2,8 @@
 // fewer console lines and events, shorter and slower motions, round figures.
 //
 // Greedy and deterministic: one simplification after the other is tried and kept when the same
-// requirement is still broken, until none is. Every trial is a whole run with its fault-free twin.
+// requirement is still broken, until none is. Every trial is a whole run with its fault-free
+// reference run.
 #pragma once
 
 #include <cstddef>

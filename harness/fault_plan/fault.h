@@ -32,7 +32,8 @@ struct FaultPlace {
 [[nodiscard]] std::string name_of(const FaultPlace& place);
 [[nodiscard]] std::vector<std::string> all_place_names();
 
-// When it begins. Conditions are found in the fault-free twin, which is the same run up to there.
+// When it begins. Conditions are found in the fault-free reference run, which is the same run up to
+// there.
 struct FaultTrigger {
   enum class Kind : std::uint8_t { kTime, kPosition, kSpeed, kPhase, kEvent };
   Kind kind = Kind::kTime;

@@ -14,7 +14,7 @@ namespace towbench::harness {
 
 // Asked twenty times a second, it takes all that has come and tells it at once. A run at full
 // speed, which nobody can follow, is told of once a second, and of the stretch that the page shows
-// alone: whoever looks on takes the processors that such a run would use. Nobody reads the rows in
+// alone: whoever observes takes the processors that such a run would use. Nobody reads the rows in
 // between. The rows of a frame are thinned to `kMostRows`, by buckets of time: each bucket's last
 // row and the one with the largest tracking error.
 class FrameMaker {

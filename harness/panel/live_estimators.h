@@ -1,5 +1,5 @@
 // The speed by each of BBMC's estimators (thesis 3.4.2), whichever of them the controller follows:
-// its own class, fed with its own counts and with registers that were read for those who look on.
+// its own class, fed with its own counts and with registers that were read for those who observe.
 #pragma once
 
 #include <array>

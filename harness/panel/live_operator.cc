@@ -33,8 +33,8 @@ void refuse_unless_possible(const Fault& fault, const ExperimentFixture& fixture
 
 }  // namespace
 
-LiveHand::LiveHand(const ExperimentFixture& fixture, std::uint64_t seed, Pace pace, bool holds,
-                   const std::atomic<bool>& stop)
+LiveOperator::LiveOperator(const ExperimentFixture& fixture, std::uint64_t seed, Pace pace,
+                           bool holds, const std::atomic<bool>& stop)
     : fixture_(fixture),
       seed_(seed),
       holds_(holds),
@@ -42,7 +42,7 @@ LiveHand::LiveHand(const ExperimentFixture& fixture, std::uint64_t seed, Pace pa
       pace_(pace),
       done_(fixture.experiment.hand) {}
 
-void LiveHand::give(Command command) {
+void LiveOperator::give(Command command) {
   {
     const std::lock_guard lock(mutex_);
     commands_.push_back(std::move(command));
@@ -51,23 +51,23 @@ void LiveHand::give(Command command) {
   changed_.notify_all();
 }
 
-void LiveHand::type(std::string bytes) {
+void LiveOperator::type(std::string bytes) {
   give({.kind = HandAct::Kind::kTyped, .text = std::move(bytes), .fault = {}});
 }
 
-void LiveHand::break_now(Fault fault) {
+void LiveOperator::break_now(Fault fault) {
   refuse_unless_possible(fault, fixture_);
   give({.kind = HandAct::Kind::kFault, .text = {}, .fault = std::move(fault)});
 }
 
-void LiveHand::mend(const FaultPlace& place, FaultKind kind) {
+void LiveOperator::clear(const FaultPlace& place, FaultKind kind) {
   Fault fault;
   fault.place = place;
   fault.kind = kind;
-  give({.kind = HandAct::Kind::kMended, .text = {}, .fault = std::move(fault)});
+  give({.kind = HandAct::Kind::kCleared, .text = {}, .fault = std::move(fault)});
 }
 
-void LiveHand::set_speed(double speed) {
+void LiveOperator::set_speed(double speed) {
   {
     const std::lock_guard lock(mutex_);
     pace_ = {.speed = speed, .paused = false};
@@ -77,7 +77,7 @@ void LiveHand::set_speed(double speed) {
   give({.text = speed > 0 ? fmt::format("speed {:.4g}", speed) : "full speed", .fault = {}});
 }
 
-void LiveHand::pause(bool paused) {
+void LiveOperator::pause(bool paused) {
   {
     const std::lock_guard lock(mutex_);
     pace_.paused = paused;
@@ -87,7 +87,7 @@ void LiveHand::pause(bool paused) {
   give({.text = paused ? "pause" : "go on", .fault = {}});
 }
 
-void LiveHand::step(core::Nanoseconds length_ns) {
+void LiveOperator::step(core::Nanoseconds length_ns) {
   {
     const std::lock_guard lock(mutex_);
     pace_.paused = true;
@@ -96,16 +96,16 @@ void LiveHand::step(core::Nanoseconds length_ns) {
   give({.text = fmt::format("step {} us", length_ns / 1000), .fault = {}});
 }
 
-void LiveHand::finish() {
+void LiveOperator::finish() {
   give({.kind = HandAct::Kind::kFinished, .text = "finish", .fault = {}});
 }
 
-LiveHand::Pace LiveHand::pace() const {
+LiveOperator::Pace LiveOperator::pace() const {
   const std::lock_guard lock(mutex_);
   return pace_;
 }
 
-std::vector<std::string> LiveHand::broken() const {
+std::vector<std::string> LiveOperator::broken() const {
   const std::lock_guard lock(mutex_);
   std::vector<std::string> words;
   for (const auto& fault : broke_) {
@@ -116,12 +116,12 @@ std::vector<std::string> LiveHand::broken() const {
   return words;
 }
 
-std::string LiveHand::take_trouble() {
+std::string LiveOperator::take_trouble() {
   const std::lock_guard lock(mutex_);
   return std::exchange(trouble_, {});
 }
 
-std::span<const HandAct> LiveHand::at(core::Nanoseconds now_ns, LockstepBench& bench) {
+std::span<const HandAct> LiveOperator::at(core::Nanoseconds now_ns, LockstepBench& bench) {
   now_ns_.store(now_ns, std::memory_order_relaxed);
   if (!wanted_.load(std::memory_order_acquire) && !stop_.load(std::memory_order_relaxed)) {
     return {};
@@ -149,7 +149,7 @@ std::span<const HandAct> LiveHand::at(core::Nanoseconds now_ns, LockstepBench& b
   return fresh;
 }
 
-std::optional<LiveHand::HostClock::time_point> LiveHand::due(core::Nanoseconds now_ns) {
+std::optional<LiveOperator::HostClock::time_point> LiveOperator::due(core::Nanoseconds now_ns) {
   if (pace_.paused ? now_ns < step_until_ns_ : pace_.speed <= 0) {
     return std::nullopt;
   }
@@ -171,19 +171,19 @@ std::optional<LiveHand::HostClock::time_point> LiveHand::due(core::Nanoseconds n
   return target > host ? std::optional(target) : std::nullopt;
 }
 
-void LiveHand::note(HandAct::Kind kind, std::string text) {
+void LiveOperator::note(HandAct::Kind kind, std::string text) {
   done_.push_back({.time_ns = now_ns(), .kind = kind, .text = std::move(text)});
 }
 
-void LiveHand::carry_out(const Command& command, core::Nanoseconds /*now_ns*/,
-                         LockstepBench& bench) {
+void LiveOperator::carry_out(const Command& command, core::Nanoseconds /*now_ns*/,
+                             LockstepBench& bench) {
   std::string refusal;
   switch (command.kind) {
     case HandAct::Kind::kFault:
       refusal = make_broken(*command.fault, bench);
       break;
-    case HandAct::Kind::kMended:
-      refusal = make_mended(*command.fault, bench);
+    case HandAct::Kind::kCleared:
+      refusal = make_cleared(*command.fault, bench);
       break;
     case HandAct::Kind::kTyped:
     case HandAct::Kind::kChanged:
@@ -198,7 +198,7 @@ void LiveHand::carry_out(const Command& command, core::Nanoseconds /*now_ns*/,
   }
 }
 
-std::string LiveHand::make_broken(const Fault& fault, LockstepBench& bench) {
+std::string LiveOperator::make_broken(const Fault& fault, LockstepBench& bench) {
   for (const auto& other : broke_) {
     if (is_same_place(other, fault) && !other.duration_s) {
       return fmt::format("{} {} already", name_of(fault.place), fault.row().name);
@@ -221,7 +221,7 @@ std::string LiveHand::make_broken(const Fault& fault, LockstepBench& bench) {
   return {};
 }
 
-std::string LiveHand::make_mended(const Fault& fault, LockstepBench& bench) {
+std::string LiveOperator::make_cleared(const Fault& fault, LockstepBench& bench) {
   const auto broken = std::find_if(broke_.begin(), broke_.end(), [&](const Fault& other) {
     return is_same_place(other, fault) && !other.duration_s;
   });
@@ -246,14 +246,14 @@ std::string LiveHand::make_mended(const Fault& fault, LockstepBench& bench) {
   after.events.erase(after.events.begin(),
                      after.events.begin() + static_cast<std::ptrdiff_t>(before.events.size()));
   if (!bench.inject(after)) {
-    return fmt::format("\"{}\" cannot be mended here", describe(*broken));
+    return fmt::format("\"{}\" cannot be cleared here", describe(*broken));
   }
   *broken = over;
-  note(HandAct::Kind::kMended, describe(over));
+  note(HandAct::Kind::kCleared, describe(over));
   return {};
 }
 
-Injection LiveHand::injection_of(const Fault& fault) const {
+Injection LiveOperator::injection_of(const Fault& fault) const {
   const auto end_ns = core::nanoseconds(fixture_.experiment.duration_limit_s);
   const auto onset_ns = core::nanoseconds(fault.trigger.value);
   auto so_far = fixture_;
@@ -261,9 +261,10 @@ Injection LiveHand::injection_of(const Fault& fault) const {
   so_far.experiment.faults = {};
   // Only these look at what the undisturbed run would do.
   const bool looks_ahead = fault.kind == FaultKind::kBounce || fault.place.part == FaultPart::kHost;
-  const auto twin = looks_ahead ? run_twin(so_far, seed_) : std::make_unique<CaseRecord>();
+  const auto reference =
+      looks_ahead ? run_reference(so_far, seed_) : std::make_unique<CaseRecord>();
   Injection injection;
-  inject(fault, onset_ns, *twin, end_ns, injection);
+  inject(fault, onset_ns, *reference, end_ns, injection);
   harness::finish(injection);
   return injection;
 }

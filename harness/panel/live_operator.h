@@ -21,18 +21,18 @@
 
 namespace towbench::harness {
 
-class LiveHand final : public RunHand {
+class LiveOperator final : public RunOperator {
  public:
   // `fixture` as it is run. `stop`: the run is to be cut short. Both outlive this.
-  LiveHand(const ExperimentFixture& fixture, std::uint64_t seed, Pace pace, bool holds,
-           const std::atomic<bool>& stop);
+  LiveOperator(const ExperimentFixture& fixture, std::uint64_t seed, Pace pace, bool holds,
+               const std::atomic<bool>& stop);
 
   // ---- from any thread ----
   void type(std::string bytes) override;
   // Throws for what the machine has not, what is built in from the start, and what is broken so
   // already.
   void break_now(Fault fault) override;
-  void mend(const FaultPlace& place, FaultKind kind) override;
+  void clear(const FaultPlace& place, FaultKind kind) override;
   void set_speed(double speed) override;
   void pause(bool paused) override;
   void step(core::Nanoseconds length_ns) override;
@@ -65,7 +65,7 @@ class LiveHand final : public RunHand {
   void give(Command command);
   void carry_out(const Command& command, core::Nanoseconds now_ns, LockstepBench& bench);
   [[nodiscard]] std::string make_broken(const Fault& fault, LockstepBench& bench);
-  [[nodiscard]] std::string make_mended(const Fault& fault, LockstepBench& bench);
+  [[nodiscard]] std::string make_cleared(const Fault& fault, LockstepBench& bench);
   [[nodiscard]] Injection injection_of(const Fault& fault) const;
   void note(HandAct::Kind kind, std::string text);
   // Until when the pace says to wait; none: not at all.

@@ -1,4 +1,4 @@
-// One control tick for those who look on: what the controller said, and what its inputs held then.
+// One control tick for those who observe: what the controller said, and what its inputs held then.
 // As small as it goes, because every cache line of it has to cross to another processor.
 #pragma once
 

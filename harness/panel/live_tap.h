@@ -1,6 +1,6 @@
-// What the bench's thread leaves for those who look on, without a lock. It keeps the last rows, and
+// What the bench's thread leaves for those who observe, without a lock. It keeps the last rows, and
 // lines in queues; a line that finds its queue full is dropped for the lookers-on and counted. The
-// bench never waits and never asks who looks on.
+// bench never waits and never asks who observes.
 #pragma once
 
 #include <array>

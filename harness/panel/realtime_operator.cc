@@ -14,12 +14,12 @@ namespace {
 
 }  // namespace
 
-RealtimeHand::RealtimeHand(std::vector<HandAct> before, bool holds)
+RealtimeOperator::RealtimeOperator(std::vector<HandAct> before, bool holds)
     : holds_(holds), done_(std::move(before)) {
   done_.reserve(done_.size() + kMostActs);  // not while the clock runs
 }
 
-void RealtimeHand::type(std::string bytes) {
+void RealtimeOperator::type(std::string bytes) {
   const auto pieces = (bytes.size() + Keys().bytes.size() - 1) / Keys().bytes.size();
   if (pieces > decltype(keys_)::capacity() - keys_.size()) {
     throw FixtureError({.file = "panel"}, "so much typed at once", "what the console can follow");
@@ -32,13 +32,13 @@ void RealtimeHand::type(std::string bytes) {
   }
 }
 
-void RealtimeHand::finish() {
+void RealtimeOperator::finish() {
   Keys keys{.kind = HandAct::Kind::kFinished};
   keys.size = static_cast<std::uint8_t>(std::string_view("finish").copy(keys.bytes.data(), 6));
   (void)keys_.push(keys);  // full: pressed again
 }
 
-std::span<const HandAct> RealtimeHand::at(core::Nanoseconds now_ns, LockstepBench& /*bench*/) {
+std::span<const HandAct> RealtimeOperator::at(core::Nanoseconds now_ns, LockstepBench& /*bench*/) {
   Keys keys;
   while (done_.size() < done_.capacity() && keys_.pop(keys)) {
     done_.push_back({.time_ns = now_ns, .kind = keys.kind, .text = std::string(keys.text())});
@@ -48,19 +48,19 @@ std::span<const HandAct> RealtimeHand::at(core::Nanoseconds now_ns, LockstepBenc
   return fresh;
 }
 
-void RealtimeHand::break_now(Fault /*fault*/) {
+void RealtimeOperator::break_now(Fault /*fault*/) {
   refuse("breaking something");
 }
-void RealtimeHand::mend(const FaultPlace& /*place*/, FaultKind /*kind*/) {
-  refuse("mending something");
+void RealtimeOperator::clear(const FaultPlace& /*place*/, FaultKind /*kind*/) {
+  refuse("clearing a fault");
 }
-void RealtimeHand::set_speed(double /*speed*/) {
+void RealtimeOperator::set_speed(double /*speed*/) {
   refuse("another speed");
 }
-void RealtimeHand::pause(bool /*paused*/) {
+void RealtimeOperator::pause(bool /*paused*/) {
   refuse("a pause");
 }
-void RealtimeHand::step(core::Nanoseconds /*length_ns*/) {
+void RealtimeOperator::step(core::Nanoseconds /*length_ns*/) {
   refuse("a single step");
 }
 

@@ -1,5 +1,6 @@
 // A person at a run by the wall clock: types, and ends it. Nothing else can be done to a clock that
-// does not wait, and a fault is judged beside a twin of the same bits, which such a run has not.
+// does not wait, and a fault is judged beside a reference run of the same bits, which such a run
+// has not.
 //
 // The loop never waits for the person: keys come through a lock-free queue.
 #pragma once
@@ -15,16 +16,16 @@
 
 namespace towbench::harness {
 
-class RealtimeHand final : public RunHand {
+class RealtimeOperator final : public RunOperator {
  public:
   // `before`: what was done before the start.
-  RealtimeHand(std::vector<HandAct> before, bool holds);
+  RealtimeOperator(std::vector<HandAct> before, bool holds);
 
   void type(std::string bytes) override;
   void finish() override;
   void wake() override {}
   [[noreturn]] void break_now(Fault fault) override;
-  [[noreturn]] void mend(const FaultPlace& place, FaultKind kind) override;
+  [[noreturn]] void clear(const FaultPlace& place, FaultKind kind) override;
   [[noreturn]] void set_speed(double speed) override;
   [[noreturn]] void pause(bool paused) override;
   [[noreturn]] void step(core::Nanoseconds length_ns) override;

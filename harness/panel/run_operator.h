@@ -10,7 +10,7 @@
 
 namespace towbench::harness {
 
-class RunHand : public FreeHand {
+class RunOperator : public FreeHand {
  public:
   struct Pace {
     double speed = 1;  // virtual over host time; 0: as fast as it goes
@@ -22,7 +22,7 @@ class RunHand : public FreeHand {
   // Breaks from the next exchange on; the fault's own trigger is not used.
   virtual void break_now(Fault fault) = 0;
   // Ends what break_now() began.
-  virtual void mend(const FaultPlace& place, FaultKind kind) = 0;
+  virtual void clear(const FaultPlace& place, FaultKind kind) = 0;
   virtual void set_speed(double speed) = 0;
   virtual void pause(bool paused) = 0;
   virtual void step(core::Nanoseconds length_ns) = 0;  // pauses behind it

@@ -62,7 +62,7 @@ void refuse_unless_bearable(const SessionStart& wanted, const FaultPlan& faults)
   }
   if (!faults.empty()) {
     throw FixtureError({.file = "panel", .key = "faults"}, "a run by the wall clock",
-                       "lockstep: a fault is judged beside a twin of the same bits");
+                       "lockstep: a fault is judged beside a reference run of the same bits");
   }
   if (wanted.pace.paused || wanted.pace.speed != 1) {
     throw FixtureError({.file = "panel", .key = "speed"}, "a run by the wall clock",
@@ -105,9 +105,9 @@ void Session::start(const SessionStart& wanted) {
              fixture_->rig.parameters.force_sensor.fitted);
   stop_ = false;
   if (real) {
-    hand_ = std::make_unique<RealtimeHand>(fixture_->experiment.hand, wanted.holds);
+    hand_ = std::make_unique<RealtimeOperator>(fixture_->experiment.hand, wanted.holds);
   } else {
-    hand_ = std::make_unique<LiveHand>(*fixture_, seed, wanted.pace, wanted.holds, stop_);
+    hand_ = std::make_unique<LiveOperator>(*fixture_, seed, wanted.pace, wanted.holds, stop_);
   }
   {
     const std::lock_guard lock(mutex_);
@@ -152,7 +152,7 @@ RunResult Session::run_by_its_clock(std::uint64_t seed) {
 }
 
 void Session::run(std::uint64_t seed) {
-  take_turns();
+  share_processor();
   State over = state();
   over.phase = Phase::kOver;
   try {
@@ -197,11 +197,11 @@ Session::State Session::state() const {
   return state_;
 }
 
-RunHand* Session::hand_if_running() noexcept {
+RunOperator* Session::hand_if_running() noexcept {
   return state().phase == Phase::kRunning ? hand_.get() : nullptr;
 }
 
-RunHand& Session::hand() {
+RunOperator& Session::hand() {
   if (auto* const hand = hand_if_running()) {
     return *hand;
   }

@@ -26,7 +26,7 @@ struct SessionStart {
   std::optional<double> duration_limit_s{};
   // kReal: two processes over a local socket, each by the wall clock; no faults, no other pace.
   RunClock clock = RunClock::kLockstep;
-  RunHand::Pace pace{};
+  RunOperator::Pace pace{};
   bool holds = false;  // goes on after its script until finished by hand
 };
 
@@ -61,9 +61,9 @@ class Session {
   [[nodiscard]] State state() const;
   [[nodiscard]] LiveTap& tap() noexcept { return tap_; }
   // Of the run under way. Throws FixtureError when there is none.
-  [[nodiscard]] RunHand& hand();
+  [[nodiscard]] RunOperator& hand();
   // Null when none is under way.
-  [[nodiscard]] RunHand* hand_if_running() noexcept;
+  [[nodiscard]] RunOperator* hand_if_running() noexcept;
   // Of the last run started; null before.
   [[nodiscard]] const ExperimentFixture* fixture() const noexcept { return fixture_.get(); }
   [[nodiscard]] const std::filesystem::path& runs() const noexcept { return runs_; }
@@ -77,7 +77,7 @@ class Session {
   std::filesystem::path program_;
   LiveTap tap_;
   std::unique_ptr<ExperimentFixture> fixture_;
-  std::unique_ptr<RunHand> hand_;
+  std::unique_ptr<RunOperator> hand_;
   std::atomic<bool> stop_{false};
   mutable std::mutex mutex_;
   State state_;

@@ -115,11 +115,11 @@ void carry_out(Session& session, const json& message) {
     session.hand().type(text(message, "text"));
   } else if (what == "break") {
     session.hand().break_now(any_fault_of(message));
-  } else if (what == "mend") {
+  } else if (what == "clear") {
     const auto fault = any_fault_of(message);
-    session.hand().mend(fault.place, fault.kind);
+    session.hand().clear(fault.place, fault.kind);
   } else {
-    throw bad("do", '"' + what + '"', "start cut finish pause resume step speed type break mend");
+    throw bad("do", '"' + what + '"', "start cut finish pause resume step speed type break clear");
   }
 }
 

@@ -14,7 +14,7 @@ namespace towbench::harness {
 //   start {experiment, lines: [[index, text]...], faults: [words...], seed, duration_limit_s,
 //          clock: "lockstep" | "real", speed, paused, hold} | cut | finish | pause | resume | step
 //          {ms} | speed {speed} | type {text}
-//   break {fault: "PART KIND [parameters]"} | mend {fault: "PART KIND"}
+//   break {fault: "PART KIND [parameters]"} | clear {fault: "PART KIND"}
 [[nodiscard]] std::string steer(Session& session, std::string_view message) noexcept;
 
 }  // namespace towbench::harness

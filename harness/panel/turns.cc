@@ -24,10 +24,10 @@ void schedule_as(int policy, int nice) noexcept {
 
 }  // namespace
 
-void look_on() noexcept {
+void observe_only() noexcept {
   schedule_as(SCHED_BATCH, own_nice());
 }
-void take_turns() noexcept {
+void share_processor() noexcept {
   const int nice = own_nice();
   schedule_as(SCHED_OTHER, std::min(nice, kAhead));
 }

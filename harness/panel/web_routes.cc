@@ -56,7 +56,7 @@ std::optional<std::string_view> type_of(const fs::path& file) {
 
 }  // namespace
 
-std::optional<WebAnswer> WebRoutes::refuse_stranger(const WebRequest& request) const {
+std::optional<WebAnswer> WebRoutes::refuse_unauthorized(const WebRequest& request) const {
   if (std::find(hosts_.begin(), hosts_.end(), request.host) == hosts_.end()) {
     return refusal(421, "this panel does not answer to that name");
   }
@@ -78,7 +78,7 @@ std::optional<WebAnswer> WebRoutes::refuse_socket(const WebRequest& request) con
   if (request.origin.empty()) {
     return refusal(403, "a socket without origin");
   }
-  return refuse_stranger(request);
+  return refuse_unauthorized(request);
 }
 
 WebAnswer WebRoutes::answer(const WebRequest& request) {
@@ -98,8 +98,8 @@ WebAnswer WebRoutes::answer(const WebRequest& request) {
     }
     // A ticket that was used in this browser: the cookie is what counts.
   }
-  if (auto stranger = refuse_stranger(request)) {
-    return *stranger;
+  if (auto unauthorized = refuse_unauthorized(request)) {
+    return *unauthorized;
   }
   const std::string_view target = request.target;
   const auto path = target.substr(0, target.find('?'));

@@ -41,7 +41,7 @@ class WebRoutes {
   [[nodiscard]] std::optional<WebAnswer> refuse_socket(const WebRequest& request) const;
 
  private:
-  [[nodiscard]] std::optional<WebAnswer> refuse_stranger(const WebRequest& request) const;
+  [[nodiscard]] std::optional<WebAnswer> refuse_unauthorized(const WebRequest& request) const;
   [[nodiscard]] WebAnswer page_or_asset(std::string_view path) const;
   [[nodiscard]] WebAnswer file_below_runs(std::string_view path) const;
 

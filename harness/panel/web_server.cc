@@ -92,7 +92,7 @@ class WebServer::Implementation {
 
   void run(const std::atomic<bool>& stop) {
     stop_ = &stop;
-    look_on();
+    observe_only();
     tick();
     io_.run();
   }

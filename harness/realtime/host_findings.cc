@@ -160,14 +160,14 @@ std::vector<CanInterface> can_interfaces(const fs::path& root) {
 Finding can(const fs::path& root) {
   std::vector<std::string> up;
   std::vector<std::string> down;
-  std::string mend;
+  std::string remedy;
   bool has_wire = false;
   for (const auto& each : can_interfaces(root)) {
     (each.is_up ? up : down).push_back(each.text());
     has_wire = has_wire || (each.is_up && !each.is_virtual);
-    if (!each.is_up && mend.empty()) {
-      mend = "ip link set " + each.name + " up" +
-             (each.is_virtual ? "" : " type can bitrate 1000000 restart-ms 100");
+    if (!each.is_up && remedy.empty()) {
+      remedy = "ip link set " + each.name + " up" +
+               (each.is_virtual ? "" : " type can bitrate 1000000 restart-ms 100");
     }
   }
   if (up.empty() && down.empty()) {
@@ -175,12 +175,12 @@ Finding can(const fs::path& root) {
             "plug one in, or `modprobe vcan; ip link add vcan0 type vcan; ip link set vcan0 up`"};
   }
   if (up.empty()) {
-    return {"can", Fitness::kMissing, "down: " + listed(down) + ": nothing goes over CAN", mend};
+    return {"can", Fitness::kMissing, "down: " + listed(down) + ": nothing goes over CAN", remedy};
   }
   const auto found = "up: " + listed(up) + (down.empty() ? "" : "; down: " + listed(down));
   if (!has_wire) {
     return {"can", Fitness::kLimited, found + ": fit for two sides on this host, no wire",
-            mend.empty() ? "plug a CAN adapter in for a board" : mend};
+            remedy.empty() ? "plug a CAN adapter in for a board" : remedy};
   }
   return {"can", Fitness::kGood, found + ": fit for the digest of two axes at 1 kHz and 1 Mbit/s",
           ""};

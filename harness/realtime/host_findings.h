@@ -28,8 +28,8 @@ enum class Fitness : std::uint8_t { kGood, kLimited, kMissing };
 struct Finding {
   std::string subject;
   Fitness fit = Fitness::kMissing;
-  std::string found;  // what is there, and what it is fit for
-  std::string mend;   // empty when nothing is to be mended
+  std::string found;   // what is there, and what it is fit for
+  std::string remedy;  // empty when there is nothing to do
 };
 
 // Kernel, preemption, scheduler rights, timer, processors, CAN, GPIO, serial ports. Reads only;

@@ -49,11 +49,11 @@ Finding lateness_finding(const TickSummary& summary) {
   } else if (share_of(core::kNanosecondsPerMillisecond) < kMaxJitterShare) {
     finding.fit = Fitness::kLimited;
     finding.found += ": fit for a controller at 1 kHz";
-    finding.mend = "an isolated processor and a PREEMPT_RT kernel for the emulator";
+    finding.remedy = "an isolated processor and a PREEMPT_RT kernel for the emulator";
   } else {
     const double rate_Hz = kMaxJitterShare / (static_cast<double>(p99_ns) * 1e-9);
     finding.found += fmt::format(": fit for controllers up to {:.0f} Hz", rate_Hz);
-    finding.mend = "stop other load; runs by the wall clock will be INVALID above that rate";
+    finding.remedy = "stop other load; runs by the wall clock will be INVALID above that rate";
   }
   return finding;
 }

@@ -12,7 +12,7 @@ struct RealtimeRights {
   bool has_locked_memory = false;
   int priority = 0;    // 0 without SCHED_FIFO
   int processor = -1;  // pinned to; -1 to none
-  // One sentence for each thing that was refused, with how to mend it. Empty when nothing was.
+  // One sentence for each thing that was refused, with how to correct it. Empty when nothing was.
   std::vector<std::string> warnings;
 
   // "SCHED_FIFO 80, memory locked, processor 1".

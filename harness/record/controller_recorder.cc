@@ -8,7 +8,7 @@ namespace {
 core::PerAxis<bbmc::EdgeTimes> edge_times_of(const bbmc::ControllerNode& controller) noexcept {
   return {{controller.edge_times(core::Axis::kY), controller.edge_times(core::Axis::kX)}};
 }
-// There the kernel counts; nobody looks on.
+// There the kernel counts; nobody observes.
 core::PerAxis<bbmc::EdgeTimes> edge_times_of(const bbmc::LinuxNode& /*controller*/) noexcept {
   return {};
 }

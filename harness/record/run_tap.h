@@ -1,4 +1,4 @@
-// Somebody who looks on while a run is recorded. Called on the bench's own thread: takes a copy and
+// Somebody who observes while a run is recorded. Called on the bench's own thread: takes a copy and
 // returns; what it cannot take it loses, the record does not.
 #pragma once
 

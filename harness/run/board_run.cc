@@ -9,7 +9,7 @@
 namespace towbench::harness {
 namespace {
 
-constexpr const char* kTwinFolder = "twin";
+constexpr const char* kReferenceFolder = "reference";
 
 }  // namespace
 
@@ -21,10 +21,10 @@ BoardRun::BoardRun(const ExperimentFixture& fixture, const RunOptions& options, 
   if (!fixture.experiment.faults.empty()) {
     refuse_faults_beyond_machine(fixture.experiment.faults);
     const auto sound = fixture_;
-    twin_ = std::make_unique<BoardTwin>(sound, options.firmware, seed);
-    const auto prepared = prepare_for_image(sound, twin_->record());
+    reference_ = std::make_unique<ReferenceBoard>(sound, options.firmware, seed);
+    const auto prepared = prepare_for_image(sound, reference_->record());
     if (const auto pressed = pressed_where_welded(sound, prepared)) {
-      twin_ = std::make_unique<BoardTwin>(*pressed, options.firmware, seed);
+      reference_ = std::make_unique<ReferenceBoard>(*pressed, options.firmware, seed);
     }
     fixture_ = with_faults(sound, prepared);
   }
@@ -35,9 +35,9 @@ RunOutcome BoardRun::play(const std::filesystem::path& folder, PlantEnd& plant, 
   return run_firmware(fixture_, how, folder, {plant, truth}, options_.watchers, checks_);
 }
 
-void BoardRun::keep_twin(const std::filesystem::path& folder) const {
-  if (twin_) {
-    twin_->copy_to(folder / kTwinFolder);
+void BoardRun::keep_reference(const std::filesystem::path& folder) const {
+  if (reference_) {
+    reference_->copy_to(folder / kReferenceFolder);
   }
 }
 
@@ -56,12 +56,12 @@ void BoardRun::judge_into(const std::filesystem::path& folder, Judgement& judgem
   if (goes_dark) {
     drop("log_complete");  // an image without a supply logs nothing
   }
-  if (twin_ || (!faults.empty() && !fixture_.experiment.budgets_apply)) {
+  if (reference_ || (!faults.empty() && !fixture_.experiment.budgets_apply)) {
     drop("console_script");  // it speaks of the sound machine
   }
   checks.insert(checks.begin(), checks_.begin(), checks_.end());
-  if (twin_) {
-    const auto beside = judge_beside_twin(folder, folder / kTwinFolder);
+  if (reference_) {
+    const auto beside = judge_beside_reference(folder, folder / kReferenceFolder);
     checks.insert(checks.begin(), beside.begin(), beside.end());
   }
   judgement.verdict = worst_of(checks);

@@ -25,13 +25,13 @@ class BoardRun {
                                 BoardTruth& truth);
   // Before the judge: the record of the same image without the machine's faults, in a folder of its
   // own below.
-  void keep_twin(const std::filesystem::path& folder) const;
+  void keep_reference(const std::filesystem::path& folder) const;
   // Adds the verdicts on faults and budgets, and drops what speaks of a sound board or machine.
   void judge_into(const std::filesystem::path& folder, Judgement& judgement) const;
 
  private:
   const RunOptions& options_;
-  std::unique_ptr<BoardTwin> twin_;  // of a machine with faults
+  std::unique_ptr<ReferenceBoard> reference_;  // of a machine with faults
   ExperimentFixture fixture_;
   std::vector<Check> checks_;
 };

@@ -18,7 +18,7 @@ RunOutcome BoardRunner::play() {
 }
 
 void BoardRunner::judge_into(RunResult& result, const RunOutcome& outcome) {
-  plan().board->keep_twin(plan().folder);
+  plan().board->keep_reference(plan().folder);
   Runner::judge_into(result, outcome);
   plan().board->judge_into(plan().folder, result.judgement);
 }

@@ -19,7 +19,7 @@ RunOutcome play_script(const RunPlan& plan, PlantEnd& plant, const HostSchedule&
   return play(plan.fixture.experiment, bench, recorder, plan.options.watchers, plan.options.hand);
 }
 
-// With whoever looks on listening to the plant.
+// With whoever observes listening to the plant.
 RunOutcome play_watched(const RunPlan& plan, PlantEnd& plant, const HostSchedule& host,
                         ControllerRecorder& recorder) {
   auto* const tap = plan.options.tap;

@@ -29,7 +29,7 @@ RunResult run_experiment(const ExperimentFixture& fixture, const RunOptions& opt
   begin_record(plan);
   const auto runner = make_runner(plan);
   auto outcome = runner->play();
-  if (outcome.control_period_ns == 0) {  // a stranger's image has rows of another distance
+  if (outcome.control_period_ns == 0) {  // a third-party image has rows of another distance
     outcome.control_period_ns = plan.fixture.controller.configuration.control_period_ns();
   }
   outcome.complete = outcome.complete || plan.may_end_early();

@@ -13,7 +13,7 @@ namespace {
 
 // A fault is judged beside a run of the same bits.
 void refuse_faults_without_reference(const RunOptions& options) {
-  const char* const why = "a fault is judged beside a twin of the same bits";
+  const char* const why = "a fault is judged beside a reference run of the same bits";
   if (!options.encoder_lines.controller.empty()) {
     throw FixtureError({.file = "fault plan"}, "a run with its encoders on lines",
                        std::string("encoders over the carrier: ") + why);

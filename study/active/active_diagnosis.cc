@@ -94,9 +94,10 @@ class Loop {
     }
     const bool several = outcome_.answer.find(", ") != std::string::npos;
     end(End::kOneCause, outcome_.answer == "nothing" ? "nothing is named, so nothing is open"
-                        : several ? "they act together, and none of them has a rival left that "
-                                    "explains these logs as well"
-                                  : "no other cause explains these logs as well");
+                        : several
+                            ? "they act together, and none of them has an alternative left that "
+                              "explains these logs as well"
+                            : "no other cause explains these logs as well");
   }
 
   void end(End how, std::string why) {
@@ -120,7 +121,7 @@ class Loop {
     }
     hands_.tell(fmt::format("to tell {}: {}", trial.asks, outcome_.rounds.back().motion));
     write_report(request_, outcome_);
-    return trial.push ? weigh(question, trial, fixture) : log_twice(fixture);
+    return trial.push ? fit_bias_corrected(question, trial, fixture) : log_twice(fixture);
   }
 
   bool log_twice(const ExperimentFixture& fixture) {
@@ -134,7 +135,8 @@ class Loop {
     return true;
   }
 
-  bool weigh(const Question& question, const Trial& trial, const ExperimentFixture& fixture) {
+  bool fit_bias_corrected(const Question& question, const Trial& trial,
+                          const ExperimentFixture& fixture) {
     const auto folder = folder_of_run(fixture, 0);
     if (!folder) {
       return false;

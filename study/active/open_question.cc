@@ -15,8 +15,8 @@ using Means = Question::Means;
 
 Question about(const Cause& cause, const std::optional<diagnose::NextExperiment>& next) {
   Question q{.causes = {cause.term.effect->name}};
-  for (const auto& rival : cause.rivals) {
-    q.causes.push_back(rival.term.effect->name);
+  for (const auto& alternative : cause.alternatives) {
+    q.causes.push_back(alternative.term.effect->name);
   }
   if (next) {
     q.means = Means::kMotion;
@@ -102,7 +102,7 @@ std::vector<Question> open_questions(const Diagnosis& d) {
     out.push_back(about_gain(d));
   }
   for (std::size_t i = 0; i < d.selection.causes.size(); ++i) {
-    if (!d.selection.causes[i].rivals.empty()) {
+    if (!d.selection.causes[i].alternatives.empty()) {
       out.push_back(about(d.selection.causes[i], d.separating[i]));
     }
   }
@@ -125,8 +125,8 @@ std::string names_of(const Diagnosis& d) {
   std::vector<std::string> all;
   for (const Cause& cause : d.selection.causes) {
     std::vector<std::string> names{cause.term.effect->name};
-    for (const auto& rival : cause.rivals) {
-      names.push_back(rival.term.effect->name);
+    for (const auto& alternative : cause.alternatives) {
+      names.push_back(alternative.term.effect->name);
     }
     all.push_back(joined(names, " or "));
   }

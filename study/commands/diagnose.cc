@@ -55,7 +55,7 @@ void add_diagnose(CLI::App& app, int& exit_code) {
       ->check(CLI::ExistingFile);
   verb->add_option("--axis", options->axis, "axis of the plant")->check(CLI::IsMember({"y", "x"}));
   verb->add_option("--out", options->out, "folder to write to");
-  verb->add_option("--seed", options->seed, "of the bootstrap and the twins");
+  verb->add_option("--seed", options->seed, "of the bootstrap and the simulated references");
   verb->add_flag("-q,--quiet", options->quiet, "no progress");
   verb->add_flag("--json", options->json, "print diagnosis.json");
   add_active_options(*verb, *active);

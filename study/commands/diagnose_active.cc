@@ -72,8 +72,8 @@ PlantModel corrected(const PlantModel& plant, const std::string& axis,
   return load_plant_model(path, axis);
 }
 
-diagnose::Interval weigh(const DiagnoseOptions& options, const PlantModel& plant,
-                         const std::string& folder, const active::Push& push) {
+diagnose::Interval fit_bias_corrected(const DiagnoseOptions& options, const PlantModel& plant,
+                                      const std::string& folder, const active::Push& push) {
   diagnose::Findings findings;
   diagnose::NominalModel model = plant.model;
   const diagnose::Run run = read_log(folder, options, model, findings);
@@ -107,7 +107,7 @@ active::Hands hands_of(const DiagnoseOptions& options, const PlantModel& plant) 
   hands.run = [&](const ExperimentFixture& fixture, const std::filesystem::path& out,
                   std::uint64_t seed) { return run_quietly(options, fixture, out, seed); };
   hands.weigh_force = [&](const std::string& folder, const active::Push& push) {
-    return weigh(options, plant, folder, push);
+    return fit_bias_corrected(options, plant, folder, push);
   };
   hands.tell = [&](const std::string& line) {
     if (!options.quiet) {

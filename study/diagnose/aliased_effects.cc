@@ -47,7 +47,7 @@ void add_to_class(ParameterShift& shift, const std::string& name) {
 
 }  // namespace
 
-void find_lookalikes(std::vector<ParameterShift>& shifts, const Selection& selection) {
+void find_aliased_effects(std::vector<ParameterShift>& shifts, const Selection& selection) {
   VectorXd shift(static_cast<Index>(shifts.size()));
   for (std::size_t i = 0; i < shifts.size(); ++i) {
     shift[static_cast<Index>(i)] = shifts[i].fitted.value - shifts[i].supplied;

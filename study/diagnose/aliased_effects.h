@@ -3,8 +3,8 @@
 // asymmetry as another viscosity.
 //
 // Such an effect's columns lie in the span of the model's (less than kLeastLeft off it), so that it
-// moves the parameters along W = (X'X)^-1 X' columns. It is a lookalike when the shift delta from
-// what was supplied is W beta but for chance or for what does not matter:
+// moves the parameters along W = (X'X)^-1 X' columns. It is an aliased effect when the shift delta
+// from what was supplied is W beta but for chance or for what does not matter:
 //   min over beta of (delta - W beta)' V^-1 (delta - W beta) < 4^2,  or 1 % of the force
 #pragma once
 
@@ -16,6 +16,6 @@
 namespace towbench::harness::diagnose {
 
 // Adds to the class of each parameter that moved, to three members at most.
-void find_lookalikes(std::vector<ParameterShift>& shifts, const Selection& selection);
+void find_aliased_effects(std::vector<ParameterShift>& shifts, const Selection& selection);
 
 }  // namespace towbench::harness::diagnose

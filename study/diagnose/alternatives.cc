@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kInSample = 0.97;
 constexpr double kHeldOut = 1.05;
-// Two causes of equal size are no rivals: a rival must make most of the same contribution.
+// Two causes of equal size are no alternatives: an alternative must make most of the same
+// contribution.
 constexpr double kRelated = 0.85;
 constexpr double kWorthRefining = 0.5;  // of what the cause explains, from the grid's best scale
 
@@ -36,25 +37,25 @@ class Comparison {
         cause_(judge(before_.evidence, stand.terms[which], candidates.columns(stand.terms[which]))),
         contribution_(projected_off(before_.evidence.basis, cause_.columns) * cause_.test.beta) {}
 
-  std::vector<Rival> rivals() {
-    std::vector<Rival> found;
+  std::vector<Alternative> alternatives() {
+    std::vector<Alternative> found;
     for (const Candidate& other : candidates_.best_of_each(before_.evidence, stand_.terms)) {
       if (other.term.effect == cause_.term.effect || !other.plausible ||
           other.test.left_of_group < kLeastLeft || share(other) < kWorthRefining) {
         continue;
       }
       const Candidate best = candidates_.refined(before_.evidence, other);
-      const Rival rival{best.term,
-                        cosine(projected_off(before_.evidence.basis, best.columns), contribution_),
-                        share(best)};
-      if (is_rival(rival)) {
-        found.push_back(rival);
+      const Alternative alternative{
+          best.term, cosine(projected_off(before_.evidence.basis, best.columns), contribution_),
+          share(best)};
+      if (is_alternative(alternative)) {
+        found.push_back(alternative);
       }
     }
-    std::stable_sort(found.begin(), found.end(), [](const Rival& a, const Rival& b) {
+    std::stable_sort(found.begin(), found.end(), [](const Alternative& a, const Alternative& b) {
       return a.explained_ratio > b.explained_ratio;
     });
-    found.resize(std::min(found.size(), kMostRivals));
+    found.resize(std::min(found.size(), kMostAlternatives));
     return found;
   }
 
@@ -65,17 +66,17 @@ class Comparison {
 
   // One that can make the contribution but with a sign that physics forbids has been left out. Of
   // two that are so alike the noise that both columns are made of decides which explains more.
-  [[nodiscard]] bool is_rival(const Rival& rival) const {
-    if (rival.likeness > kLikeness) {
+  [[nodiscard]] bool is_alternative(const Alternative& alternative) const {
+    if (alternative.likeness > kLikeness) {
       return true;
     }
-    if (rival.likeness < kRelated) {
+    if (alternative.likeness < kRelated) {
       return false;
     }
     std::vector<Term> terms = before_.terms;
-    terms.push_back(rival.term);
+    terms.push_back(alternative.term);
     const Trial with = gates_.trial(terms);
-    return (rival.explained_ratio > kInSample &&
+    return (alternative.explained_ratio > kInSample &&
             with.home_rms_N() < kHeldOut * stand_.home_rms_N()) ||
            gates_.as_good(with, stand_);
   }
@@ -90,9 +91,9 @@ class Comparison {
 
 }  // namespace
 
-std::vector<Rival> find_rivals(const Trial& stand, std::size_t which, const Gates& gates,
-                               Candidates& candidates) {
-  return Comparison(stand, which, gates, candidates).rivals();
+std::vector<Alternative> find_alternatives(const Trial& stand, std::size_t which,
+                                           const Gates& gates, Candidates& candidates) {
+  return Comparison(stand, which, gates, candidates).alternatives();
 }
 
 }  // namespace towbench::harness::diagnose

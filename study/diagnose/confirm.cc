@@ -85,8 +85,8 @@ double off_after_window_m(const Dataset::Member& member, const InRun& model, Ind
 
 // What the law demands of the model beyond what it demanded of the machine, at the scored rows.
 VectorXd force_error_N(const Dataset::Member& member, const HeldOut::Rows& scored,
-                       const Run& twin) {
-  return member.conditioner.column(twin.input_N - member.run.input_N)
+                       const Run& reference) {
+  return member.conditioner.column(reference.input_N - member.run.input_N)
       .segment(scored.from, scored.count);
 }
 
@@ -141,15 +141,15 @@ class Confirmer {
   void add_closed_loop(std::size_t i, const InRun& supplied, const InRun& extended, Pair& force,
                        ControlLaw::Kind& law) const {
     const Dataset::Member& member = heldout_.data().members[i];
-    const auto twin = [&](const InRun& model, const ControlLaw& under) {
-      return simulate_twin(member, model.theta, model.machine, model.extra, under, seed_ + i);
+    const auto reference = [&](const InRun& model, const ControlLaw& under) {
+      return simulate_reference(member, model.theta, model.machine, model.extra, under, seed_ + i);
     };
     const ControlLaw found = find_control_law(member.run);
-    Twin before = twin(supplied, found);
-    Twin after = twin(extended, found);
+    SimulatedReference before = reference(supplied, found);
+    SimulatedReference after = reference(extended, found);
     if (before.law != after.law) {
-      before = twin(supplied, {});
-      after = twin(extended, {});
+      before = reference(supplied, {});
+      after = reference(extended, {});
     }
     if (after.law == ControlLaw::Kind::kTracking) {
       law = after.law;

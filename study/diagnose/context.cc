@@ -43,7 +43,7 @@ Context make_context(const NominalModel& model, const Dataset& data) {
     c.period_s = std::max(c.period_s, s.period_s);
     c.duration_s = std::max(c.duration_s, s.time_s[s.size() - 1]);
   }
-  c.theta = weigh(data, c, {}, {}, 0, 0).theta();
+  c.theta = fit_bias_corrected(data, c, {}, {}, 0, 0).theta();
   return c;
 }
 

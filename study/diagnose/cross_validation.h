@@ -2,11 +2,11 @@
 //
 // Each run is cut into stretches long enough to be independent of their neighbours. A stretch's
 // residual is taken with the causes' coefficients fitted to all the others, and not corrected by
-// the twin: through a column that is noisy itself the true coefficient predicts less well than the
-// fitted one. So a cause can be asked whether it predicts, without setting data aside for the
-// question alone (Stone 1974; blocks against serial correlation: Racine 2000).
+// the simulated reference: through a column that is noisy itself the true coefficient predicts less
+// well than the fitted one. So a cause can be asked whether it predicts, without setting data aside
+// for the question alone (Stone 1974; blocks against serial correlation: Racine 2000).
 //
-// The nominal model is not on trial: with and without a cause it is fitted to everything, by taking
+// The nominal model is no candidate: with and without a cause it is fitted to everything, by taking
 // its columns off the input and the causes first (Frisch & Waugh 1933). Fitted without the fastest
 // stretch it would say of the viscous force there what it must guess, and that guess, not the
 // cause, would decide.

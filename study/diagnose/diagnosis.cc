@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "study/diagnose/aliased_effects.h"
 #include "study/diagnose/context.h"
 #include "study/diagnose/known_terms.h"
-#include "study/diagnose/aliased_effects.h"
 #include "study/diagnose/model_checks.h"
 #include "study/diagnose/run_checks.h"
 #include "study/diagnose/score.h"
@@ -111,9 +111,10 @@ struct Reading {
 };
 
 void look_for_causes(Reading& reading, const Request& request) {
-  const HeldOut abroad(reading.data.heldout, reading.context, kGateOfAnotherSession);
-  reading.selection = select_causes(reading.data.fit, reading.data.same_session ? nullptr : &abroad,
-                                    reading.context, request.seed, request.progress);
+  const HeldOut other_run(reading.data.heldout, reading.context, kGateOfAnotherSession);
+  reading.selection =
+      select_causes(reading.data.fit, reading.data.same_session ? nullptr : &other_run,
+                    reading.context, request.seed, request.progress);
 }
 
 // A chain other than stated shows the load elsewhere: its speed is wrong with its place, and what
@@ -283,14 +284,14 @@ Diagnosis diagnose(const Request& given) {
   d.confirmed = confirm(heldout, d.context, supplied, extended, request.seed);
   d.parameters = judge_parameters(request.model, d.selection.after, d.selection.terms());
   tell("what is left, and what the data cannot show");
-  find_lookalikes(d.parameters, d.selection);
+  find_aliased_effects(d.parameters, d.selection);
   d.unexplained = find_unexplained(data.fit, d.selection.after);
   d.not_testable = find_not_testable(d.selection);
   tell("what would separate causes");
   for (const Cause& cause : d.selection.causes) {
-    d.separating.push_back(cause.rivals.empty()
+    d.separating.push_back(cause.alternatives.empty()
                                ? std::nullopt
-                               : separate(data.fit, d.context, cause, cause.rivals.front()));
+                               : separate(data.fit, d.context, cause, cause.alternatives.front()));
   }
   d.lap_to_lap_rms_N = lap_noise_N(data.fit);
   d.heldout_force_rms_N = heldout.force_rms_N();

@@ -33,7 +33,7 @@ struct Diagnosis {
   std::vector<ParameterShift> parameters;
   std::optional<Unexplained> unexplained;
   std::vector<NotTestable> not_testable;
-  std::vector<std::optional<NextExperiment>> separating;  // one a cause, where it has rivals
+  std::vector<std::optional<NextExperiment>> separating;  // one a cause, where it has alternatives
   // Of refit and causes together over the model as it was supplied, on held-out data.
   Gain gain_over_supplied;
   Confirmation confirmed;                  // the same, simulated

@@ -35,7 +35,7 @@ Json separating(const std::optional<NextExperiment>& experiment) {
     return nullptr;
   }
   return {{"motion", experiment->motion.words()},
-          {"separates_from", experiment->rival},
+          {"separates_from", experiment->alternative},
           {"separation_N", experiment->separation_N},
           {"separation_in_this_data_N", experiment->in_this_data_N}};
 }
@@ -44,9 +44,9 @@ Json causes(const Diagnosis& d) {
   Json out = Json::array();
   for (std::size_t i = 0; i < d.selection.causes.size(); ++i) {
     const Cause& cause = d.selection.causes[i];
-    Json rivals = Json::array();
-    for (const Rival& rival : cause.rivals) {
-      rivals.push_back(rival.term.effect->name);
+    Json alternatives = Json::array();
+    for (const Alternative& alternative : cause.alternatives) {
+      alternatives.push_back(alternative.term.effect->name);
     }
     out.push_back({{"effect", cause.term.effect->name},
                    {"axis", d.context.model.axis},
@@ -54,7 +54,7 @@ Json causes(const Diagnosis& d) {
                    {"parameters", cause_parameters(cause)},
                    {"p_value", cause.p_value},
                    {"gain_heldout_pct", interval(cause.gain.ci99, 100, "ci99")},
-                   {"indistinguishable_from", rivals},
+                   {"indistinguishable_from", alternatives},
                    {"separating_experiment", separating(d.separating[i])}});
   }
   return out;
@@ -167,14 +167,14 @@ std::string diagnosis_json(const Diagnosis& d) {
   out["heldout"] = heldout(d);
   out["confirmed"] = confirmed(d.confirmed);
   out["noise_floor"] = {
-      {"twin_rms_N", d.selection.after.twin_rms_N},
+      {"reference_rms_N", d.selection.after.reference_rms_N},
       {"lap_to_lap_rms_N", d.lap_to_lap_rms_N ? Json(*d.lap_to_lap_rms_N) : Json(nullptr)}};
-  out["method"] = {
-      {"band_Hz", d.context.cutoff_Hz},
-      {"alpha", kAlpha},
-      {"groups_tried", d.selection.tried},
-      {"twin_controller", d.selection.after.law == ControlLaw::Kind::kFitted ? "fitted from the log"
-                                                                             : "tracking law"}};
+  out["method"] = {{"band_Hz", d.context.cutoff_Hz},
+                   {"alpha", kAlpha},
+                   {"groups_tried", d.selection.tried},
+                   {"reference_controller", d.selection.after.law == ControlLaw::Kind::kFitted
+                                                ? "fitted from the log"
+                                                : "tracking law"}};
   return out.dump(2) + "\n";
 }
 

@@ -27,12 +27,13 @@ VectorXd least_squares(const MatrixXd& x, const VectorXd& y) {
   return scaled.colPivHouseholderQr().solve(y).cwiseQuotient(scale);
 }
 
-// A twin's own noise adds to the log's; a correction that leaves more than both is none.
+// A simulated reference's own noise adds to the log's; a correction that leaves more than both is
+// none.
 constexpr double kWorstCorrection = 1.6;
 
-// One twin's own noise would add as much again to what is tested: of the last round several, whose
-// encoders lie otherwise under the start, leave a quarter of it (in power).
-constexpr int kTwins = 4;
+// One simulated reference's own noise would add as much again to what is tested: of the last round
+// several, whose encoders lie otherwise under the start, leave a quarter of it (in power).
+constexpr int kReferences = 4;
 constexpr std::uint64_t kSeedsApart = 1'000'003;  // more than there are runs
 
 double rms(const VectorXd& x) {
@@ -45,10 +46,10 @@ struct Processed {
   ControlLaw::Kind law = ControlLaw::Kind::kFitted;
 };
 
-// The twins of all runs, through the same filter and at the same rows as the data.
-Processed process_twins(const Dataset& data, const Context& context, const std::vector<Term>& terms,
-                        const VectorXd& coefficients, const std::vector<ControlLaw>& laws,
-                        std::uint64_t seed) {
+// The simulated references of all runs, through the same filter and at the same rows as the data.
+Processed process_references(const Dataset& data, const Context& context,
+                             const std::vector<Term>& terms, const VectorXd& coefficients,
+                             const std::vector<ControlLaw>& laws, std::uint64_t seed) {
   Processed out{VectorXd(data.rows()), MatrixXd(data.rows(), columns_of(terms))};
   const Baseline machine = machine_with(data.baseline, terms, coefficients);
   Index at = 0;
@@ -56,11 +57,12 @@ Processed process_twins(const Dataset& data, const Context& context, const std::
     const Dataset::Member& member = data.members[i];
     const ExtraForce extra = extra_force(member.signals, context, terms, coefficients);
     const Theta theta = coefficients.head<kBaseColumns>();
-    const Twin twin = simulate_twin(member, theta, machine, extra, laws[i], seed + i);
-    if (twin.law == ControlLaw::Kind::kTracking) {
-      out.law = twin.law;
+    const SimulatedReference reference =
+        simulate_reference(member, theta, machine, extra, laws[i], seed + i);
+    if (reference.law == ControlLaw::Kind::kTracking) {
+      out.law = reference.law;
     }
-    const Signals signals = make_signals(twin.run, data.conditioning, data.baseline);
+    const Signals signals = make_signals(reference.run, data.conditioning, data.baseline);
     const Index rows = member.conditioner.rows();
     out.y.segment(at, rows) = member.conditioner.column(signals.input_N);
     out.x.middleRows(at, rows) = member.conditioner.columns(raw_columns(signals, context, terms));
@@ -69,26 +71,28 @@ Processed process_twins(const Dataset& data, const Context& context, const std::
   return out;
 }
 
-// What several twins at `coefficients` leave, and by how much they are fitted wrong, on average.
-struct Twins {
+// What several simulated references at `coefficients` leave, and by how much they are fitted wrong,
+// on average.
+struct SimulatedReferences {
   VectorXd bias;
   VectorXd residual;
   double one_rms_N = 0;  // of a single one's residual
   ControlLaw::Kind law = ControlLaw::Kind::kFitted;
 };
 
-Twins fit_twins(int count, const Dataset& data, const Context& context,
-                const std::vector<Term>& terms, const VectorXd& coefficients,
-                const std::vector<ControlLaw>& laws, std::uint64_t seed) {
-  Twins out{VectorXd::Zero(coefficients.size()), VectorXd::Zero(data.rows())};
+SimulatedReferences fit_references(int count, const Dataset& data, const Context& context,
+                                   const std::vector<Term>& terms, const VectorXd& coefficients,
+                                   const std::vector<ControlLaw>& laws, std::uint64_t seed) {
+  SimulatedReferences out{VectorXd::Zero(coefficients.size()), VectorXd::Zero(data.rows())};
   for (int i = 0; i < count; ++i) {
-    const Processed twin = process_twins(data, context, terms, coefficients, laws,
-                                         seed + static_cast<std::uint64_t>(i) * kSeedsApart);
-    const VectorXd residual = twin.y - twin.x * coefficients;
-    out.bias += (least_squares(twin.x, twin.y) - coefficients) / count;
+    const Processed reference =
+        process_references(data, context, terms, coefficients, laws,
+                           seed + static_cast<std::uint64_t>(i) * kSeedsApart);
+    const VectorXd residual = reference.y - reference.x * coefficients;
+    out.bias += (least_squares(reference.x, reference.y) - coefficients) / count;
     out.residual += residual / count;
     out.one_rms_N = std::max(out.one_rms_N, rms(residual));
-    out.law = twin.law == ControlLaw::Kind::kTracking ? twin.law : out.law;
+    out.law = reference.law == ControlLaw::Kind::kTracking ? reference.law : out.law;
   }
   return out;
 }
@@ -164,8 +168,9 @@ MatrixXd design_matrix(const Dataset& data, const Context& context,
   return data.stack([&](const Signals& s) { return raw_columns(s, context, terms); });
 }
 
-Evidence weigh(const Dataset& data, const Context& context, const std::vector<Term>& terms,
-               const std::vector<ControlLaw>& laws, int rounds, std::uint64_t seed) {
+Evidence fit_bias_corrected(const Dataset& data, const Context& context,
+                            const std::vector<Term>& terms, const std::vector<ControlLaw>& laws,
+                            int rounds, std::uint64_t seed) {
   Evidence e;
   e.starts = data.starts();
   e.y = data.stack([](const Signals& s) -> MatrixXd { return s.input_N; });
@@ -175,32 +180,33 @@ Evidence weigh(const Dataset& data, const Context& context, const std::vector<Te
   const VectorXd& plain = e.fitted;
   const double left = rms(e.y - e.x * plain);
   e.coefficients = plain;
-  VectorXd twin_residual = VectorXd::Zero(e.y.size());
+  VectorXd reference_residual = VectorXd::Zero(e.y.size());
   for (int round = 0; round < rounds; ++round) {
     const bool last = round + 1 == rounds;
-    const Twins twins =
-        fit_twins(last ? kTwins : 1, data, context, terms, e.coefficients, laws, seed);
-    e.law = twins.law;
-    if (twins.law == ControlLaw::Kind::kTracking && twins.one_rms_N > left) {
-      // Noisier than the log itself: no twins of it.
-      twin_residual.setZero();
-      e.twin_rms_N = 0;
+    const SimulatedReferences references =
+        fit_references(last ? kReferences : 1, data, context, terms, e.coefficients, laws, seed);
+    e.law = references.law;
+    if (references.law == ControlLaw::Kind::kTracking && references.one_rms_N > left) {
+      // Noisier than the log itself: no simulated references of it.
+      reference_residual.setZero();
+      e.reference_rms_N = 0;
       e.coefficients = plain;
       break;
     }
-    // theta <- theta + theta_hat(data) - theta_hat(twin(theta))
-    twin_residual = twins.residual;
-    e.twin_rms_N = twins.one_rms_N;
-    e.coefficients = plain - twins.bias;
+    // theta <- theta + theta_hat(data) - theta_hat(simulated reference(theta))
+    reference_residual = references.residual;
+    e.reference_rms_N = references.one_rms_N;
+    e.coefficients = plain - references.bias;
   }
   if (rms(e.y - e.x * e.coefficients) > kWorstCorrection * left) {
-    // The columns are so alike that the twin's noise moved the coefficients: the plain fit stands.
-    twin_residual.setZero();
-    e.twin_rms_N = 0;
+    // The columns are so alike that the simulated reference's noise moved the coefficients: the
+    // plain fit stands.
+    reference_residual.setZero();
+    e.reference_rms_N = 0;
     e.coefficients = plain;
   }
   e.residual = e.y - e.x * e.coefficients;
-  e.corrected = e.residual - twin_residual;
+  e.corrected = e.residual - reference_residual;
   e.basis = orthonormal(e.x);
   e.covariance = hac_of_coefficients(e);
   return e;

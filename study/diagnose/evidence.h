@@ -1,5 +1,5 @@
 // The fit of a structure (nominal columns and accepted effects) and the residual it leaves,
-// corrected by the twin.
+// corrected by the simulated reference.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,15 +19,16 @@ struct Term {
 
 struct Evidence {
   Eigen::VectorXd y;
-  Eigen::MatrixXd x;             // base columns, then the terms' columns
-  Eigen::VectorXd fitted;        // coefficients of x by least squares: what predicts best
-  Eigen::VectorXd coefficients;  // the same twin-corrected: nearest to the truth
-  Eigen::MatrixXd covariance;    // HAC, of the coefficients
-  Eigen::MatrixXd basis;         // orthonormal, of x
-  Eigen::VectorXd residual;      // y - x coefficients
-  Eigen::VectorXd corrected;     // minus the same of the twin
-  double force_rms_N = 0;        // of what the command made
-  double twin_rms_N = 0;         // what processing and quantisation alone leave
+  Eigen::MatrixXd x;       // base columns, then the terms' columns
+  Eigen::VectorXd fitted;  // coefficients of x by least squares: what predicts best
+  Eigen::VectorXd
+      coefficients;  // the same corrected by the simulated reference: nearest to the truth
+  Eigen::MatrixXd covariance;  // HAC, of the coefficients
+  Eigen::MatrixXd basis;       // orthonormal, of x
+  Eigen::VectorXd residual;    // y - x coefficients
+  Eigen::VectorXd corrected;   // minus the same of the simulated reference
+  double force_rms_N = 0;      // of what the command made
+  double reference_rms_N = 0;  // what processing and quantisation alone leave
   std::vector<Eigen::Index> starts;
   ControlLaw::Kind law = ControlLaw::Kind::kTracking;
 
@@ -49,9 +50,10 @@ struct Evidence {
                                      const std::vector<Term>& terms,
                                      const Eigen::VectorXd& coefficients);
 
-// `rounds` = 0: plain least squares, no twin. Laws: one a member.
-[[nodiscard]] Evidence weigh(const Dataset& data, const Context& context,
-                             const std::vector<Term>& terms, const std::vector<ControlLaw>& laws,
-                             int rounds, std::uint64_t seed);
+// `rounds` = 0: plain least squares, no simulated reference. Laws: one a member.
+[[nodiscard]] Evidence fit_bias_corrected(const Dataset& data, const Context& context,
+                                          const std::vector<Term>& terms,
+                                          const std::vector<ControlLaw>& laws, int rounds,
+                                          std::uint64_t seed);
 
 }  // namespace towbench::harness::diagnose

@@ -48,9 +48,9 @@ bool signs_are_allowed(const Trial& trial) {
 }
 
 // Processing and the loop alone can make a column predict (the controller answers the encoder's
-// steps, and the acceleration is full of them). How much of it they make the twin has shown: half
-// of the fitted contribution must be left.
-bool survives_the_twin(const Trial& trial) {
+// steps, and the acceleration is full of them). How much of it they make the simulated reference
+// has shown: half of the fitted contribution must be left.
+bool survives_the_reference(const Trial& trial) {
   const Evidence& e = trial.evidence;
   Eigen::Index at = kBaseColumns;
   for (const Term& term : trial.terms) {
@@ -81,28 +81,29 @@ double Trial::home_rms_N() const {
   return home.norm() / std::sqrt(static_cast<double>(home.size()));
 }
 
-Gates::Gates(const Dataset& data, const HeldOut* abroad, const Context& context, std::uint64_t seed)
-    : data_(data), abroad_(abroad), context_(context), seed_(seed) {
+Gates::Gates(const Dataset& data, const HeldOut* other_run, const Context& context,
+             std::uint64_t seed)
+    : data_(data), other_run_(other_run), context_(context), seed_(seed) {
   for (const auto& member : data.members) {
     laws_.push_back(find_control_law(member.run));
   }
-  stretches_ = stretches_of(weigh(data_, context_, {}, laws_, 0, seed_));
+  stretches_ = stretches_of(fit_bias_corrected(data_, context_, {}, laws_, 0, seed_));
 }
 
 Trial Gates::trial(const std::vector<Term>& terms, int rounds) const {
-  Trial t{terms, weigh(data_, context_, terms, laws_, rounds, seed_), {}, {}, {}};
+  Trial t{terms, fit_bias_corrected(data_, context_, terms, laws_, rounds, seed_), {}, {}, {}};
   t.home = cross_validated_residual(t.evidence, terms, stretches_);
   t.far = cross_validated_residual(t.evidence, terms, kQuarters);
-  if (abroad_ != nullptr) {
-    t.abroad = abroad_->residual({terms, t.evidence.fitted});
+  if (other_run_ != nullptr) {
+    t.other_run = other_run_->residual({terms, t.evidence.fitted});
   }
   return t;
 }
 
-Gain Gates::gain_at_home(const Trial& before, const Trial& after) const {
+Gain Gates::within_session_gain(const Trial& before, const Trial& after) const {
   Gain gain = gain_of(before.home, after.home, data_.starts(), seed_);
   if (context_.model.elastic()) {
-    return gain;  // of its residual much is no noise
+    return gain;  // the residual is mostly model error
   }
   return surest(gain, gain_on_this_motion(before.home, after.home, data_.starts()));
 }
@@ -111,7 +112,7 @@ bool Gates::stands(const Gain& home, const Trial& before, const Trial& after,
                    bool with_the_rest) const {
   const bool likely = home.ci95.low > 0 && home.ci95.value > kLeastGain;
   if (!(provisional() ? likely : certain(home)) || !signs_are_allowed(after) ||
-      !survives_the_twin(after)) {
+      !survives_the_reference(after)) {
     return false;
   }
   if (lines_in_time(after) > lines_in_time(before) &&
@@ -119,10 +120,10 @@ bool Gates::stands(const Gain& home, const Trial& before, const Trial& after,
         gain_of(before.far, after.far, data_.starts(), seed_).ci99.low > 0)) {
     return false;
   }
-  if (abroad_ == nullptr) {
+  if (other_run_ == nullptr) {
     return true;
   }
-  const Gain gain = abroad_->gain(before.abroad, after.abroad, seed_);
+  const Gain gain = other_run_->gain(before.other_run, after.other_run, seed_);
   return (with_the_rest ? gain.ci99.low : gain.ci95.low) > 0;
 }
 
@@ -130,7 +131,8 @@ bool Gates::as_good(const Trial& one, const Trial& other) const {
   if (gain_of(one.home, other.home, data_.starts(), seed_).ci95.low > 0) {
     return false;
   }
-  return abroad_ == nullptr || abroad_->gain(one.abroad, other.abroad, seed_).ci95.low <= 0;
+  return other_run_ == nullptr ||
+         other_run_->gain(one.other_run, other.other_run, seed_).ci95.low <= 0;
 }
 
 }  // namespace towbench::harness::diagnose

@@ -10,8 +10,8 @@ namespace {
 
 std::string class_of(const Cause& cause) {
   std::string names = cause.term.effect->name;
-  for (const Rival& rival : cause.rivals) {
-    names += " or " + rival.term.effect->name;
+  for (const Alternative& alternative : cause.alternatives) {
+    names += " or " + alternative.term.effect->name;
   }
   return names;
 }
@@ -107,11 +107,11 @@ std::string next_step(const Diagnosis& d) {
   for (std::size_t i = 0; i < d.separating.size(); ++i) {
     if (d.separating[i]) {
       return fmt::format("run {}: it tells {} from {}", d.separating[i]->motion.words(),
-                         d.selection.causes[i].term.effect->name, d.separating[i]->rival);
+                         d.selection.causes[i].term.effect->name, d.separating[i]->alternative);
     }
   }
   for (const Cause& cause : d.selection.causes) {
-    if (!cause.rivals.empty()) {
+    if (!cause.alternatives.empty()) {
       return fmt::format("no motion in reach tells {} apart; {}", class_of(cause),
                          cause.term.effect->needs);
     }

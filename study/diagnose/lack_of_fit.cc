@@ -131,7 +131,7 @@ std::optional<Unexplained> find_unexplained(const Dataset& data, const Evidence&
   for (Unexplained& shape : shapes) {
     shape.p_value = std::min(1.0, shape.p_value * static_cast<double>(shapes.size()));
     const bool fires =
-        shape.p_value < kQuiet && shape.rms_N > least_N && shape.rms_N > 0.3 * e.twin_rms_N;
+        shape.p_value < kQuiet && shape.rms_N > least_N && shape.rms_N > 0.3 * e.reference_rms_N;
     if (fires && (!worst || shape.rms_N > worst->rms_N)) {
       worst = shape;
     }

@@ -22,7 +22,7 @@ struct Unexplained {
 };
 
 // The coordinate along which most is left; none when all are quiet. A shape below 1 % of the
-// force's rms, or below what the twin shows by itself, is too small to matter.
+// force's rms, or below what the simulated reference shows by itself, is too small to matter.
 [[nodiscard]] std::optional<Unexplained> find_unexplained(const Dataset& data,
                                                           const Evidence& evidence);
 

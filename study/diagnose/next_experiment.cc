@@ -18,23 +18,24 @@ constexpr double kTwiceAsGood = 1.5;
 constexpr double kDuration_s = 12;
 constexpr double kRate_Hz = 500;
 
-// Rms of the cause's force that base columns and rival cannot make.
+// Rms of the cause's force that base columns and alternative cannot make.
 double left_of(const MatrixXd& base, const MatrixXd& cause, const VectorXd& beta,
-               const MatrixXd& rival) {
-  MatrixXd all(base.rows(), base.cols() + rival.cols());
-  all << base, rival;
+               const MatrixXd& alternative) {
+  MatrixXd all(base.rows(), base.cols() + alternative.cols());
+  all << base, alternative;
   const VectorXd force = cause * beta;
   return projected_off(orthonormal(all), force).norm() /
          std::sqrt(static_cast<double>(base.rows()));
 }
 
 double separation(const Dataset& data, const Context& context, const Cause& cause,
-                  const Rival& rival) {
+                  const Alternative& alternative) {
   const auto columns = [&](const Term& term) {
     return data.stack(
         [&](const Signals& s) { return effect_columns(*term.effect, s, context, term.scales); });
   };
-  return left_of(data.stack(base_columns), columns(cause.term), cause.beta, columns(rival.term));
+  return left_of(data.stack(base_columns), columns(cause.term), cause.beta,
+                 columns(alternative.term));
 }
 
 Dataset virtual_data(const TrialMotion& motion, const Context& c, const Conditioning& conditioning,
@@ -54,8 +55,9 @@ Dataset virtual_data(const TrialMotion& motion, const Context& c, const Conditio
 }  // namespace
 
 std::optional<NextExperiment> separate(const Dataset& data, const Context& context,
-                                       const Cause& cause, const Rival& rival) {
-  NextExperiment best{{}, rival.term.effect->name, 0, separation(data, context, cause, rival)};
+                                       const Cause& cause, const Alternative& alternative) {
+  NextExperiment best{
+      {}, alternative.term.effect->name, 0, separation(data, context, cause, alternative)};
   double top_acceleration = 0;
   for (const auto& member : data.members) {
     top_acceleration =
@@ -69,7 +71,7 @@ std::optional<NextExperiment> separate(const Dataset& data, const Context& conte
     if (made.rows() < 200) {
       continue;
     }
-    const double left = separation(made, context, cause, rival);
+    const double left = separation(made, context, cause, alternative);
     if (left > best.separation_N) {
       best.separation_N = left;
       best.motion = motion;

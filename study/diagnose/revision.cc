@@ -89,14 +89,14 @@ class Search {
   // With fewer names and as well, or with as many and better for certain.
   [[nodiscard]] bool says_it_better(const Trial& with, std::size_t names) const {
     return names < now_ ? gates_.as_good(with, stand_)
-                        : names == now_ &&
-                              gates_.stands(gates_.gain_at_home(stand_, with), stand_, with, true);
+                        : names == now_ && gates_.stands(gates_.within_session_gain(stand_, with),
+                                                         stand_, with, true);
   }
 
   void consider_one(const Trial& base, const Candidate& c) {
     const Trial with = gates_.trial(with_term(base.terms, c.term));
     const std::size_t names = names_in(model_, with);
-    const Gain gain = gates_.gain_at_home(base, with);
+    const Gain gain = gates_.within_session_gain(base, with);
     if (says_it_better(with, names) && gates_.stands(gain, base, with, true)) {
       keep_if_ahead(with, names, {{c.term, c.p_value(), gain}});
     }
@@ -121,12 +121,12 @@ class Search {
       if (!says_it_better(with, names)) {
         continue;
       }
-      const Gain of_other = gates_.gain_at_home(with_one, with);
+      const Gain of_other = gates_.within_session_gain(with_one, with);
       if (!gates_.stands(of_other, with_one, with, true)) {
         continue;
       }
       const Trial with_other = gates_.trial(with_term(base.terms, other.term));
-      const Gain of_one = gates_.gain_at_home(with_other, with);
+      const Gain of_one = gates_.within_session_gain(with_other, with);
       if (gates_.stands(of_one, with_other, with, true)) {
         keep_if_ahead(with, names,
                       {{one.term, one.p_value(), of_one}, {other.term, other.p_value(), of_other}});

@@ -1,6 +1,6 @@
 // The same said with less: other answers of fewer names that predict as well.
 //
-// Forward selection may open with a makeshift: Stribeck friction with other viscous and Coulomb
+// Forward selection may open with a substitute: Stribeck friction with other viscous and Coulomb
 // friction bends like drag that grows with the square of speed. So each accepted cause in turn, and
 // all of them together with the parameters that moved, are taken out and every other effect is
 // tried in their place. The answer with the fewest names (causes, and things that moved of the

@@ -58,7 +58,7 @@ class Score {
       const Dataset::Member& whole = fit.members.front();
       only_run_ = make_dataset({whole.run}, fit.conditioning, fit.baseline,
                                [](Index /*row*/, Index /*rows*/) { return true; });
-      stretches_ = stretches_of(weigh(*only_run_, context_, {}, laws_, 0, seed_));
+      stretches_ = stretches_of(fit_bias_corrected(*only_run_, context_, {}, laws_, 0, seed_));
     }
     before_ = left_by({}, s_.before);
   }
@@ -101,7 +101,7 @@ class Score {
 
  private:
   [[nodiscard]] Evidence weighed(const std::vector<Term>& terms) const {
-    return weigh(fit_, context_, terms, laws_, kTwinRounds, seed_);
+    return fit_bias_corrected(fit_, context_, terms, laws_, kReferenceRounds, seed_);
   }
   [[nodiscard]] Left left_by(const std::vector<Term>& terms, const Evidence& evidence) const {
     return {heldout_.residual({terms, evidence.fitted}), cross_validated(terms)};
@@ -115,8 +115,8 @@ class Score {
     if (!only_run_) {
       return {};
     }
-    return cross_validated_residual(weigh(*only_run_, context_, terms, laws_, 0, seed_), terms,
-                                    stretches_);
+    return cross_validated_residual(
+        fit_bias_corrected(*only_run_, context_, terms, laws_, 0, seed_), terms, stretches_);
   }
   [[nodiscard]] bool stands(std::size_t which, const Left& lacking) const {
     if (!only_run_) {

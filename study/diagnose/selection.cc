@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "study/diagnose/revision.h"
 #include "study/diagnose/alternatives.h"
+#include "study/diagnose/revision.h"
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -18,11 +18,11 @@ bool is_line_in_time(const Term& term) {
 
 class Selector {
  public:
-  Selector(const Dataset& data, const HeldOut* abroad, const Context& context, std::uint64_t seed,
-           const Progress& progress)
+  Selector(const Dataset& data, const HeldOut* other_run, const Context& context,
+           std::uint64_t seed, const Progress& progress)
       : model_(context.model),
         progress_(progress),
-        gates_(data, abroad, context, seed),
+        gates_(data, other_run, context, seed),
         candidates_(data, context),
         stand_(gates_.trial({})),
         least_N_(model_.elastic() ? kElasticFloor * stand_.evidence.force_rms_N : 0.0) {}
@@ -39,7 +39,7 @@ class Selector {
       prune();
     }
     for (std::size_t i = 0; i < s_.causes.size(); ++i) {
-      s_.causes[i].rivals = find_rivals(stand_, i, gates_, candidates_);
+      s_.causes[i].alternatives = find_alternatives(stand_, i, gates_, candidates_);
     }
     s_.after = stand_.evidence;
     s_.last_round = candidates_.best_of_each(s_.after, stand_.terms);
@@ -65,7 +65,7 @@ class Selector {
 
   bool accept(const Candidate& c) {
     const Trial with = stand_with({c.term});
-    const Gain gain = gates_.gain_at_home(stand_, with);
+    const Gain gain = gates_.within_session_gain(stand_, with);
     if (!gates_.stands(gain, stand_, with, false)) {
       s_.rejected.push_back({c.term.effect->name, c.p_value(), gain.ci99});
       return false;
@@ -93,7 +93,7 @@ class Selector {
         continue;
       }
       const Trial lacking = stand_with({other});
-      const Gain gain = gates_.gain_at_home(lacking, with_both);
+      const Gain gain = gates_.within_session_gain(lacking, with_both);
       if (gates_.stands(gain, lacking, with_both, true)) {
         take(c, with, gain);
         return true;
@@ -125,13 +125,13 @@ class Selector {
   }
 
   // A cause accepted early may be idle once the others stand: each must gain over the model without
-  // it, and now that the others leave little it must be certain abroad too.
+  // it, and now that the others leave little it must be certain on another run too.
   void prune() {
     for (std::size_t i = s_.causes.size(); s_.causes.size() > 1 && i-- > 0;) {
       std::vector<Term> others = stand_.terms;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
       const Trial lacking = gates_.trial(others);
-      const Gain gain = gates_.gain_at_home(lacking, stand_);
+      const Gain gain = gates_.within_session_gain(lacking, stand_);
       if (gates_.stands(gain, lacking, stand_, true)) {
         continue;
       }
@@ -187,9 +187,9 @@ std::vector<Term> Selection::terms() const {
   return out;
 }
 
-Selection select_causes(const Dataset& data, const HeldOut* abroad, const Context& context,
+Selection select_causes(const Dataset& data, const HeldOut* other_run, const Context& context,
                         std::uint64_t seed, const Progress& progress) {
-  return Selector(data, abroad, context, seed, progress).run();
+  return Selector(data, other_run, context, seed, progress).run();
 }
 
 }  // namespace towbench::harness::diagnose

@@ -13,8 +13,8 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kTrackingBandwidth_Hz = 15;
-// A fitted law whose twin strays further than this from the log, relative to the stroke, is
-// dropped.
+// A fitted law whose simulated reference strays further than this from the log, relative to the
+// stroke, is dropped.
 constexpr double kMostStray = 0.02;
 
 double quantised(double x, double step, double phase) {
@@ -47,32 +47,33 @@ class Simulation {
   }
 
   Run through(const ControlLaw& law) {
-    Run twin = log_;
+    Run reference = log_;
     const Motion start{signals_.position_m[0], signals_.speed_m_per_s[0]};
     AxisBody body(baseline_, theta_, start, start);
     LawState state;
     const auto steps = std::max(1, static_cast<int>(std::ceil(log_.period_s / kLongestStep_s)));
     const double h = log_.period_s / steps;
     for (Eigen::Index k = 0; k < log_.size(); ++k) {
-      twin.position_m[k] = quantised(body.motor().position_m, log_.resolution_m, phase_);
+      reference.position_m[k] = quantised(body.motor().position_m, log_.resolution_m, phase_);
       const double demand = law.kind == ControlLaw::Kind::kFitted
-                                ? law.gains.dot(state.terms(log_, k, twin.position_m[k]))
+                                ? law.gains.dot(state.terms(log_, k, reference.position_m[k]))
                                 : tracking(body.motor(), k);
-      twin.input_N[k] = rounded(demand, log_.input_step_N);
-      const double slope = held_ || k == 0 ? 0.0 : twin.input_N[k] - twin.input_N[k - 1];
+      reference.input_N[k] = rounded(demand, log_.input_step_N);
+      const double slope = held_ || k == 0 ? 0.0 : reference.input_N[k] - reference.input_N[k - 1];
       const Eigen::Index next = std::min(k + 1, log_.size() - 1);
       for (int i = 0; i < steps; ++i) {
         const double w = (i + 0.5) / steps;
         const auto between = [&](const VectorXd& x) { return (1 - w) * x[k] + w * x[next]; };
-        body.step(twin.input_N[k] + w * slope - between(extra_.on_motor_N),
+        body.step(reference.input_N[k] + w * slope - between(extra_.on_motor_N),
                   -between(extra_.on_load_N), h);
       }
     }
-    return twin;
+    return reference;
   }
 
  private:
-  // The model's force along the measured motion, and a spring and damper that holds the twin to it.
+  // The model's force along the measured motion, and a spring and damper that holds the simulated
+  // reference to it.
   [[nodiscard]] double tracking(const Motion& body, Eigen::Index k) const {
     const double w = 2 * std::numbers::pi * std::min(kTrackingBandwidth_Hz, 0.05 / log_.period_s);
     const double mass = theta_[kMass];
@@ -90,21 +91,22 @@ class Simulation {
   double phase_ = 0;
 };
 
-bool strays(const Run& twin, const Run& log) {
+bool strays(const Run& reference, const Run& log) {
   const double stroke = log.position_m.maxCoeff() - log.position_m.minCoeff();
-  const double off = (twin.position_m - log.position_m).cwiseAbs().maxCoeff();
+  const double off = (reference.position_m - log.position_m).cwiseAbs().maxCoeff();
   return !(off < kMostStray * stroke);
 }
 
 }  // namespace
 
-Twin simulate_twin(const Dataset::Member& member, const Theta& theta, const Baseline& baseline,
-                   const ExtraForce& extra, const ControlLaw& law, std::uint64_t seed) {
+SimulatedReference simulate_reference(const Dataset::Member& member, const Theta& theta,
+                                      const Baseline& baseline, const ExtraForce& extra,
+                                      const ControlLaw& law, std::uint64_t seed) {
   Simulation simulation(member, theta, baseline, extra, seed);
   if (law.kind == ControlLaw::Kind::kFitted) {
-    Twin twin{simulation.through(law), law.kind};
-    if (!strays(twin.run, member.run)) {
-      return twin;
+    SimulatedReference reference{simulation.through(law), law.kind};
+    if (!strays(reference.run, member.run)) {
+      return reference;
     }
   }
   return {simulation.through(ControlLaw{}), ControlLaw::Kind::kTracking};

@@ -59,15 +59,15 @@ std::string sizes_of(const Cause& cause) {
 std::string causes(const Diagnosis& d) {
   std::vector<Row> rows;
   for (const Cause& cause : d.selection.causes) {
-    std::string rivals;
-    for (const auto& rival : cause.rivals) {
-      rivals += (rivals.empty() ? "" : ", ") + rival.term.effect->name;
+    std::string alternatives;
+    for (const auto& alternative : cause.alternatives) {
+      alternatives += (alternatives.empty() ? "" : ", ") + alternative.term.effect->name;
     }
     rows.push_back({cause.term.effect->name, cause.term.effect->cause, sizes_of(cause),
                     cause.p_value < 1e-300 ? "< 1e-300" : fmt::format("{:.1e}", cause.p_value),
                     fmt::format("{:.1f} % [{:.1f}, {:.1f}]", 100 * cause.gain.ci99.value,
                                 100 * cause.gain.ci99.low, 100 * cause.gain.ci99.high),
-                    rivals.empty() ? "none" : rivals});
+                    alternatives.empty() ? "none" : alternatives});
   }
   return rows.empty() ? "<p>None.</p>\n"
                       : table({"effect", "the model lacks", "size (95 %)", "p, corrected",

@@ -220,7 +220,7 @@ class Problem {
   std::vector<std::size_t> rows_;
 };
 
-// By differences alone the way to the minimum is dearer and less often lost.
+// By differences alone the way to the minimum is slower but more robust.
 enum class Way { kQuick, kCareful };
 
 SecantCost cost_of(const Problem& problem, Way way) {

@@ -10,7 +10,7 @@ namespace towbench::harness::identify {
 namespace {
 
 constexpr Eigen::Index kUnknown = 3;  // dC, dB, dv
-constexpr double kSame = 1e-6;        // a twin's gear is written to so many digits
+constexpr double kSame = 1e-6;        // a simulated reference's gear is written to so many digits
 
 struct Pairs {
   Eigen::MatrixXd slopes;  // of the law, weighted
@@ -26,14 +26,14 @@ struct SpeedPairs {
 };
 
 std::vector<SpeedPairs> by_speed(const std::vector<SteadyRun>& machine,
-                                 const std::vector<SteadyRun>& twin) {
+                                 const std::vector<SteadyRun>& reference) {
   std::vector<SpeedPairs> speeds;
   for (const auto& one : machine) {
     const double w = std::fabs(one.speed_rad_per_s);
-    const auto other = std::find_if(twin.begin(), twin.end(), [&](const SteadyRun& each) {
+    const auto other = std::find_if(reference.begin(), reference.end(), [&](const SteadyRun& each) {
       return std::fabs(one.speed_rad_per_s - each.speed_rad_per_s) < kSame * w;
     });
-    if (other == twin.end()) {
+    if (other == reference.end()) {
       continue;
     }
     if (speeds.empty() || std::fabs(speeds.back().speed - w) > kSame * w) {
@@ -65,13 +65,14 @@ Pairs paired(const FrictionLaw& law, const std::vector<SpeedPairs>& speeds) {
 
 }  // namespace
 
-LawShift find_law_shift(const FrictionLaw& of_twin, double excess_deviation_Nm,
-                        const std::vector<SteadyRun>& machine, const std::vector<SteadyRun>& twin) {
+LawShift find_law_shift(const FrictionLaw& of_reference, double excess_deviation_Nm,
+                        const std::vector<SteadyRun>& machine,
+                        const std::vector<SteadyRun>& reference) {
   constexpr Eigen::Index kFewest = 6;
   constexpr double kNormal95 = 1.959964;
   constexpr double kAnswer = 0.58;  // 1/sqrt(3)
   LawShift shift;
-  const auto pairs = paired(of_twin, by_speed(machine, twin));
+  const auto pairs = paired(of_reference, by_speed(machine, reference));
   const Eigen::Index n = pairs.differences.size();
   if (n < kFewest) {
     return shift;

@@ -16,6 +16,8 @@
 namespace towbench::harness::procedures {
 namespace {
 
+constexpr const char* kSeedOfReference = "twin";  // kept word: another would change the noise
+
 Nameplate nameplate_of(const emulator::RigParameters& rig, core::Axis which) {
   const auto& axis = rig.axes[which];
   const auto& plant = axis.plant;
@@ -56,10 +58,10 @@ Machine::Machine(RigFixture rig, ControllerFixture controller, std::uint64_t see
   }
 }
 
-Machine Machine::twin(core::Axis axis, const emulator::AxisParameters& known) const {
+Machine Machine::reference(core::Axis axis, const emulator::AxisParameters& known) const {
   auto rig = rig_;
   rig.parameters.axes[axis].plant = known;
-  return {std::move(rig), controller_, seed_of(seed_, "twin"), watchers_};
+  return {std::move(rig), controller_, seed_of(seed_, kSeedOfReference), watchers_};
 }
 
 identify::Recording Machine::play(const Conversation& conversation) const {

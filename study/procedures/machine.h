@@ -55,7 +55,7 @@ class Machine {
 
   // The same with an axis that is known, for what an experiment shows of it. Nothing of what this
   // machine truly is on that axis is in it but its sensors and wires.
-  [[nodiscard]] Machine twin(core::Axis axis, const emulator::AxisParameters& known) const;
+  [[nodiscard]] Machine reference(core::Axis axis, const emulator::AxisParameters& known) const;
 
   [[nodiscard]] const bbmc::Configuration& configuration() const noexcept {
     return controller_.configuration;

@@ -1,5 +1,5 @@
 // EXP-OL-2: square-wave pulses. Ordinary least squares as the thesis has it, its bias shown by the
-// same on a twin whose parameters are known; beside it output error, which has none.
+// same on a simulated reference whose parameters are known; beside it output error, which has none.
 #include <algorithm>
 #include <cmath>
 

@@ -115,10 +115,10 @@ class TorqueSpeedMap final : public Procedure {
     return known == nullptr ? std::nullopt : std::optional(known->value);
   }
 
-  // The law of the machine by its twin's.
+  // The law of the machine by its simulated reference's.
   struct Corrected {
-    identify::FrictionLaw shown_by_twin;  // what the twin's runs look like
-    identify::FrictionLaw of_twin;        // what they are
+    identify::FrictionLaw shown_by_reference;  // what the simulated reference's runs look like
+    identify::FrictionLaw of_reference;        // what they are
     identify::LawShift shift;
   };
 
@@ -133,10 +133,11 @@ class TorqueSpeedMap final : public Procedure {
 
   // The same experiment on the identified plant, whose law is known. Nothing when there is no such
   // plant.
-  static std::optional<Corrected> beside_twin(const ProcedureContext& context,
-                                              const TorqueSpeedMapSettings& settings,
-                                              const std::vector<double>& speeds, double middle_m,
-                                              const std::vector<SteadyRun>& runs) {
+  static std::optional<Corrected> beside_reference(const ProcedureContext& context,
+                                                   const TorqueSpeedMapSettings& settings,
+                                                   const std::vector<double>& speeds,
+                                                   double middle_m,
+                                                   const std::vector<SteadyRun>& runs) {
     constexpr double kNormal95 = 1.959964;
     const auto* stribeck = context.find("stribeck_speed_rad_per_s");
     const auto* excess = context.find("stiction_excess_Nm");
@@ -145,20 +146,21 @@ class TorqueSpeedMap final : public Procedure {
     }
     const auto plant = read_plant(FixtureFile::parse(
         identified_plant(context.machine, context.known), "identified_plant.toml"));
-    const auto& of_twin = plant.parameters.axes[context.axis].plant;
-    const auto twin = context.machine.twin(context.axis, of_twin);
-    const auto seen = collect({.machine = twin, .axis = context.axis, .known = context.known},
+    const auto& of_reference = plant.parameters.axes[context.axis].plant;
+    const auto reference = context.machine.reference(context.axis, of_reference);
+    const auto seen = collect({.machine = reference, .axis = context.axis, .known = context.known},
                               settings, speeds, middle_m, 0);
     Corrected corrected;
-    corrected.shown_by_twin =
+    corrected.shown_by_reference =
         identify::fit_friction_law(seen.runs, stribeck->value, excess_of(context));
-    corrected.of_twin.coulomb_Nm = friction_at(of_twin, middle_m);
-    corrected.of_twin.excess_Nm = of_twin.friction.breakaway_Nm - of_twin.coulomb_friction_Nm;
-    corrected.of_twin.stribeck_rad_per_s = of_twin.friction.stribeck_speed_rad_per_s;
-    corrected.of_twin.viscous_Nm_s_per_rad = of_twin.viscous_friction_Nm_s_per_rad;
-    corrected.shift = identify::find_law_shift(corrected.of_twin, excess->half_width() / kNormal95,
-                                               runs, seen.runs);
-    if (!seen.trouble.empty() || !corrected.shown_by_twin.found || !corrected.shift.found) {
+    corrected.of_reference.coulomb_Nm = friction_at(of_reference, middle_m);
+    corrected.of_reference.excess_Nm =
+        of_reference.friction.breakaway_Nm - of_reference.coulomb_friction_Nm;
+    corrected.of_reference.stribeck_rad_per_s = of_reference.friction.stribeck_speed_rad_per_s;
+    corrected.of_reference.viscous_Nm_s_per_rad = of_reference.viscous_friction_Nm_s_per_rad;
+    corrected.shift = identify::find_law_shift(corrected.of_reference,
+                                               excess->half_width() / kNormal95, runs, seen.runs);
+    if (!seen.trouble.empty() || !corrected.shown_by_reference.found || !corrected.shift.found) {
       return std::nullopt;
     }
     return corrected;
@@ -249,16 +251,16 @@ class TorqueSpeedMap final : public Procedure {
           std::hypot(deviation, scales ? value * scale.relative_deviation : 0.0)));
     };
     add("map_excess_Nm", law.excess_Nm, law.excess_deviation_Nm, "N m", true);
-    const auto corrected = beside_twin(context, settings, speeds, middle_m, runs);
+    const auto corrected = beside_reference(context, settings, speeds, middle_m, runs);
     context.tell(1);
     if (corrected) {
-      const auto& [shown, twin, shift] = *corrected;
-      add("map_stribeck_rad_per_s", twin.stribeck_rad_per_s + shift.stribeck_rad_per_s,
+      const auto& [shown, reference, shift] = *corrected;
+      add("map_stribeck_rad_per_s", reference.stribeck_rad_per_s + shift.stribeck_rad_per_s,
           shift.stribeck_deviation, "rad/s", false);
-      add("map_viscous_Nm_s_per_rad", twin.viscous_Nm_s_per_rad + shift.viscous_Nm_s_per_rad,
+      add("map_viscous_Nm_s_per_rad", reference.viscous_Nm_s_per_rad + shift.viscous_Nm_s_per_rad,
           shift.viscous_deviation, "N m s/rad", true);
-      add("map_coulomb_Nm", twin.coulomb_Nm + shift.coulomb_Nm, shift.coulomb_deviation_Nm, "N m",
-          true);
+      add("map_coulomb_Nm", reference.coulomb_Nm + shift.coulomb_Nm, shift.coulomb_deviation_Nm,
+          "N m", true);
       outcome.estimates.back().at = middle_m;
     }
     add_pictures(runs, law, stalled, corrected, outcome);
@@ -291,15 +293,17 @@ class TorqueSpeedMap final : public Procedure {
                                .y_label = "torque, mN m",
                                .curves = {std::move(measured), std::move(fitted)},
                                .caption = "Compare Figs 7.10 to 7.12."});
-    ResultTable beside{.title = "The law, seen and corrected",
-                       .head = {"", "seen", "shown by a twin", "the twin's own", "corrected"}};
+    ResultTable beside{
+        .title = "The law, seen and corrected",
+        .head = {"", "seen", "shown by a simulated reference", "the reference's own", "corrected"}};
     const auto row = [&](const char* name, double identify::FrictionLaw::*of,
                          double identify::LawShift::*by) {
       const auto told = [](double value) { return fmt::format("{:.4g}", value); };
       beside.rows.push_back(
-          {name, told(law.*of), corrected ? told(corrected->shown_by_twin.*of) : "no model yet",
-           corrected ? told(corrected->of_twin.*of) : "",
-           corrected ? told(corrected->of_twin.*of + corrected->shift.*by) : "withheld"});
+          {name, told(law.*of),
+           corrected ? told(corrected->shown_by_reference.*of) : "no model yet",
+           corrected ? told(corrected->of_reference.*of) : "",
+           corrected ? told(corrected->of_reference.*of + corrected->shift.*by) : "withheld"});
     };
     row("Stribeck speed, rad/s", &identify::FrictionLaw::stribeck_rad_per_s,
         &identify::LawShift::stribeck_rad_per_s);

@@ -82,10 +82,11 @@ void add_ols(const TwoMassReport& report, ProcedureOutcome& outcome) {
                           (belief.drive.amplifier_gain_A_per_V * belief.drive.pwm_amplitude_V)};
   const auto ols = identify::fit_ordinary_least_squares(data, context.axis, input);
   // The same processing of a machine whose parameters are known: what it adds is its bias.
-  std::vector<double> twin(fit.simulated_counts.size());
-  std::transform(fit.simulated_counts.begin(), fit.simulated_counts.end(), twin.begin(),
+  std::vector<double> reference(fit.simulated_counts.size());
+  std::transform(fit.simulated_counts.begin(), fit.simulated_counts.end(), reference.begin(),
                  [](double count) { return std::floor(count); });
-  const auto of_twin = identify::fit_ordinary_least_squares(data, context.axis, input, &twin);
+  const auto of_reference =
+      identify::fit_ordinary_least_squares(data, context.axis, input, &reference);
   double mean_friction = 0;
   for (const double each : fit.coulomb_Nm) {
     mean_friction += each / static_cast<double>(fit.coulomb_Nm.size());
@@ -93,15 +94,15 @@ void add_ols(const TwoMassReport& report, ProcedureOutcome& outcome) {
   ResultTable table{
       .title = "Ordinary least squares (4.9) and output error",
       .head = {"", "OLS", "output error", "OLS off by, %", "of which the method's bias, %"}};
-  const auto row = [&](const char* name, double biased, double value, double on_twin) {
+  const auto row = [&](const char* name, double biased, double value, double on_reference) {
     table.rows.push_back({name, fmt::format("{:.4g}", biased), fmt::format("{:.4g}", value),
                           fmt::format("{:+.1f}", 100 * (biased / value - 1)),
-                          fmt::format("{:+.1f}", 100 * (on_twin / value - 1))});
+                          fmt::format("{:+.1f}", 100 * (on_reference / value - 1))});
   };
-  row("J, kg m2", ols.inertia_kg_m2, fit.axis.inertia_kg_m2, of_twin.inertia_kg_m2);
+  row("J, kg m2", ols.inertia_kg_m2, fit.axis.inertia_kg_m2, of_reference.inertia_kg_m2);
   row("B, N m s/rad", ols.viscous_Nm_s_per_rad, fit.axis.viscous_friction_Nm_s_per_rad,
-      of_twin.viscous_Nm_s_per_rad);
-  row("C, mean of the map, N m", ols.coulomb_Nm, mean_friction, of_twin.coulomb_Nm);
+      of_reference.viscous_Nm_s_per_rad);
+  row("C, mean of the map, N m", ols.coulomb_Nm, mean_friction, of_reference.coulomb_Nm);
   outcome.tables.push_back(std::move(table));
   ResultTable criteria{.title = "Criteria: " + report.input,
                        .head = {"criterion", "demand", "measured", "met"}};

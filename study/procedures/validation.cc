@@ -130,8 +130,8 @@ class Validation final : public Procedure {
                              settings.span_s),
         .head = {"motion", "identified, encoder", "identified, duty", "controller's belief, duty",
                  "gain"}};
-    const auto identified_twin = context.machine.twin(context.axis, identified);
-    const auto believed_twin = context.machine.twin(context.axis, believed);
+    const auto identified_reference = context.machine.reference(context.axis, identified);
+    const auto believed_reference = context.machine.reference(context.axis, believed);
     ProcedureOutcome outcome;
     double counts_square = 0;
     double duty_square = 0;
@@ -143,8 +143,8 @@ class Validation final : public Procedure {
         return ProcedureOutcome::failed(data.trouble);
       }
       const auto left = left_by(identified, path, data, context.axis, settings.span_s);
-      const auto now = play(context, identified_twin, settings, start_m, motion);
-      const auto old = play(context, believed_twin, settings, start_m, motion);
+      const auto now = play(context, identified_reference, settings, start_m, motion);
+      const auto old = play(context, believed_reference, settings, start_m, motion);
       if (!left.simulated || !now.trouble.empty()) {
         return ProcedureOutcome::failed("the identified plant cannot do the motion: " +
                                         now.trouble);

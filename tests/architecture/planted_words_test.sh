@@ -31,6 +31,7 @@ expect fail code.cc 'int widget_count = 0;'
 expect fail code.cc 'int theWidgetCount = 0;'
 expect fail code.h '// the old path of it'
 expect pass code.h 'int component_count = 0;'
+expect pass code.cc 'const char* seed = "widget";  // kept word: another would change the noise'
 
 printf '# Glossary\nno list\n' >"$scratch/docs/glossary.md"
 printf 'fine\n' >"$scratch/page.md"

@@ -56,7 +56,7 @@ export async function driveRuns({ checks, person, page, bench, root, runs, shots
     await speed.selectOption("1");
   });
 
-  await checks.run("the kill switch takes the drive and latches; mended and reset it is free", async () => {
+  await checks.run("the kill switch takes the drive and latches; cleared and reset it is free", async () => {
     await page.click("#kill");
     await person.until("Kill switch", /^pressed$/);
     await person.until("Fault", /latched/);
@@ -78,7 +78,7 @@ export async function driveRuns({ checks, person, page, bench, root, runs, shots
 
   await checks.run("what was done by hand is in events.jsonl and replays bit for bit", async () => {
     const events = readFileSync(join(runs, driven, "events.jsonl"), "utf8");
-    for (const kind of ["fault", "mended", "typed", "clock", "holds", "finished"]) {
+    for (const kind of ["fault", "cleared", "typed", "clock", "holds", "finished"]) {
       assert.ok(events.includes(`"side":"hand","kind":"${kind}"`), `no ${kind} in events.jsonl`);
     }
     const said = replay(driven);

@@ -32,7 +32,7 @@ TEST(PlantNodeWiring, AKillSwitchWithABrokenWireIsNotSeenButStillCutsInHardware)
   EXPECT_EQ(c.peer.truth.back().axes[Axis::kY].current_A, 0.0);
 }
 
-TEST(PlantNodeWiring, AShortedHallLineIsActiveAtThatNanosecondAndGoesBackWhenMended) {
+TEST(PlantNodeWiring, AShortedHallLineIsActiveAtThatNanosecondAndGoesBackWhenCleared) {
   ScriptedController c(rig_starting_at(1.0, 0.3),
                        {rewire(1'500'001, InputLine::kHallXMax, WireCondition::kStuckHigh),
                         rewire(7'000'000, InputLine::kHallXMax, WireCondition::kIntact)});

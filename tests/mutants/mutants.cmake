@@ -26,7 +26,7 @@ mutant(no_blind_brake system/motion_safety.cc
 mutant(blind_brake_pushes_on system/brake.cc
   "-blind_direction_ * limit_Nm_" "blind_direction_ * limit_Nm_")
 mutant(late_speed_taken_for_prompt system/brake.cc
-  "late_ = stalest_ns_ > kPrompt_ns;" "late_ = false;")
+  "late_ = max_age_ns_ > kPrompt_ns;" "late_ = false;")
 
 # ---- who is heard
 mutant(hall_ends_swapped system/motion_safety.cc

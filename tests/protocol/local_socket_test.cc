@@ -110,7 +110,7 @@ TEST_F(LocalSocketTest, RefusesAPathThatIsServedAlready) {
 
 TEST_F(LocalSocketTest, RefusesAPathServedBySomeoneWhoKnowsNoLock) {
   boost::asio::io_context context;
-  const boost::asio::local::stream_protocol::acceptor stranger(
+  const boost::asio::local::stream_protocol::acceptor foreign(
       context, boost::asio::local::stream_protocol::endpoint(path_.string()));
   EXPECT_NE(refusal(path_).find("another process listens"), std::string::npos);
 }

@@ -27,7 +27,7 @@ export class StartForm {
     this.speed.id = "start-speed";
     this.clock.id = "start-clock";
     this.choice.addEventListener("change", () => this.show());
-    // A clock that does not wait cannot be paused, and faults are judged beside a twin of the same bits.
+    // A clock that does not wait cannot be paused, and faults are judged beside a reference run of the same bits.
     this.clock.addEventListener("change", () => {
       for (const field of [this.speed, this.paused.box, this.faults]) field.disabled = this.isReal();
     });

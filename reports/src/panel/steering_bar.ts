@@ -44,7 +44,7 @@ export class SteeringBar {
     finish.id = "finish";
     const cut = button("Cut short", () => send({ do: "cut" }));
     const breakButton = button("Break it", () => send({ do: "break", fault: this.words() }));
-    const mend = button("Mend", () => send({ do: "mend", fault: `${this.place.value} ${this.kind.value}` }));
+    const clearButton = button("Clear fault", () => send({ do: "clear", fault: `${this.place.value} ${this.kind.value}` }));
     const first = element("div", "bar-row");
     first.append(
       this.kill,
@@ -64,13 +64,13 @@ export class SteeringBar {
       labelled("Fault", this.kind),
       labelled("Parameters", this.parameters),
       breakButton,
-      mend,
+      clearButton,
     );
     this.box.append(first, second, this.meaning);
     this.place.addEventListener("change", () => this.showKinds());
     this.kind.addEventListener("change", () => this.showParameters());
     this.always = [finish, cut];
-    this.all = [this.kill, this.pauseButton, stepButton, breakButton, mend, this.speed, this.step, ...this.stops];
+    this.all = [this.kill, this.pauseButton, stepButton, breakButton, clearButton, this.speed, this.step, ...this.stops];
     document.addEventListener("keydown", (event) => this.onKey(event));
   }
 
@@ -107,7 +107,7 @@ export class SteeringBar {
   }
 
   private toggle(words: string): void {
-    this.send({ do: this.isBroken(words) ? "mend" : "break", fault: words });
+    this.send({ do: this.isBroken(words) ? "clear" : "break", fault: words });
   }
 
   private toggleKill(): void {

@@ -3,7 +3,7 @@
 // Found by a known weight: two runs of one motion, in one of which a weight over a pulley pulls at
 // the load for a while. The force sensor weighs it, the duty answers it; the ratio of the two
 // changes is the scale. What the run does before the weight pulls takes off both sensors' constant
-// errors, the twin run takes off whatever depends on the place.
+// errors, the reference run takes off whatever depends on the place.
 #pragma once
 
 #include <optional>

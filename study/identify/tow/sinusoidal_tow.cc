@@ -56,15 +56,15 @@ std::optional<SinusoidalDrag> sinusoidal_tow(const Recording& with,
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (std::size_t i = starts[k]; i < starts[k + 1]; ++i) {
-      const std::size_t twin = other + (i - start);
-      if (twin >= without.rows() || i + 1 >= with.rows() ||
+      const std::size_t reference = other + (i - start);
+      if (reference >= without.rows() || i + 1 >= with.rows() ||
           std::fabs(speed[i]) < settings.slow_share * fastest) {
         continue;
       }
       const double a = (speed[i + 1] - speed[i - 1]) / (2 * with.period_s);
       const Eigen::Vector3d row(a, std::fabs(speed[i]) * speed[i], 1.0);
       normal += row * row.transpose();
-      right += row * (settings.scale * (column_with[i] - column_without[twin]));
+      right += row * (settings.scale * (column_with[i] - column_without[reference]));
     }
     const Eigen::Vector3d solution = normal.ldlt().solve(right);
     masses.push_back(solution(0));

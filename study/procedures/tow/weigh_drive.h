@@ -1,5 +1,5 @@
 // The drive's scale by a known weight (identify/tow/drive_scale.h): one tow in air with a weight
-// over a pulley that begins to pull on the way, and its twin without.
+// over a pulley that begins to pull on the way, and its simulated reference without.
 #pragma once
 
 #include <string>

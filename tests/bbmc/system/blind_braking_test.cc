@@ -101,7 +101,7 @@ TEST(BlindBraking, IsWhatStopsIt) {
   EXPECT_GT(way_after({.from_s = 1.0, .frozen = true}, true), 5 * rigid_way_m(0.5));
 }
 
-TEST(BlindBraking, IsNotTriedWithAnEncoderThatHasLiedFromTheStart) {
+TEST(BlindBraking, IsNotTriedWithAnEncoderThatIsWrongFromTheStart) {
   Machine machine;
   machine.disturb_edges = Lie{.from_s = 0.0};
   ASSERT_TRUE(machine.system().request_motion(trapezoid(machine, Axis::kY, 0.8, 0.5)));

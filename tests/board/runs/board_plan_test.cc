@@ -151,7 +151,7 @@ TEST_F(BoardPlanRun, MomentsAreFoundInTheSameImageWithoutTheFault) {
   };
   const auto there = run_experiment(with("position_m = 0.5"), options_);
   ASSERT_NE(check_named(there, "fault_fired"), nullptr) << complaints_of(there);
-  const auto truth = CsvTable::load(there.folder / "twin" / "truth.csv");
+  const auto truth = CsvTable::load(there.folder / "reference" / "truth.csv");
   const auto fired_s = check_named(there, "fault_fired")->value.value_or(0);
   EXPECT_NEAR(carriage_at(truth, fired_s), 0.5, 1e-3)
       << "the carriage was there, without the fault";
@@ -171,7 +171,8 @@ TEST_F(BoardPlanRun, AWeldedKillSwitchIsJudgedBesideASoundOneThatIsPressedToo) {
   const auto run = at("1.8");
   ASSERT_NE(check_named(run, "fault_fired"), nullptr) << complaints_of(run);
   EXPECT_EQ(check_named(run, "fault_fired")->verdict, Verdict::kPass);
-  EXPECT_NE(contents_of(run.folder / "twin" / "console.txt").find("killed at"), std::string::npos);
+  EXPECT_NE(contents_of(run.folder / "reference" / "console.txt").find("killed at"),
+            std::string::npos);
   EXPECT_EQ(contents_of(run.folder / "console.txt").find("killed at"), std::string::npos);
 }
 

@@ -152,7 +152,7 @@ TEST(DrawnMachines, DifferFromTheNominalOneByNoMoreThanTheSpread) {
     EXPECT_NEAR(plant.torque_constant_Nm_per_A / nominal.torque_constant_Nm_per_A, 1.0,
                 campaign.spread);
     EXPECT_NEAR(plant.friction.breakaway_Nm / nominal.friction.breakaway_Nm, 1.0, campaign.spread);
-    EXPECT_EQ(motion.twin->first_fault(), nullptr);
+    EXPECT_EQ(motion.reference->first_fault(), nullptr);
     inertias.insert(plant.inertia_kg_m2);
   }
   EXPECT_EQ(inertias.size(), campaign.machines);

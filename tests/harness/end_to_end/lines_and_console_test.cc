@@ -44,7 +44,7 @@ TEST(EncoderLinesOption, AControllerThatExpectsAnIndexIsNotRunWithoutOne) {
   EXPECT_THAT(output.text, HasSubstr("no index for a controller that expects one"));
 }
 
-TEST(EncoderLinesOption, FaultsAreRefusedBecauseTheirTwinHasOtherBits) {
+TEST(EncoderLinesOption, FaultsAreRefusedBecauseTheirReferenceRunHasOtherBits) {
   const auto output = typed(
       "run wall-clock-window --encoder-lines gpiochip0+9:index,sim:gpiochip0+9:index --fault "
       "\"encoder.y "

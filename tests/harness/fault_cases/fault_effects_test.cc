@@ -1,5 +1,5 @@
-// Every kind of fault there is takes effect: a plant or sensor signal differs from the twin run.
-// Where it cannot, the run says so and proves nothing.
+// Every kind of fault there is takes effect: a plant or sensor signal differs from the reference
+// run. Where it cannot, the run says so and proves nothing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -117,9 +117,9 @@ TEST(FaultEffects, ASlippedDiscKeepsItsIndexAndLosesItsCounts) {
   std::unique_ptr<CaseRecord> run;
   (void)stage(kMid).carry_out("encoder.y slip phase=cruise after=0.1s counts=20", &run);
   const auto& truth = run->truth.back().axes[core::Axis::kY];
-  const auto& twin = stage(kMid).twin->truth.back().axes[core::Axis::kY];
+  const auto& reference = stage(kMid).reference->truth.back().axes[core::Axis::kY];
   // The controller follows what it sees: the carriage ends 20 counts further on.
-  EXPECT_NEAR(static_cast<double>(truth.count - twin.count), 20.0, 3.0);
+  EXPECT_NEAR(static_cast<double>(truth.count - reference.count), 20.0, 3.0);
   EXPECT_EQ(run->first_fault(), nullptr);
 }
 
@@ -127,24 +127,25 @@ TEST(FaultEffects, ASkippedChainLeavesTheCarriageBehindTheMotorByATooth) {
   std::unique_ptr<CaseRecord> run;
   (void)stage(kMid).carry_out("drive.y chain_skip phase=cruise after=0.1s by=8mm", &run);
   ASSERT_EQ(run->first_fault(), nullptr);
-  // At rest the chain is as relaxed as the twin's, to what friction holds.
+  // At rest the chain is as relaxed as the reference run's, to what friction holds.
   const auto& truth = run->truth.back().axes[core::Axis::kY];
-  const auto& twin = stage(kMid).twin->truth.back().axes[core::Axis::kY];
-  EXPECT_NEAR(static_cast<double>(truth.count - twin.count), 0.0, 3.0);
-  EXPECT_NEAR(truth.carriage_m - twin.carriage_m, -8e-3, 0.5e-3);
+  const auto& reference = stage(kMid).reference->truth.back().axes[core::Axis::kY];
+  EXPECT_NEAR(static_cast<double>(truth.count - reference.count), 0.0, 3.0);
+  EXPECT_NEAR(truth.carriage_m - reference.carriage_m, -8e-3, 0.5e-3);
 }
 
 TEST(FaultEffects, SeveralFaultsAreEachShownToActOnTheirOwn) {
   auto& end = stage(kEnd);
   const auto plan = read_fault_plan(FixtureFile::load("fixtures/faults/y-max-open-and-kill.toml"));
-  const auto prepared = prepare(plan, end.plain, *end.twin);
-  const auto verdict = judge_case(end.plain, prepared, *end.twin, 1);
+  const auto prepared = prepare(plan, end.plain, *end.reference);
+  const auto verdict = judge_case(end.plain, prepared, *end.reference, 1);
   EXPECT_TRUE(verdict.fired) << words_of(verdict);
   EXPECT_EQ(verdict.figures.fault, core::ErrorCode::kFaultKillSwitch);
   // A second one that does nothing is found out although the first acts.
   auto useless = plan;
   useless.push_back(parse_fault("amplifier.x gain_drop at=0s"));
-  const auto again = judge_case(end.plain, prepare(useless, end.plain, *end.twin), *end.twin, 1);
+  const auto again =
+      judge_case(end.plain, prepare(useless, end.plain, *end.reference), *end.reference, 1);
   EXPECT_FALSE(again.fired);
   EXPECT_EQ(again.verdict(), Verdict::kInvalid);
 }

@@ -87,7 +87,7 @@ struct BusFrames {
 
 // ---- the faults ----
 
-// What befalls the frames that one side sends.
+// What happens to the frames that one side sends.
 template <typename Frame>
 class SendFault {
  public:
@@ -142,7 +142,7 @@ class SendFault {
   std::optional<Frame> held_;
 };
 
-// What befalls whoever reads. True: nothing comes out of this read.
+// What happens to whoever reads. True: nothing comes out of this read.
 class ReadFault {
  public:
   void strike(WireKind kind) noexcept { kind_ = kind; }

@@ -1,4 +1,4 @@
-// What ends a link and what befalls a host: found in time, whatever the control rate.
+// What ends a link and what happens to a host: found in time, whatever the control rate.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -82,15 +82,15 @@ TEST(BaudMismatch, WithinWhatAUartBearsHasNoEffect) {
 // What a bus does to the data is done without a bus too: the same motion, not the same bits.
 TEST(CanFrames, CarryAFaultFreeRunThatDiffersFromTheEdgesOnlyInWhatIsMeasured) {
   auto& mid = stage(kMotion);
-  const auto framed = run_twin(mid.plain, 1, true);
-  ASSERT_EQ(framed->log.size(), mid.twin->log.size());
+  const auto framed = run_reference(mid.plain, 1, true);
+  ASSERT_EQ(framed->log.size(), mid.reference->log.size());
   EXPECT_EQ(framed->first_fault(), nullptr);
-  EXPECT_GE(first_difference_ns(*framed, *mid.twin), 0);
+  EXPECT_GE(first_difference_ns(*framed, *mid.reference), 0);
   double farthest_m = 0;
   for (std::size_t i = 0; i < framed->truth.size(); ++i) {
     farthest_m =
         std::max(farthest_m, std::fabs(framed->truth[i].axes[core::Axis::kY].carriage_m -
-                                       mid.twin->truth[i].axes[core::Axis::kY].carriage_m));
+                                       mid.reference->truth[i].axes[core::Axis::kY].carriage_m));
   }
   EXPECT_LT(farthest_m, 2e-3);
 }

@@ -14,13 +14,14 @@ namespace towbench::harness {
 
 struct Stage {
   explicit Stage(const std::string& experiment)
-      : plain(without_expectations(Runs::shipped(experiment))), twin(run_twin(plain, 1)) {}
+      : plain(without_expectations(Runs::shipped(experiment))),
+        reference(run_reference(plain, 1)) {}
   ExperimentFixture plain;
-  std::unique_ptr<CaseRecord> twin;
+  std::unique_ptr<CaseRecord> reference;
 
   CaseVerdict carry_out(const std::string& words, std::unique_ptr<CaseRecord>* run = nullptr) {
-    const auto prepared = prepare({parse_fault(words)}, plain, *twin);
-    return judge_case(plain, prepared, *twin, 1, run);
+    const auto prepared = prepare({parse_fault(words)}, plain, *reference);
+    return judge_case(plain, prepared, *reference, 1, run);
   }
 };
 

@@ -22,7 +22,7 @@ namespace towbench::harness {
 
 enum class WireName : std::uint8_t { kSocket, kLine, kBus, kFdBus };
 
-// One side's end of a wire: the link, and what may befall it.
+// One side's end of a wire: the link, and what may happen to it.
 class WireEnd {
  public:
   WireEnd() = default;
@@ -127,14 +127,14 @@ struct WholeWire {
 class TwoSides final : public PlantEnd {
  public:
   // A version that is not ours, said by this side.
-  enum class Stranger : std::uint8_t { kNobody, kController, kPlant };
+  enum class OtherVersion : std::uint8_t { kNobody, kController, kPlant };
 
   TwoSides(WireName name, const emulator::RigParameters& rig, emulator::PlantObserver& observer,
-           Stranger stranger = Stranger::kNobody)
+           OtherVersion other_version = OtherVersion::kNobody)
       : wire_(name),
         plant_(rig, 1, {}, observer),
-        to_plant_(wire_.near->link().peer(), stranger == Stranger::kController),
-        to_controller_(wire_.far->link().peer(), stranger == Stranger::kPlant) {
+        to_plant_(wire_.near->link().peer(), other_version == OtherVersion::kController),
+        to_controller_(wire_.far->link().peer(), other_version == OtherVersion::kPlant) {
     plant_.connect(to_controller_);
   }
 
@@ -168,14 +168,15 @@ class TwoSides final : public PlantEnd {
 
  private:
   struct ToPlant final : protocol::EachMessage<ToPlant> {
-    ToPlant(protocol::MessageSink& peer, bool stranger) : to(peer), is_stranger(stranger) {}
+    ToPlant(protocol::MessageSink& peer, bool other_version)
+        : to(peer), speaks_other_version(other_version) {}
     template <typename Message>
     void handle(const Message& message) noexcept {
       to.on(message);
     }
     void handle(const protocol::Hello& hello) noexcept {
       auto said = hello;
-      said.version = static_cast<std::uint16_t>(hello.version + (is_stranger ? 1 : 0));
+      said.version = static_cast<std::uint16_t>(hello.version + (speaks_other_version ? 1 : 0));
       to.on(said);
     }
     void handle(const protocol::PwmDuty& duty) noexcept {
@@ -183,22 +184,24 @@ class TwoSides final : public PlantEnd {
       to.on(duty);
     }
     protocol::MessageSink& to;
-    bool is_stranger;
+    bool speaks_other_version;
     core::PerAxis<bool> drives;
   };
   struct ToController final : protocol::EachMessage<ToController> {
-    ToController(protocol::MessageSink& peer, bool stranger) : to(peer), is_stranger(stranger) {}
+    ToController(protocol::MessageSink& peer, bool other_version)
+        : to(peer), speaks_other_version(other_version) {}
     template <typename Message>
     void handle(const Message& message) noexcept {
       to.on(message);
     }
     void handle(const protocol::HelloReply& reply) noexcept {
       auto said = reply;
-      said.plant.version = static_cast<std::uint16_t>(reply.plant.version + (is_stranger ? 1 : 0));
+      said.plant.version =
+          static_cast<std::uint16_t>(reply.plant.version + (speaks_other_version ? 1 : 0));
       to.on(said);
     }
     protocol::MessageSink& to;
-    bool is_stranger;
+    bool speaks_other_version;
   };
 
   // As harness/link/plant_service.h does, a turn of it.

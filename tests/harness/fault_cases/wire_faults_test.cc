@@ -215,9 +215,9 @@ TEST(SoundWires, OfEdgesGiveTheSameBits) {
 class RefusedGreeting : public testing::TestWithParam<WireName> {
  protected:
   // What start() says; the plant has then moved nothing and removed its drive.
-  ErrorCode refusal_of(std::uint64_t hash_differs, TwoSides::Stranger stranger) {
+  ErrorCode refusal_of(std::uint64_t hash_differs, TwoSides::OtherVersion other_version) {
     CaseRecord record;
-    TwoSides sides(GetParam(), fixture_.rig.parameters, record, stranger);
+    TwoSides sides(GetParam(), fixture_.rig.parameters, record, other_version);
     LockstepBench bench(fixture_.controller.configuration, fixture_.rig.hash ^ hash_differs, sides,
                         &record);
     const auto agreed = bench.start();
@@ -231,15 +231,15 @@ class RefusedGreeting : public testing::TestWithParam<WireName> {
 };
 
 TEST_P(RefusedGreeting, OfAnotherFixtureMovesNothing) {
-  EXPECT_EQ(refusal_of(1, TwoSides::Stranger::kNobody), ErrorCode::kProtocolFixtureMismatch);
+  EXPECT_EQ(refusal_of(1, TwoSides::OtherVersion::kNobody), ErrorCode::kProtocolFixtureMismatch);
 }
 
 TEST_P(RefusedGreeting, OfAControllerOfAnotherVersionMovesNothing) {
-  EXPECT_EQ(refusal_of(0, TwoSides::Stranger::kController), ErrorCode::kProtocolVersion);
+  EXPECT_EQ(refusal_of(0, TwoSides::OtherVersion::kController), ErrorCode::kProtocolVersion);
 }
 
 TEST_P(RefusedGreeting, OfAPlantOfAnotherVersionMovesNothing) {
-  EXPECT_EQ(refusal_of(0, TwoSides::Stranger::kPlant), ErrorCode::kProtocolVersion);
+  EXPECT_EQ(refusal_of(0, TwoSides::OtherVersion::kPlant), ErrorCode::kProtocolVersion);
 }
 
 INSTANTIATE_TEST_SUITE_P(Wires, RefusedGreeting,

@@ -22,8 +22,8 @@ using ::testing::HasSubstr;
 // without a thread, and the same every time.
 class Person final : public RunTap {
  public:
-  using Deed = std::function<void(LiveHand&)>;
-  explicit Person(LiveHand& hand) : hand_(hand) {}
+  using Deed = std::function<void(LiveOperator&)>;
+  explicit Person(LiveOperator& hand) : hand_(hand) {}
   void at(double time_s, Deed deed) {
     deeds_.emplace_back(core::nanoseconds(time_s), std::move(deed));
   }
@@ -40,7 +40,7 @@ class Person final : public RunTap {
   void console(std::string_view /*text*/) noexcept override {}
 
  private:
-  LiveHand& hand_;
+  LiveOperator& hand_;
   std::vector<std::pair<core::Nanoseconds, Deed>> deeds_;
   std::size_t next_ = 0;
 };
@@ -61,7 +61,7 @@ class DrivenRun : public ::testing::Test {
   }
   ~DrivenRun() override { std::filesystem::remove_all(out_); }
 
-  RunResult run(LiveHand& hand, Person& person) {
+  RunResult run(LiveOperator& hand, Person& person) {
     RunOptions options;
     options.out = out_;
     options.hand = &hand;
@@ -87,7 +87,7 @@ class DrivenRun : public ::testing::Test {
   }();
   ExperimentFixture fixture_;
   std::atomic<bool> stop_{false};
-  LiveHand::Pace as_fast_as_it_goes_{.speed = 0, .paused = false};
+  LiveOperator::Pace as_fast_as_it_goes_{.speed = 0, .paused = false};
 };
 
 Fault fault_in(const char* words) {
@@ -95,13 +95,13 @@ Fault fault_in(const char* words) {
 }
 
 TEST_F(DrivenRun, AKillThatIsPressedAndReleasedReplaysBitForBitAndIsJudged) {
-  LiveHand hand(fixture_, 1, as_fast_as_it_goes_, true, stop_);
+  LiveOperator hand(fixture_, 1, as_fast_as_it_goes_, true, stop_);
   Person person(hand);
   const auto kill = fault_in("kill_switch pressed");
-  person.at(3.0, [&](LiveHand& it) { it.break_now(kill); });
-  person.at(4.0, [&](LiveHand& it) { it.mend(kill.place, kill.kind); });
-  person.at(4.2, [](LiveHand& it) { it.type("reset systate\r"); });
-  person.at(4.5, [](LiveHand& it) { it.finish(); });
+  person.at(3.0, [&](LiveOperator& it) { it.break_now(kill); });
+  person.at(4.0, [&](LiveOperator& it) { it.clear(kill.place, kill.kind); });
+  person.at(4.2, [](LiveOperator& it) { it.type("reset systate\r"); });
+  person.at(4.5, [](LiveOperator& it) { it.finish(); });
   const auto first = run(hand, person);
   ASSERT_TRUE(first.complete) << first.reason;
   EXPECT_EQ(first.judgement.verdict, Verdict::kPass);
@@ -115,13 +115,14 @@ TEST_F(DrivenRun, AKillThatIsPressedAndReleasedReplaysBitForBitAndIsJudged) {
 
 TEST_F(DrivenRun, LinkHostAndBouncingContactsReplayToo) {
   fixture_.experiment.duration_limit_s = 6;
-  LiveHand hand(fixture_, 1, as_fast_as_it_goes_, true, stop_);
+  LiveOperator hand(fixture_, 1, as_fast_as_it_goes_, true, stop_);
   Person person(hand);
-  person.at(1.5, [](LiveHand& it) {
+  person.at(1.5, [](LiveOperator& it) {
     it.break_now(fault_in("link.to_controller delay delay_s=0.002 for=0.2s"));
   });
-  person.at(2.0,
-            [](LiveHand& it) { it.break_now(fault_in("encoder.y noise_burst seed=3 for=0.05s")); });
+  person.at(2.0, [](LiveOperator& it) {
+    it.break_now(fault_in("encoder.y noise_burst seed=3 for=0.05s"));
+  });
   const auto first = run(hand, person);
   ASSERT_TRUE(first.complete) << first.reason;
   EXPECT_NE(first.judgement.verdict, Verdict::kInvalid);
@@ -130,9 +131,9 @@ TEST_F(DrivenRun, LinkHostAndBouncingContactsReplayToo) {
 
 TEST_F(DrivenRun, WhatIsOnlyTypedMakesTheRunProveNothing) {
   fixture_.experiment.duration_limit_s = 2;
-  LiveHand hand(fixture_, 1, as_fast_as_it_goes_, true, stop_);
+  LiveOperator hand(fixture_, 1, as_fast_as_it_goes_, true, stop_);
   Person person(hand);
-  person.at(0.5, [](LiveHand& it) { it.type("status\r"); });
+  person.at(0.5, [](LiveOperator& it) { it.type("status\r"); });
   const auto first = run(hand, person);
   ASSERT_TRUE(first.complete) << first.reason;
   EXPECT_EQ(first.judgement.verdict, Verdict::kInvalid);
@@ -141,7 +142,7 @@ TEST_F(DrivenRun, WhatIsOnlyTypedMakesTheRunProveNothing) {
 
 TEST_F(DrivenRun, AHandThatDoesNothingLeavesTheVerdictOfTheBudgets) {
   fixture_.experiment.hand.pop_back();  // does not hold
-  LiveHand hand(fixture_, 1, as_fast_as_it_goes_, false, stop_);
+  LiveOperator hand(fixture_, 1, as_fast_as_it_goes_, false, stop_);
   Person person(hand);
   const auto first = run(hand, person);
   EXPECT_EQ(first.judgement.verdict, Verdict::kPass);
@@ -153,21 +154,21 @@ TEST_F(DrivenRun, AHandThatDoesNothingLeavesTheVerdictOfTheBudgets) {
 }
 
 TEST_F(DrivenRun, WhatCannotBeDoneIsRefusedInWords) {
-  LiveHand hand(fixture_, 1, as_fast_as_it_goes_, true, stop_);
+  LiveOperator hand(fixture_, 1, as_fast_as_it_goes_, true, stop_);
   EXPECT_THROW(hand.break_now(parse_fault("endstop.y_max missing")), FixtureError);
   Person person(hand);
   const auto kill = fault_in("kill_switch pressed");
   std::string already;
   std::string unknown;
-  person.at(1.0, [&](LiveHand& it) {
+  person.at(1.0, [&](LiveOperator& it) {
     it.break_now(kill);
     it.break_now(kill);
   });
-  person.at(1.1, [&](LiveHand& it) {
+  person.at(1.1, [&](LiveOperator& it) {
     already = it.take_trouble();
-    it.mend(fault_in("encoder.y frozen").place, FaultKind::kFrozen);
+    it.clear(fault_in("encoder.y frozen").place, FaultKind::kFrozen);
   });
-  person.at(1.2, [&](LiveHand& it) {
+  person.at(1.2, [&](LiveOperator& it) {
     unknown = it.take_trouble();
     it.finish();
   });

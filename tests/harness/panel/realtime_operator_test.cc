@@ -25,7 +25,7 @@ using ::testing::HasSubstr;
 // Presses keys when the run has come so far; otherwise the panel's own tap.
 class Typist final : public RunTap {
  public:
-  explicit Typist(RunHand& hand) : hand_(hand) {}
+  explicit Typist(RunOperator& hand) : hand_(hand) {}
   void begins(const fs::path& folder) override { tap_->begins(folder); }
   [[nodiscard]] protocol::MessageSink* witness() noexcept override { return tap_->witness(); }
   void row(const bbmc::TelemetryRow& row,
@@ -47,7 +47,7 @@ class Typist final : public RunTap {
 
  private:
   std::unique_ptr<LiveTap> tap_ = std::make_unique<LiveTap>();
-  RunHand& hand_;
+  RunOperator& hand_;
   int stage_ = 0;
 };
 
@@ -59,14 +59,14 @@ std::string written_in(const fs::path& file) {
 }
 
 // Whether the host is quick enough for the run to count is another matter: every bit is there.
-TEST(RealtimeHand, WhatIsTypedByTheWallClockIsWrittenDownAndReplaysToTheLastBit) {
+TEST(RealtimeOperator, WhatIsTypedByTheWallClockIsWrittenDownAndReplaysToTheLastBit) {
   auto pattern = (fs::temp_directory_path() / "towbench-typed-XXXXXX").string();
   const fs::path out = mkdtemp(pattern.data());
   auto fixture = load_experiment("fixtures/experiments/wall-clock-window.toml");
   fixture.experiment.hand = {{.text = "by hand"},
                              {.kind = HandAct::Kind::kHolds, .text = "goes on"}};
   const auto seed = fixture.experiment.seed;
-  RealtimeHand hand(fixture.experiment.hand, true);
+  RealtimeOperator hand(fixture.experiment.hand, true);
   Typist typist(hand);
   RunOptions options;
   options.out = out;
@@ -92,17 +92,17 @@ TEST(RealtimeHand, WhatIsTypedByTheWallClockIsWrittenDownAndReplaysToTheLastBit)
   fs::remove_all(out);
 }
 
-TEST(RealtimeHand, BreaksPausesAndStepsNothing) {
-  RealtimeHand hand({}, false);
+TEST(RealtimeOperator, BreaksPausesAndStepsNothing) {
+  RealtimeOperator hand({}, false);
   EXPECT_THROW(hand.break_now(parse_fault("kill_switch pressed at=0s")), FixtureError);
-  EXPECT_THROW(hand.mend({}, FaultKind::kPressed), FixtureError);
+  EXPECT_THROW(hand.clear({}, FaultKind::kPressed), FixtureError);
   EXPECT_THROW(hand.set_speed(0.1), FixtureError);
   EXPECT_THROW(hand.pause(true), FixtureError);
   EXPECT_THROW(hand.step(1), FixtureError);
 }
 
-TEST(RealtimeHand, MoreThanTheQueueHoldsIsRefusedWhole) {
-  RealtimeHand hand({}, false);
+TEST(RealtimeOperator, MoreThanTheQueueHoldsIsRefusedWhole) {
+  RealtimeOperator hand({}, false);
   hand.type(std::string(4000, 'x'));
   EXPECT_THROW(hand.type(std::string(4000, 'y')), FixtureError);
 }

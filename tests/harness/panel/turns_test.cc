@@ -1,4 +1,4 @@
-// Who looks on gives way, and what a looker-on starts does not but goes ahead where it may.
+// Who observes gives way, and what an observer starts does not but goes ahead where it may.
 #include "harness/panel/turns.h"
 
 #include <filesystem>
@@ -34,28 +34,28 @@ TEST(Turns, ARunThatALookerOnStartsTakesItsTurns) {
   const TemporaryFixtures folder;
   const auto session = std::make_unique<Session>(folder.folder());
   const auto before = threads_by_policy();
-  look_on();
+  observe_only();
   session->start({.experiment = "circle", .pace = {.speed = 0, .paused = true}});
   while (session->tap().folder().empty()) {
     std::this_thread::yield();  // it has begun once it has told where it writes
   }
   auto during = threads_by_policy();
-  take_turns();
+  share_processor();
   EXPECT_EQ(during[SCHED_BATCH], 1) << "this thread alone gives way";
   EXPECT_GE(during[SCHED_OTHER], before.at(SCHED_OTHER)) << "the run's does not";
   EXPECT_EQ(::sched_getscheduler(0), SCHED_OTHER);
 }
 
-TEST(Turns, WhoWorksGoesAheadWhereTheHostAllowsItAndNotWhenItLooksOnAgain) {
+TEST(Turns, WhoWorksGoesAheadWhereTheHostAllowsItAndNotWhenItObservesAgain) {
   std::thread([] {
-    look_on();
+    observe_only();
     const int own = ::getpriority(PRIO_PROCESS, 0);
-    take_turns();
+    share_processor();
     const int ahead = ::getpriority(PRIO_PROCESS, 0);
     const bool allowed = ::setpriority(PRIO_PROCESS, 0, own - 1) == 0;
-    take_turns();
+    share_processor();
     EXPECT_EQ(ahead, allowed ? -10 : own);
-    look_on();
+    observe_only();
     EXPECT_EQ(::getpriority(PRIO_PROCESS, 0), own);
   }).join();
 }

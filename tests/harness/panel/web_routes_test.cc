@@ -106,15 +106,15 @@ TEST_F(WebRoutesTest, ASocketNeedsOriginAndCookie) {
                      .origin = std::string("http://") + kHost,
                      .cookie = "towbench=" + keys_.exchange(keys_.ticket())};
   EXPECT_FALSE(routes_.refuse_socket(request));
-  auto stranger = request;
-  stranger.cookie = "towbench=";
-  EXPECT_TRUE(routes_.refuse_socket(stranger));
-  stranger = request;
-  stranger.origin = "";
-  EXPECT_TRUE(routes_.refuse_socket(stranger));
-  stranger = request;
-  stranger.target = "/elsewhere";
-  EXPECT_TRUE(routes_.refuse_socket(stranger));
+  auto unauthorized = request;
+  unauthorized.cookie = "towbench=";
+  EXPECT_TRUE(routes_.refuse_socket(unauthorized));
+  unauthorized = request;
+  unauthorized.origin = "";
+  EXPECT_TRUE(routes_.refuse_socket(unauthorized));
+  unauthorized = request;
+  unauthorized.target = "/elsewhere";
+  EXPECT_TRUE(routes_.refuse_socket(unauthorized));
 }
 
 TEST(WebKeys, ForgetsTheOldestOfManyBrowsersAndNeverKnowsAnEmptyCookie) {

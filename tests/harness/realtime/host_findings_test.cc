@@ -18,12 +18,12 @@ Finding finding_on(const TemporaryFixtures& root, const std::string& subject) {
   return found == findings.end() ? Finding{} : *found;
 }
 
-TEST(HostFindings, SayOneThingOfEverySubjectAndHowToMendWhatIsMissing) {
+TEST(HostFindings, SayOneThingOfEverySubjectAndHowToCorrectWhatIsMissing) {
   const auto findings = host_findings();
   EXPECT_EQ(findings.size(), 8U);
   for (const auto& finding : findings) {
     EXPECT_FALSE(finding.found.empty()) << finding.subject;
-    EXPECT_EQ(finding.fit == Fitness::kGood, finding.mend.empty()) << finding.subject;
+    EXPECT_EQ(finding.fit == Fitness::kGood, finding.remedy.empty()) << finding.subject;
   }
 }
 
@@ -36,7 +36,7 @@ TEST(HostFindings, TellCanInterfacesByTypeAndState) {
   root.write("sys/class/net/can0/mtu", "16\n");
   const auto down = finding_on(root, "can");
   EXPECT_EQ(down.fit, Fitness::kMissing);
-  EXPECT_EQ(down.mend, "ip link set can0 up type can bitrate 1000000 restart-ms 100");
+  EXPECT_EQ(down.remedy, "ip link set can0 up type can bitrate 1000000 restart-ms 100");
   root.write("sys/class/net/vcan0/type", "280\n");
   root.write("sys/class/net/vcan0/operstate", "unknown\n");
   root.write("sys/class/net/vcan0/mtu", "72\n");
@@ -48,11 +48,11 @@ TEST(HostFindings, TellCanInterfacesByTypeAndState) {
   EXPECT_EQ(finding_on(root, "can").fit, Fitness::kGood);
 }
 
-TEST(HostFindings, DoNotGiveAVirtualBusABitRateToMendIt) {
+TEST(HostFindings, DoNotGiveAVirtualBusABitRateToCorrectIt) {
   const TemporaryFixtures root;
   root.write("sys/class/net/vcan0/type", "280\n");
   root.write("sys/class/net/vcan0/operstate", "down\n");
-  EXPECT_EQ(finding_on(root, "can").mend, "ip link set vcan0 up");
+  EXPECT_EQ(finding_on(root, "can").remedy, "ip link set vcan0 up");
 }
 
 TEST(HostFindings, TellSerialPortsWithHardwareBehindThem) {

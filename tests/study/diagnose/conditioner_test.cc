@@ -52,7 +52,7 @@ TEST(Conditioner, ALawHoldsInALogThatBeginsInTheMiddleOfAViolentMotion) {
   const Dataset data = make_dataset({that_begins_under_way(model)},
                                     Conditioning{.cutoff_Hz = 40, .smoothing_Hz = 100},
                                     stated_baseline(model), everywhere);
-  const Evidence e = weigh(data, make_context(model, data), {}, {}, 0, 1);
+  const Evidence e = fit_bias_corrected(data, make_context(model, data), {}, {}, 0, 1);
   EXPECT_NEAR(e.coefficients[kMass], model.mass_kg, 1e-3 * model.mass_kg);
   EXPECT_LT(e.residual.cwiseAbs().maxCoeff(), 0.02) << "N, of 59 N";
 }

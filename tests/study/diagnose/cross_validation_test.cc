@@ -1,4 +1,4 @@
-// What is predicted must not have been fitted to, and only what is on trial must be predicted.
+// What is predicted must not have been fitted to, and only what is a candidate must be predicted.
 #include "study/diagnose/cross_validation.h"
 
 #include <cmath>
@@ -76,7 +76,7 @@ double rms(const VectorXd& x) {
   return x.norm() / std::sqrt(static_cast<double>(x.size()));
 }
 
-TEST(CrossValidation, TheNominalModelIsNotOnTrial) {
+TEST(CrossValidation, TheNominalModelIsNoCandidate) {
   const Case c = fast_in_one_stretch(0.1);
   const VectorXd left = cross_validated_residual(c.evidence, c.terms, kStretches);
   EXPECT_NEAR(rms(left), kNoise_N, 0.1 * kNoise_N);

@@ -113,8 +113,8 @@ bool names(const Cause& cause, const std::set<std::string>& wanted) {
   if (wanted.contains(cause.term.effect->name)) {
     return true;
   }
-  for (const Rival& rival : cause.rivals) {
-    if (wanted.contains(rival.term.effect->name)) {
+  for (const Alternative& alternative : cause.alternatives) {
+    if (wanted.contains(alternative.term.effect->name)) {
       return true;
     }
   }

@@ -42,8 +42,8 @@ Gains gains_of_memory() {
       make_dataset({other}, conditioning, stated_baseline(nominal_of(axis)), on_all_rows);
   const Context context = make_context(nominal_of(axis), fit);
   const auto terms = memorising_terms();
-  const FittedModel plain{{}, weigh(fit, context, {}, {}, 0, 1).coefficients};
-  const FittedModel memory{terms, weigh(fit, context, terms, {}, 0, 1).coefficients};
+  const FittedModel plain{{}, fit_bias_corrected(fit, context, {}, {}, 0, 1).coefficients};
+  const FittedModel memory{terms, fit_bias_corrected(fit, context, terms, {}, 0, 1).coefficients};
   const auto gain = [&](const Dataset& data) {
     const HeldOut judge(data, context, kSameSession);
     return judge.gain(judge.residual(plain), judge.residual(memory), 1);
@@ -64,7 +64,8 @@ TEST(HeldOut, AnUnchangedResidualGainsNothing) {
                                     stated_baseline(nominal_of(axis)), on_all_rows);
   const Context context = make_context(nominal_of(axis), data);
   const HeldOut judge(data, context, kSameSession);
-  const Eigen::VectorXd r = judge.residual({{}, weigh(data, context, {}, {}, 0, 1).coefficients});
+  const Eigen::VectorXd r =
+      judge.residual({{}, fit_bias_corrected(data, context, {}, {}, 0, 1).coefficients});
   const Gain gain = judge.gain(r, r, 1);
   EXPECT_EQ(gain.ci99.low, 0);
   EXPECT_EQ(gain.ci99.high, 0);

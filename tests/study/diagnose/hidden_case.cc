@@ -46,8 +46,8 @@ std::vector<std::vector<std::string>> named(const Diagnosis& d) {
   std::vector<std::vector<std::string>> out;
   for (const Cause& cause : d.selection.causes) {
     std::vector<std::string> names{cause.term.effect->name};
-    for (const Rival& rival : cause.rivals) {
-      names.push_back(rival.term.effect->name);
+    for (const Alternative& alternative : cause.alternatives) {
+      names.push_back(alternative.term.effect->name);
     }
     out.push_back(std::move(names));
   }

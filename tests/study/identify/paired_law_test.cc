@@ -1,4 +1,4 @@
-// A law from the differences between a machine and a twin whose law is known.
+// A law from the differences between a machine and a simulated reference whose law is known.
 #include "study/identify/paired_law.h"
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace towbench::harness::identify {
 namespace {
 
-FrictionLaw twins_law() {
+FrictionLaw reference_law() {
   FrictionLaw law;
   law.coulomb_Nm = 2e-3;
   law.excess_Nm = 1e-3;
@@ -35,13 +35,14 @@ std::vector<SteadyRun> runs_of(const FrictionLaw& law, core::Random& random, dou
 }
 
 TEST(PairedLaw, IsFoundThoughBothStickAndSlip) {
-  auto of_machine = twins_law();
+  auto of_machine = reference_law();
   of_machine.coulomb_Nm += 3e-5;
   of_machine.viscous_Nm_s_per_rad += 1e-7;
   of_machine.stribeck_rad_per_s += 0.02;
   core::Random random(2);
   const auto machine = runs_of(of_machine, random, 0);
-  const auto shift = find_law_shift(twins_law(), 0, machine, runs_of(twins_law(), random, 0));
+  const auto shift =
+      find_law_shift(reference_law(), 0, machine, runs_of(reference_law(), random, 0));
   ASSERT_TRUE(shift.found);
   EXPECT_NEAR(shift.coulomb_Nm, 3e-5, 1e-7);
   EXPECT_NEAR(shift.viscous_Nm_s_per_rad, 1e-7, 1e-9);
@@ -52,10 +53,10 @@ TEST(PairedLaw, IsFoundThoughBothStickAndSlip) {
 
 TEST(PairedLaw, IsAsSureAsTheDifferencesAgree) {
   core::Random random(4);
-  const auto quiet = find_law_shift(twins_law(), 0, runs_of(twins_law(), random, 1e-7),
-                                    runs_of(twins_law(), random, 1e-7));
-  const auto noisy = find_law_shift(twins_law(), 0, runs_of(twins_law(), random, 1e-5),
-                                    runs_of(twins_law(), random, 1e-5));
+  const auto quiet = find_law_shift(reference_law(), 0, runs_of(reference_law(), random, 1e-7),
+                                    runs_of(reference_law(), random, 1e-7));
+  const auto noisy = find_law_shift(reference_law(), 0, runs_of(reference_law(), random, 1e-5),
+                                    runs_of(reference_law(), random, 1e-5));
   ASSERT_TRUE(quiet.found && noisy.found);
   EXPECT_GT(noisy.stribeck_deviation, 20 * quiet.stribeck_deviation);
   EXPECT_LT(std::fabs(noisy.stribeck_rad_per_s), 4 * noisy.stribeck_deviation);
@@ -63,17 +64,17 @@ TEST(PairedLaw, IsAsSureAsTheDifferencesAgree) {
 
 TEST(PairedLaw, IsLessSureWhereTheRiseToStandstillIs) {
   core::Random random(6);
-  const auto machine = runs_of(twins_law(), random, 1e-7);
-  const auto twin = runs_of(twins_law(), random, 1e-7);
-  EXPECT_GT(find_law_shift(twins_law(), 1e-5, machine, twin).stribeck_deviation,
-            5 * find_law_shift(twins_law(), 0, machine, twin).stribeck_deviation);
+  const auto machine = runs_of(reference_law(), random, 1e-7);
+  const auto reference = runs_of(reference_law(), random, 1e-7);
+  EXPECT_GT(find_law_shift(reference_law(), 1e-5, machine, reference).stribeck_deviation,
+            5 * find_law_shift(reference_law(), 0, machine, reference).stribeck_deviation);
 }
 
 TEST(PairedLaw, IsNotFoundInFewerThanSixSpeeds) {
   core::Random random(2);
-  auto machine = runs_of(twins_law(), random, 0);
+  auto machine = runs_of(reference_law(), random, 0);
   machine.resize(10);  // five speeds, both ways
-  EXPECT_FALSE(find_law_shift(twins_law(), 0, machine, machine).found);
+  EXPECT_FALSE(find_law_shift(reference_law(), 0, machine, machine).found);
 }
 
 }  // namespace

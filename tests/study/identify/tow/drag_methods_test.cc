@@ -61,7 +61,7 @@ TEST(MotorCurrentDifference, IsFreeOfFrictionThatDependsOnThePlace) {
   EXPECT_NEAR(point->force_N.value, kDrag * 0.16, 0.02 * kDrag * 0.16);
 }
 
-TEST(PairedDifference, RefusesRunsThatAreNotTwins) {
+TEST(PairedDifference, RefusesRunsThatAreNotPaired) {
   const auto there_and_back = synthetic_tow({});
   const auto none = synthetic_tow({.steady_s = 0.1});
   EXPECT_FALSE(paired_difference(there_and_back, there_and_back.force_N[Axis::kY], none,
