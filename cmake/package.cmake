@@ -16,11 +16,11 @@ install(CODE "
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME towbench)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
-set(CPACK_PACKAGE_CONTACT "towbench maintainers <towbench@localhost.localdomain>")
+set(CPACK_PACKAGE_CONTACT "towbench maintainers <authors@towbench.example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "hardware-in-the-loop bench for embedded motion controllers")
-set(CPACK_PACKAGE_DESCRIPTION "Emulates a machine (drive, transmission, friction, water, encoders, switches) for an
-unmodified motion controller, scripts and judges experiments, injects faults, and
-diagnoses measured logs.")
+set(CPACK_PACKAGE_DESCRIPTION "Emulates a machine (drive, transmission, friction, water, encoders,
+switches) for an unmodified motion controller, scripts and judges
+experiments, injects faults, and diagnoses measured logs.")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)

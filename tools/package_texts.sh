@@ -34,6 +34,6 @@ as_troff() { sed -e 's/\\/\\e/g' -e 's/-/\\-/g' -e "s/^\([.']\)/\\\\\&\1/"; }
   printf '\nIts programs are linked with Unicorn, which is under the GNU General Public License, version 2:\n'
   printf 'whoever passes them on does so under that licence, /usr/share/common-licenses/GPL-2.\n'
 } >"$doc/copyright"
-printf 'towbench (%s) stable; urgency=low\n\n  * As built from its sources.\n\n -- towbench maintainers <towbench@localhost.localdomain>  %s\n' \
+printf 'towbench (%s) stable; urgency=low\n\n  * As built from its sources.\n\n -- towbench maintainers <authors@towbench.example.org>  %s\n' \
   "$version" "$(git -C "$root" log -1 --format=%cD 2>/dev/null || date -R)" | gzip -9n >"$doc/changelog.gz"
 chmod 644 "$man/towbench.1.gz" "$completions/towbench" "$doc/copyright" "$doc/changelog.gz"
