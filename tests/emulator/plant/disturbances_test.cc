@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "emulator/plant/sine_table.h"
+#include "emulator/plant/torque_ripple.h"
 #include "tests/support/axis_fixture.h"
 
 namespace towbench::tests {
@@ -82,6 +84,26 @@ TEST(Disturbances, TorqueRippleRocksAFreeMotorInItsTroughAtTheFrequencyOfTheTrou
     bench.tick();
     ASSERT_NEAR(bench.plant.state().motor_angle_rad, swing * (1 - std::cos(w * k * 1e-4)),
                 1e-3 * swing);
+  }
+}
+
+// In closed form: the difference of the cosines at both ends of the motion.
+TEST(Disturbances, TheMeanOfATorqueRippleOverAPieceOfMotionIsItsIntegral) {
+  constexpr double kRipple_Nm = 5e-4;
+  constexpr double kRipplePeriods = 6;
+  const emulator::TorqueRipple ripple(
+      {.amplitude_Nm = kRipple_Nm, .periods_per_turn = kRipplePeriods, .phase_deg = 0});
+  const emulator::SineTable sine;
+  for (const double share : {0.01, 0.1, 0.25, 0.5, 0.75, 0.99}) {
+    for (const double middle_rad : {0.05, 0.2618, 0.6, 1.3}) {
+      const double travel_rad = share * kTurn / kRipplePeriods;
+      const double exact_Nm = kRipple_Nm *
+                              (std::cos(kRipplePeriods * (middle_rad - 0.5 * travel_rad)) -
+                               std::cos(kRipplePeriods * (middle_rad + 0.5 * travel_rad))) /
+                              (kRipplePeriods * travel_rad);
+      EXPECT_NEAR(ripple.mean(sine, middle_rad, travel_rad), exact_Nm, 4e-3 * kRipple_Nm)
+          << share << " of a period around " << middle_rad << " rad";
+    }
   }
 }
 
