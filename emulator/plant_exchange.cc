@@ -47,6 +47,9 @@ void PlantExchange::greet(const protocol::Hello& hello) noexcept {
   const core::Status agreed = protocol::compare(reply.plant, hello);
   reply.refusal = agreed ? ErrorCode::kNone : agreed.error();
   greeted_ = agreed.has_value();
+  if (!greeted_) {
+    observer_->on_refusal(reply.plant, hello, reply.refusal);
+  }
   // Edges are the finer class; the digest is for a controller that asks for nothing else.
   sends_edges_ = (hello.capabilities & protocol::kCapabilityEdges) != 0;
   sends_digest_ = !sends_edges_;

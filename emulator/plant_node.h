@@ -24,6 +24,9 @@ class PlantObserver {
   virtual ~PlantObserver() = default;
   virtual void on_truth(const TruthRow& row) noexcept = 0;
   virtual void on_event(const PlantEvent& event) noexcept = 0;
+  // A controller was refused at its greeting.
+  virtual void on_refusal(const protocol::Hello& /*ours*/, const protocol::Hello& /*theirs*/,
+                          core::ErrorCode /*why*/) noexcept {}
 };
 
 class PlantNode : public protocol::MessageSink {

@@ -1,6 +1,7 @@
 // The cases of a campaign: every combination that its entries name, each with a name of its own.
 #include <algorithm>
 #include <iterator>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -31,6 +32,11 @@ std::string name_of_entry(const CampaignEntry& entry) {
                      fmt::join(entry.kinds, ","), fmt::join(entry.phases, ","));
 }
 
+std::string name_in_phase(const std::string& part, const std::string& kind,
+                          const std::string& phase) {
+  return fmt::format("[[inject]] {} {} phase \"{}\"", part, kind, phase);
+}
+
 class CaseList {
  public:
   explicit CaseList(const Campaign& campaign) : campaign_(campaign) {}
@@ -38,6 +44,7 @@ class CaseList {
   std::vector<CampaignCase> build() {
     for (const auto& entry : campaign_.entries) {
       const auto before = cases_.size();
+      in_phase_.clear();
       for (const auto& motion : campaign_.motions) {
         const auto& name = motion.plain.experiment.name;
         const bool wanted =
@@ -49,12 +56,18 @@ class CaseList {
       }
       if (cases_.size() == before) {
         without_.push_back(name_of_entry(entry));
+        continue;
+      }
+      for (const auto& [name, found] : in_phase_) {
+        if (!found) {
+          without_.push_back(name);
+        }
       }
     }
     return std::move(cases_);
   }
 
-  // Entries that gave no case, in words.
+  // What was asked for and gave no case on any motion, in words.
   [[nodiscard]] const std::vector<std::string>& without() const noexcept { return without_; }
 
  private:
@@ -112,9 +125,11 @@ class CaseList {
                    [&](const PhaseSpan& span) {
                      return span.phase == phase && (!end_ns || span.from_ns < *end_ns);
                    });
+      auto& found = in_phase_[name_in_phase(part, kind, phase)];
       if (fitting.empty()) {
         continue;  // this motion has no such phase
       }
+      found = true;
       for (std::uint64_t seed = 1; seed <= seeds(entry); ++seed) {
         core::Random random(hash_of(
             fmt::format("{}/{}/{}/{}/{}", motion.plain.experiment.name, part, kind, phase, seed)));
@@ -158,6 +173,7 @@ class CaseList {
   const Campaign& campaign_;
   std::vector<CampaignCase> cases_;
   std::vector<std::string> without_;
+  std::map<std::string, bool> in_phase_;  // of one entry: whether any motion has such a phase
 };
 
 }  // namespace

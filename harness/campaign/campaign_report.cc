@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "harness/fault_plan/fault.h"
+#include "harness/fault_plan/fault_syntax.h"
 
 namespace towbench::harness {
 namespace {
@@ -134,10 +135,10 @@ std::string complaints(const CampaignReport& report, const Results& results,
   return told > kMost ? text + fmt::format("- and {} more\n", told - kMost) : text;
 }
 
-// Every kind at every moment: how often it was tried there. What was never tried is empty.
+// Every kind at every moment: how often it was tried there. A dash: never tried there.
 std::string coverage(const Results& results) {
   std::map<std::string, std::map<std::string, std::size_t>> tried;
-  std::set<std::string> moments;
+  std::set<std::string> moments(std::begin(kPhaseNames), std::end(kPhaseNames));
   for (const auto& row : fault_catalogue()) {
     tried[fmt::format("{} {}", name_of(row.part), row.name)];
   }
@@ -159,7 +160,7 @@ std::string coverage(const Results& results) {
     text += fmt::format("| {}{} |", kind, at.empty() ? " **not tried**" : "");
     for (const auto& moment : moments) {
       const auto found = at.find(moment);
-      text += found == at.end() ? std::string(" |") : fmt::format(" {} |", found->second);
+      text += found == at.end() ? std::string(" - |") : fmt::format(" {} |", found->second);
     }
     text += '\n';
   }

@@ -16,6 +16,7 @@
 #include "harness/fault_cases/faulted_experiment.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/link/plant_service.h"
+#include "harness/link/refusals.h"
 #include "harness/link/unrecorded_plant.h"
 #include "harness/realtime/realtime_plant.h"
 #include "harness/realtime/run_timing.h"
@@ -125,10 +126,11 @@ Caller wait_for_controller(const EmulateOptions& options) {
 
 core::Status serve_by_the_wall_clock(const EmulateOptions& options, const Caller& caller,
                                      emulator::PlantNode& plant, const PlantWires& wires,
-                                     bool& heard_is_written) {
+                                     Refusals& refusals, bool& heard_is_written) {
   std::optional<MessageRecord> heard;
   if (!options.out.empty()) {
     heard.emplace(std::filesystem::path(options.out) / kPlantInputsFile);
+    refusals.pass_on_to(heard->sink());
   }
   go_by_the_wall_clock(*caller.connection);
   EmulatorTiming timing(options.out);
@@ -136,12 +138,25 @@ core::Status serve_by_the_wall_clock(const EmulateOptions& options, const Caller
       timing.serve(plant, caller.connection->link(), caller.hello,
                    {.wires = wires,
                     .report_ns = report_period_ns(scheme_of(options), caller.hello.exchange_ns),
-                    .witness = heard ? &heard->sink() : nullptr});
+                    .witness = &refusals.heard()});
   if (heard) {
     heard->flush();
     heard_is_written = heard->good();
   }
   return ended;
+}
+
+// False when something was lost: a run that depends on it proves nothing.
+bool tell_of_losses(std::uint64_t refused, const protocol::LinkCounts& counts) {
+  if (refused > 0) {
+    std::fprintf(stderr, "emulator: %llu messages refused\n",
+                 static_cast<unsigned long long>(refused));
+  }
+  const auto dropped = Refusals::dropped(counts);
+  if (!dropped.empty()) {
+    std::fprintf(stderr, "emulator: messages dropped: %s\n", dropped.c_str());
+  }
+  return refused == 0 && dropped.empty();
 }
 
 int execute_emulate(const EmulateOptions& options) {
@@ -162,15 +177,24 @@ int execute_emulate(const EmulateOptions& options) {
     return kExitRuntime;
   }
   ThinnedTruth thinned(observer, caller.hello.exchange_ns);
-  emulator::PlantNode plant(machine.rig, machine.seed, machine.events,
-                            real ? static_cast<emulator::PlantObserver&>(thinned) : observer);
+  const bool by_a_person = options.patience_s == 0 && options.stream_descriptor < 0;
+  Refusals refusals(real ? static_cast<emulator::PlantObserver&>(thinned) : observer,
+                    [&](const std::string& line) {
+                      if (by_a_person) {
+                        std::fprintf(stderr, "emulator: %s\n", line.c_str());
+                      }
+                    });
+  emulator::PlantNode plant(machine.rig, machine.seed, machine.events, refusals);
   bool heard_is_written = true;
-  const auto ended =
-      real ? serve_by_the_wall_clock(options, caller, plant, lines.wires(), heard_is_written)
-           : serve_plant(plant, caller.connection->link(), caller.hello, lines.wires());
+  const auto ended = real ? serve_by_the_wall_clock(options, caller, plant, lines.wires(),
+                                                    refusals.heard(), heard_is_written)
+                          : serve_plant(plant, caller.connection->link(), caller.hello,
+                                        lines.wires(), &refusals.heard());
   if (recorder) {
     recorder->flush();
   }
+  const bool all_taken =
+      !by_a_person || tell_of_losses(refusals.refused(), caller.connection->link().counts());
   if (!ended) {
     std::fprintf(stderr, "emulator: controller lost at %.4f s: %s (%u); drive removed\n",
                  core::seconds(plant.now_ns()), std::string(core::describe(ended.error())).c_str(),
@@ -181,7 +205,7 @@ int execute_emulate(const EmulateOptions& options) {
     std::fprintf(stderr, "emulator: the record could not be written\n");
     return kExitRuntime;
   }
-  return kExitPass;
+  return all_taken ? kExitPass : kExitInvalid;
 }
 
 }  // namespace

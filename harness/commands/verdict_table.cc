@@ -64,6 +64,9 @@ std::string verdict_table(const std::string& experiment, const RunResult& run, b
                           name_of(run.judgement.verdict), experiment,
                           core::seconds(run.outcome.end_ns), run.outcome.wall_time_s,
                           core::seconds(run.outcome.end_ns) / run.outcome.wall_time_s);
+  if (!run.judgement.judged.empty()) {
+    text += "         " + run.judgement.judged + "\n";
+  }
   for (const auto& check : run.judgement.checks) {
     if (all || check.verdict != Verdict::kPass) {
       text += line_of(check);

@@ -41,23 +41,40 @@ std::string_view phase_at(const CaseRecord& run, core::Axis axis, std::size_t i)
   return speed < kStands_m_per_s ? "hold" : "cruise";
 }
 
+// A motion of both axes may leave one of them where it is.
+bool travels(const CaseRecord& run, const bbmc::ControllerEvent& start) {
+  constexpr double kTravel_m = 1e-3;
+  const auto end = std::find_if(run.controller_events.begin(), run.controller_events.end(),
+                                [&](const auto& event) {
+                                  return event.kind == Kind::kMotionEnded &&
+                                         event.axis == start.axis && event.time_ns >= start.time_ns;
+                                });
+  const auto end_ns = end == run.controller_events.end() ? run.outcome.end_ns : end->time_ns;
+  const double from_m = run.truth_at(start.time_ns).axes[start.axis].carriage_m;
+  return std::any_of(run.truth.begin(), run.truth.end(), [&](const auto& row) {
+    return row.time_ns >= start.time_ns && row.time_ns <= end_ns &&
+           std::fabs(row.axes[start.axis].carriage_m - from_m) > kTravel_m;
+  });
+}
+
 std::optional<core::Nanoseconds> event_onset(const std::string& name, const CaseRecord& reference) {
-  const auto controller = [&](Kind kind) -> std::optional<core::Nanoseconds> {
+  const auto controller = [&](Kind kind, bool of_travel) -> std::optional<core::Nanoseconds> {
+    const auto moving = moving_axis(reference);
     for (const auto& event : reference.controller_events) {
-      if (event.kind == kind) {
+      if (event.kind == kind && (!of_travel || event.axis == moving)) {
         return event.time_ns;
       }
     }
     return std::nullopt;
   };
   if (name == "motion") {
-    return controller(Kind::kMotionStarted);
+    return controller(Kind::kMotionStarted, true);
   }
   if (name == "motion_end") {
-    return controller(Kind::kMotionEnded);
+    return controller(Kind::kMotionEnded, true);
   }
   if (name == "fault") {
-    return controller(Kind::kFaultLatched);
+    return controller(Kind::kFaultLatched, false);
   }
   constexpr std::array<std::string_view, 5> kLines{"y_min", "y_max", "x_min", "x_max",
                                                    "kill_switch"};
@@ -109,7 +126,7 @@ std::vector<PhaseSpan> phases_of(const CaseRecord& run, core::Axis axis) {
 
 core::Axis moving_axis(const CaseRecord& run) {
   for (const auto& event : run.controller_events) {
-    if (event.kind == Kind::kMotionStarted) {
+    if (event.kind == Kind::kMotionStarted && travels(run, event)) {
       return event.axis;
     }
   }

@@ -32,6 +32,12 @@ bool stalled_between(const CaseEvidence& evidence, Nanoseconds from_ns, Nanoseco
   return evidence.prepared.injection.host.may_miss_ticks(from_ns, to_ns);
 }
 
+bool plant_may_end(const CaseEvidence& evidence) {
+  const auto& plan = evidence.prepared.plan;
+  return std::any_of(plan.begin(), plan.end(),
+                     [](const Fault& fault) { return may_end_run(fault.kind); });
+}
+
 std::string why_incomplete(const CaseEvidence& evidence) {
   const auto& run = evidence.run;
   const auto period_ns = run.outcome.control_period_ns;
@@ -73,13 +79,36 @@ Check log_is_complete(const CaseEvidence& evidence) {
   return failed(kName, kMeaning, std::move(reason));
 }
 
+MaybeCheck comes_to_rest(const CaseEvidence& evidence) {
+  constexpr double kStandstill_m_per_s = 5e-3;  // mean over the stretch
+  constexpr Nanoseconds kStretch_ns = 100 * core::kNanosecondsPerMillisecond;
+  if (plant_may_end(evidence)) {
+    return std::nullopt;
+  }
+  auto check = passed("comes_to_rest", "the machine stands when the record ends");
+  const auto& last = evidence.run.truth.back();
+  const auto& before = evidence.run.truth_at(last.time_ns - kStretch_ns);
+  const double length_s = core::seconds(std::max<Nanoseconds>(last.time_ns - before.time_ns, 1));
+  for (const auto axis : core::kAxes) {
+    const auto& now = last.axes[axis];
+    const auto& then = before.axes[axis];
+    const double turned_m = emulator::metres_per_count(evidence.prepared.built.axes[axis]) *
+                            static_cast<double>(now.count - then.count);
+    const double way_m = std::max(std::fabs(now.carriage_m - then.carriage_m), std::fabs(turned_m));
+    if (evidence.prepared.built.axes[axis].exists && way_m / length_s > kStandstill_m_per_s) {
+      check.verdict = Verdict::kInvalid;
+      check.reason = fmt::format("{} still moves at {:.3g} m/s when the record ends",
+                                 core::name_of(axis), way_m / length_s);
+    }
+  }
+  return check;
+}
+
 Check script_went_on(const CaseEvidence& evidence) {
   constexpr auto kName = "console_alive";
   constexpr auto kMeaning = "the console took every line and came to rest";
   const auto& outcome = evidence.run.outcome;
-  const auto& plan = evidence.prepared.plan;
-  const bool plant_killed = std::any_of(plan.begin(), plan.end(),
-                                        [](const Fault& fault) { return may_end_run(fault.kind); });
+  const bool plant_killed = plant_may_end(evidence);
   if (!outcome.complete && !plant_killed) {
     return failed(kName, kMeaning, outcome.reason);
   }

@@ -34,6 +34,7 @@ void judge_requirements(const CaseEvidence& evidence, CaseVerdict& verdict) {
   add(fault_number_fits(evidence));
   add(log_is_complete(evidence));
   add(script_went_on(evidence));
+  add(comes_to_rest(evidence));
 }
 
 Check passed(const char* name, const char* meaning) {

@@ -37,6 +37,7 @@ using MaybeCheck = std::optional<Check>;
 // record_rules.cc
 [[nodiscard]] Check log_is_complete(const CaseEvidence& evidence);
 [[nodiscard]] Check script_went_on(const CaseEvidence& evidence);
+[[nodiscard]] MaybeCheck comes_to_rest(const CaseEvidence& evidence);
 // contact_bound.cc
 [[nodiscard]] Check no_preventable_contact(const CaseEvidence& evidence);
 

@@ -29,6 +29,9 @@ std::optional<Check> broken_rule(const ExperimentFixture& fixture, std::uint64_t
     const auto reference = run_reference(fixture, seed);
     const auto prepared = prepare(fixture.experiment.faults, fixture, *reference);
     const auto verdict = judge_case(fixture, prepared, *reference, seed);
+    if (verdict.verdict() != Verdict::kFail) {
+      return std::nullopt;  // one that cannot be judged is no smaller failure
+    }
     for (const auto& check : verdict.checks) {
       if (check.verdict == Verdict::kFail && (wanted.empty() || check.name == wanted)) {
         return check;

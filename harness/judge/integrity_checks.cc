@@ -11,6 +11,8 @@ namespace towbench::harness {
 namespace {
 
 constexpr double kSameTime_s = 1e-9;
+// Mean speed over the record's last stretch.
+constexpr double kStandstill_m_per_s = 5e-3;
 
 Check named(std::string name, std::string meaning, std::string reason) {
   Check check;
@@ -106,6 +108,33 @@ Check check_edges_seen(const RunData& data) {
     reason = "the controller's decoder saw no edge on any axis";
   }
   return named("edges_seen", "the controller's quadrature decoder saw the motion", reason);
+}
+
+Check check_comes_to_rest(const RunData& data) {
+  constexpr double kStretch_s = 0.1;  // about a period of the slowest chain
+  const auto time_s = data.truth.column("time_s");
+  std::string reason;
+  if (!time_s.empty()) {
+    const auto first = static_cast<std::size_t>(
+        std::lower_bound(time_s.begin(), time_s.end(), time_s.back() - kStretch_s) -
+        time_s.begin());
+    const double length_s = std::max(time_s.back() - time_s[first], kSameTime_s);
+    for (const auto axis : core::kAxes) {
+      const auto speed = [&](std::string_view column, double scale) {
+        const auto values = data.truth_of(axis, column);
+        return values.size() == time_s.size()
+                   ? std::fabs(values.back() - values[first]) * scale / length_s
+                   : 0.0;
+      };
+      const double faster =
+          std::max(speed("carriage_m", 1.0), speed("count", data.limits[axis].metres_per_count));
+      if (data.limits[axis].exists && faster > kStandstill_m_per_s) {
+        reason = fmt::format("{} still moves at {:.3g} m/s when the record ends",
+                             core::name_of(axis), faster);
+      }
+    }
+  }
+  return named("comes_to_rest", "the machine stands when the record ends", reason);
 }
 
 Check check_events_fired(const RunData& data, const ExpectedRecord& expected) {

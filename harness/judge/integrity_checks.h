@@ -29,6 +29,8 @@ struct ExpectedRecord {
 // Every axis that really moved was seen moving, and some axis was: an edge-class run without an
 // edge proves nothing (RUN-3).
 [[nodiscard]] Check check_edges_seen(const RunData& data);
+// The machine stands when the record ends: what it did later was judged by nobody.
+[[nodiscard]] Check check_comes_to_rest(const RunData& data);
 // Every event of the experiment took place.
 [[nodiscard]] Check check_events_fired(const RunData& data, const ExpectedRecord& expected);
 

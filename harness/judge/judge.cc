@@ -14,8 +14,12 @@ ExpectedRecord expected_of(const ExperimentFixture& fixture, const RunOutcome& o
   expected.end_ns = outcome.end_ns;
   expected.rows_lost = outcome.rows_lost;
   expected.writes_succeeded = outcome.writes_succeeded;
+  // A fault may end the run before its last event; whether it took effect is judged by itself.
+  const bool may_end_before = !fixture.experiment.faults.empty();
   for (const auto& event : fixture.experiment.events) {
-    ++(event.time_ns < outcome.end_ns ? expected.scheduled_events : expected.unreached_events);
+    const bool reached = event.time_ns < outcome.end_ns;
+    expected.scheduled_events += reached ? 1U : 0U;
+    expected.unreached_events += reached || may_end_before ? 0U : 1U;
   }
   return expected;
 }
@@ -99,6 +103,7 @@ Judgement judge(const std::filesystem::path& folder, const ExperimentFixture& fi
     checks.push_back(check_log_complete(data, expected));
     checks.push_back(check_truth_complete(data, expected));
     checks.push_back(check_edges_seen(data));
+    checks.push_back(check_comes_to_rest(data));
     checks.push_back(check_events_fired(data, expected));
   } catch (const std::exception& error) {
     checks.push_back(unreadable(error.what()));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "harness/checks/check.h"
@@ -13,6 +14,7 @@ namespace towbench::harness {
 
 struct Judgement {
   Verdict verdict = Verdict::kInvalid;
+  std::string judged;  // what happened in a run with faults, in words; else empty
   std::vector<Check> checks;
   std::vector<ResolvedWindow> windows;
   std::vector<Measurement> measurements;

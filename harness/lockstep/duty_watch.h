@@ -25,6 +25,11 @@ class DutyWatch final : public protocol::MessageSink {
     }
     was_driven_ = driven;
     now_ns_ = advance.until_ns;
+    driven_until_ns_ = driven ? now_ns_ : driven_until_ns_;
+  }
+  // How long nothing has been driven, as of the last Advance.
+  [[nodiscard]] core::Nanoseconds undriven_ns() const noexcept {
+    return now_ns_ - driven_until_ns_;
   }
 
  private:
@@ -32,6 +37,7 @@ class DutyWatch final : public protocol::MessageSink {
   core::PerAxis<bool> driven_;
   bool was_driven_ = false;
   core::Nanoseconds now_ns_ = 0;
+  core::Nanoseconds driven_until_ns_ = 0;
 };
 
 }  // namespace towbench::harness

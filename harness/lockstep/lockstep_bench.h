@@ -43,6 +43,8 @@ class LockstepBench {
   void finish() noexcept;
 
   [[nodiscard]] core::Nanoseconds now_ns() const noexcept { return now_ns_; }
+  // How long the controller has commanded no drive on any axis, as the wire shows it.
+  [[nodiscard]] core::Nanoseconds undriven_ns() const noexcept { return duty_watch_.undriven_ns(); }
   [[nodiscard]] bbmc::ControllerNode& controller() noexcept { return controller_; }
 
  private:

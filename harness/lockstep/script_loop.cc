@@ -23,8 +23,9 @@ std::string told(core::ErrorCode code) {
 class Loop {
  public:
   Loop(const Experiment& experiment, LockstepBench& bench, BenchRecorder& recorder,
-       const LoopWatchers& watchers, Hand* hand)
+       const LoopWatchers& watchers, RunEnd end, Hand* hand)
       : hand_(hand),
+        end_(end),
         bench_(bench),
         recorder_(recorder),
         watchers_(watchers),
@@ -63,13 +64,43 @@ class Loop {
 
   // Serves the controller once; true when the run is over with that.
   bool turn_is_last() {
+    if (!script_is_over_) {
+      script_is_over_ = script_ends();
+    } else {
+      bench_.serve();
+      if (stopped()) {
+        outcome_.complete = false;
+      }
+    }
+    return script_is_over_ && (!outcome_.complete || settled());
+  }
+
+  bool stopped() {
+    if (watchers_.stop == nullptr || !watchers_.stop->load(std::memory_order_relaxed)) {
+      return false;
+    }
+    outcome_.reason = "interrupted";
+    return true;
+  }
+
+  // Whether the machine can be expected to stand, or need not be waited for any more.
+  bool settled() {
+    const auto now_ns = bench_.now_ns();
+    if (script_over_ns_ < 0) {
+      script_over_ns_ = now_ns;
+    }
+    const bool rests = end_ == RunEnd::kIdle && bench_.controller().idle();
+    return rests || bench_.undriven_ns() >= kCoasting_ns ||
+           now_ns - script_over_ns_ >= kLongestSettling_ns;
+  }
+
+  bool script_ends() {
     const auto now_ns = bench_.now_ns();
     const bool finished = take_hand(now_ns);
     type(now_ns);
     script_.hear(bench_.serve());
     const auto progress = script_.update(now_ns, bench_.controller().idle());
-    if (watchers_.stop != nullptr && watchers_.stop->load(std::memory_order_relaxed)) {
-      outcome_.reason = "interrupted";
+    if (stopped()) {
       return true;
     }
     const bool scripted = progress == ConsoleScript::Progress::kRunning;
@@ -95,6 +126,8 @@ class Loop {
     if (hand_ != nullptr) {
       for (const auto& act : hand_->at(now_ns, bench_)) {
         recorder_.hand(act);
+        const bool of_machine = act.disturbs() || act.kind == HandAct::Kind::kFinished;
+        end_ = of_machine ? RunEnd::kUndriven : end_;
         disturbed_ = disturbed_ || act.disturbs();
         by_hand_ += act.kind == HandAct::Kind::kTyped ? act.text : "";
         finished = finished || act.kind == HandAct::Kind::kFinished;
@@ -126,6 +159,9 @@ class Loop {
   }
 
   Hand* hand_;  // null: nobody
+  RunEnd end_;
+  bool script_is_over_ = false;
+  core::Nanoseconds script_over_ns_ = -1;
   std::string by_hand_;
   bool disturbed_ = false;  // the script may wait in vain for what it expects
   bool script_in_line_ = false;
@@ -141,12 +177,12 @@ class Loop {
 }  // namespace
 
 RunOutcome play(const Experiment& experiment, LockstepBench& bench, BenchRecorder& recorder,
-                const LoopWatchers& watchers, Hand* hand) {
+                const LoopWatchers& watchers, RunEnd end, Hand* hand) {
   std::optional<RepeatedHand> repeated;
   if (hand == nullptr && !experiment.hand.empty()) {
     hand = &repeated.emplace(experiment.hand);
   }
-  auto outcome = Loop(experiment, bench, recorder, watchers, hand).run();
+  auto outcome = Loop(experiment, bench, recorder, watchers, end, hand).run();
   recorder.flush();
   outcome.log_rows = recorder.rows();
   outcome.writes_succeeded = recorder.good();

@@ -127,6 +127,7 @@ void write_judged(const std::filesystem::path& folder, const ExperimentFixture& 
   result["reason"] = "";
   result["verdict"] = name_of(judgement.verdict);
   result["exit_code"] = exit_code_of(judgement.verdict);
+  result["judged"] = judgement.judged;
   add_outcome(result, fixture, outcome);
   result["checks"] = json::array();
   for (const auto& check : judgement.checks) {

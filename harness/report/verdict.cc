@@ -1,5 +1,6 @@
 #include "harness/report/verdict.h"
 
+#include <cctype>
 #include <cstddef>
 
 #include <fmt/format.h>
@@ -41,6 +42,15 @@ std::string sentence_for(const Tally& tally) {
                            : fmt::format("All {} checks are met.", tally.checks);
 }
 
+// What happened, as a sentence before another.
+std::string after(std::string judged, const std::string& sentence) {
+  if (judged.empty()) {
+    return sentence;
+  }
+  judged.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(judged.front())));
+  return judged + ". " + sentence;
+}
+
 Verdict contradiction(std::string_view claimed, const Tally& tally) {
   return {VerdictKind::kInvalid,
           tally.checks == 0 ? fmt::format("The result says {}, but nothing was checked.", claimed)
@@ -68,8 +78,10 @@ Verdict verdict_of(const nlohmann::json& result) {
   const Tally tally = tally_of(member(result, "checks"));
   const std::string word = text_at(result, "verdict");
   const bool clean = tally.checks > 0 && tally.failed == 0 && tally.unjudged == 0;
+  const std::string judged = text_at(result, "judged");
   if (word == "PASS") {
-    return clean ? Verdict{VerdictKind::kPass, sentence_for(tally)} : contradiction(word, tally);
+    return clean ? Verdict{VerdictKind::kPass, after(judged, sentence_for(tally))}
+                 : contradiction(word, tally);
   }
   if (word == "FAIL" || word == "INVALID") {
     std::string sentence = reason;
@@ -77,7 +89,7 @@ Verdict verdict_of(const nlohmann::json& result) {
       sentence += sentence.empty() ? "" : " ";
       sentence += sentence_for(tally);
     }
-    return {kind_of(word), sentence.empty() ? "No reason was recorded." : sentence};
+    return {kind_of(word), sentence.empty() ? "No reason was recorded." : after(judged, sentence)};
   }
   return {VerdictKind::kInvalid, "The result carries no verdict that this page knows."};
 }

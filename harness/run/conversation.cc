@@ -16,7 +16,9 @@ RunOutcome play_script(const RunPlan& plan, PlantEnd& plant, const HostSchedule&
   LockstepBench bench(plan.fixture.controller.configuration, plan.fixture.rig.hash, plant,
                       &recorder);
   bench.run_on(host);
-  return play(plan.fixture.experiment, bench, recorder, plan.options.watchers, plan.options.hand);
+  const auto end = plan.has_faults() ? RunEnd::kUndriven : RunEnd::kIdle;
+  return play(plan.fixture.experiment, bench, recorder, plan.options.watchers, end,
+              plan.options.hand);
 }
 
 // With whoever observes listening to the plant.

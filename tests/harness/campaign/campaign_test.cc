@@ -10,6 +10,7 @@
 #include "harness/campaign/campaign_report.h"
 #include "harness/campaign/drawn_machines.h"
 #include "harness/campaign/worker_pool.h"
+#include "harness/fault_plan/fault_syntax.h"
 #include "tests/harness/fixtures/temporary_fixtures.h"
 
 namespace towbench::harness {
@@ -45,6 +46,48 @@ TEST(Campaign, TriesEveryKindThereIs) {
     EXPECT_TRUE(tried.contains({std::string(name_of(row.part)), std::string(row.name)}))
         << name_of(row.part) << ' ' << row.name;
   }
+}
+
+// A motion of X alone has phases of its own: Y's controller starts and ends at once.
+TEST(Campaign, TheKillSwitchIsTriedInEveryPhaseThatAMotionHas) {
+  std::map<std::string, std::set<std::string>> tried;
+  for (const auto& one : cases_of(standard())) {
+    if (one.part == "kill_switch" && one.kind == "pressed") {
+      tried[one.motion].insert(one.moment);
+    }
+  }
+  for (const char* motion : {"trapezoid-y", "trapezoid-x", "goto-both"}) {
+    for (const char* phase : {"rest", "accelerate", "cruise", "decelerate"}) {
+      EXPECT_TRUE(tried[motion].contains(phase)) << motion << ' ' << phase;
+    }
+  }
+  std::set<std::string> anywhere;
+  for (const auto& [motion, phases] : tried) {
+    anywhere.insert(phases.begin(), phases.end());
+  }
+  for (const auto phase : kPhaseNames) {
+    EXPECT_TRUE(anywhere.contains(std::string(phase))) << phase;
+  }
+}
+
+TEST(Campaign, NoShippedOneAsksForWhatNoMotionHas) {
+  for (const char* name : {"standard", "mutants", "log-full", "can"}) {
+    const auto campaign = load_campaign(std::string("fixtures/campaigns/") + name + ".toml", 0);
+    EXPECT_TRUE(entries_without_cases(campaign).empty())
+        << name << ": " << entries_without_cases(campaign).front();
+  }
+}
+
+TEST(Campaign, TheMatrixShowsEveryPhaseAndWhatWasNotTriedInIt) {
+  CampaignReport report;
+  report.again = [](const nlohmann::json&) { return std::string(); };
+  const auto text = campaign_report(
+      report,
+      {{{"case", "a"}, {"part", "kill_switch"}, {"kind", "pressed"}, {"moment", "cruise"}}});
+  for (const auto phase : kPhaseNames) {
+    EXPECT_NE(text.find(' ' + std::string(phase) + " |"), std::string::npos) << phase;
+  }
+  EXPECT_NE(text.find("| kill switch pressed | - | - | 1 |"), std::string::npos) << text;
 }
 
 TEST(Campaign, ACaseGivesTheSameLineInEveryProcess) {

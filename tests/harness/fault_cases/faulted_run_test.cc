@@ -31,6 +31,54 @@ TEST(FaultedRun, GivesTheSameBitsInOneProcessInTwoAndReplayed) {
   }
 }
 
+TEST(FaultedRun, GoesOnUntilTheMachineStandsAndSaysWhatWasJudged) {
+  Runs runs;
+  const auto run = runs.run(broken("circle", "encoder.y frozen at=5.5s"));
+  EXPECT_EQ(run.exit_code, kExitPass) << complaints_of(run);
+  const auto truth = CsvTable::load(run.folder / "truth.csv");
+  EXPECT_NEAR(truth.column("y_motor_speed_rad_per_s").back(), 0.0, 0.01);
+  EXPECT_NEAR(truth.column("x_motor_speed_rad_per_s").back(), 0.0, 0.01);
+  const auto judged = json_of(run.folder / "result.json").at("judged").get<std::string>();
+  EXPECT_THAT(judged, ::testing::StartsWith("stopped with fault 310"));
+  EXPECT_THAT(judged, ::testing::HasSubstr("standstill after "));
+}
+
+// The drive is cut while the carriage moves, and the record is cut before it stands.
+TEST(FaultedRun, ARecordThatEndsInMotionIsInvalid) {
+  Runs runs;
+  const auto fixture = Runs::shipped("trapezoid-400");
+  const auto run = runs.run(fixture);
+  auto outcome = run.outcome;
+  outcome.end_ns = 2 * core::kNanosecondsPerSecond;
+  for (const char* file : {"log.csv", "truth.csv"}) {
+    std::istringstream in(contents_of(run.folder / file));
+    std::string out;
+    std::string line;
+    std::getline(in, line);
+    for (out = line + '\n'; std::getline(in, line) && std::stod(line) <= 2.0;) {
+      out += line + '\n';
+    }
+    std::ofstream(run.folder / file, std::ios::binary) << out;
+  }
+  const auto judgement = judge(run.folder, fixture, outcome);
+  EXPECT_EQ(judgement.verdict, Verdict::kInvalid);
+  const auto moving =
+      std::find_if(judgement.checks.begin(), judgement.checks.end(),
+                   [](const Check& check) { return check.name == "comes_to_rest"; });
+  ASSERT_NE(moving, judgement.checks.end());
+  EXPECT_THAT(moving->reason, ::testing::HasSubstr("y still moves at 0.4"));
+}
+
+// A burst's events that a stop leaves over are no reason to doubt the run.
+TEST(FaultedRun, ABurstThatEndsTheRunIsJudgedAsTheCampaignDoes) {
+  Runs runs;
+  for (const char* words : {"kill_switch bounce at=3s", "encoder.y noise_burst at=3s",
+                            "encoder.y extra_edges at=3s", "encoder.y illegal_transitions at=3s"}) {
+    const auto run = runs.run(broken("circle", words));
+    EXPECT_EQ(run.exit_code, kExitPass) << words << ": " << complaints_of(run);
+  }
+}
+
 TEST(FaultedRun, AFaultThatTakesNoEffectIsInvalidAndExitsWithFour) {
   Runs runs;
   const auto run = runs.run(broken("trapezoid-400", "endstop.y_max stuck_open at=1s"));

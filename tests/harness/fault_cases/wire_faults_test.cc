@@ -69,7 +69,7 @@ std::unique_ptr<CaseRecord> run_over(WireName wire, const Cell* cell,
     sides.strike_at(kStruck_ns, cell->fault, cell->to_plant);
   }
   LockstepBench bench(fixture.controller.configuration, fixture.rig.hash, sides, record.get());
-  record->outcome = play(fixture.experiment, bench, *record, {});
+  record->outcome = play(fixture.experiment, bench, *record, {}, RunEnd::kUndriven);
   for (const auto axis : core::kAxes) {
     if (still_driven != nullptr) {
       (*still_driven)[axis] = sides.controller_drives(axis);
