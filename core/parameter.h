@@ -16,13 +16,14 @@
 // in order.
 #pragma once
 
-#include <limits>
-
 namespace towbench::core {
 
+// No quantity of a machine is larger; what is, was mistyped.
+inline constexpr double kLargestQuantity = 1e12;
+
 struct Range {
-  double min = -std::numeric_limits<double>::max();
-  double max = std::numeric_limits<double>::max();
+  double min = -kLargestQuantity;
+  double max = kLargestQuantity;
   bool min_is_allowed = true;
 
   // NaN and infinities are inside no range.

@@ -57,7 +57,8 @@ struct RigAxisParameters {
     command.visit(v);
     v.value("encoder_counts_per_rev", encoder.counts_per_turn, core::between(4, 40'000),
             "counts a motor turn, 4 x the encoder's lines");
-    v.value("start_m", start_m, core::any_finite(), "carriage position at the start of the run");
+    v.value("start_m", start_m, core::between(-1e4, 1e4),
+            "carriage position at the start of the run");
     v.value("cross_axis_force_ratio", cross_axis_force_ratio, core::between(-1.0, 1.0),
             "share of the other axis's chain force that pushes along this one");
     v.group("encoder", encoder, "incremental encoder on the motor shaft");

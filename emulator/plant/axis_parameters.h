@@ -98,8 +98,8 @@ struct HardEndParameters {
   template <typename Visitor>
   void visit(Visitor& v) {
     v.value("fitted", fitted, core::any_finite(), "whether there are stops at all");
-    v.value("min_m", min_m, core::any_finite(), "carriage position at the min stop");
-    v.value("max_m", max_m, core::any_finite(), "carriage position at the max stop");
+    v.value("min_m", min_m, core::between(-1e4, 1e4), "carriage position at the min stop");
+    v.value("max_m", max_m, core::between(-1e4, 1e4), "carriage position at the max stop");
     v.value("stiffness_N_per_m", stiffness_N_per_m, core::between(1e3, 1e7), "of each stop");
     v.value("damping_N_s_per_m", damping_N_s_per_m, core::between(0.0, 1e5), "of each stop");
   }

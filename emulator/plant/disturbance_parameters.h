@@ -45,7 +45,7 @@ struct CableParameters {
   void visit(Visitor& v) {
     v.value("stiffness_N_per_m", stiffness_N_per_m, core::between(0.0, 1e4),
             "with which cables pull the carriage back; 0: none");
-    v.value("reference_m", reference_m, core::any_finite(), "where they do not pull");
+    v.value("reference_m", reference_m, core::between(-1e4, 1e4), "where they do not pull");
   }
 };
 
@@ -58,7 +58,7 @@ struct PositionForce {
 
   template <typename Visitor>
   void visit(Visitor& v) {
-    v.list("position_m", position_m, core::any_finite(), "carriage positions, ascending");
+    v.list("position_m", position_m, core::between(-1e4, 1e4), "carriage positions, ascending");
     v.list("torque_Nm", torque_Nm, core::any_finite(),
            "force at each position as a torque at the motor, + towards max");
   }

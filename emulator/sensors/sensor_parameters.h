@@ -52,7 +52,7 @@ struct HallParameters {
   template <typename Visitor>
   void visit(Visitor& v) {
     v.value("fitted", fitted, core::any_finite(), "whether the sensor exists");
-    v.value("position_m", position_m, core::any_finite(),
+    v.value("position_m", position_m, core::between(-1e4, 1e4),
             "carriage position at which the sensor operates");
     v.value("hysteresis_m", hysteresis_m, core::above(0.0),
             "way back towards the middle until a switching sensor releases");

@@ -54,6 +54,8 @@ class FirmwareBench {
   // No motion runs and nothing typed is unserved, as far as that can be known.
   [[nodiscard]] bool idle() const noexcept;
   [[nodiscard]] core::Nanoseconds now_ns() const noexcept { return now_ns_; }
+  // How long the pins have driven no axis.
+  [[nodiscard]] core::Nanoseconds undriven_ns() const noexcept { return duty_watch_.undriven_ns(); }
   [[nodiscard]] std::uint64_t rows_lost() const noexcept { return probe_.rows_lost(); }
   // Why the image cannot go on, in a sentence; empty while it can.
   [[nodiscard]] std::string failure() const;

@@ -14,6 +14,7 @@
 #include "harness/board_bench/firmware_terminal.h"
 #include "harness/fixtures/fixture_error.h"
 #include "harness/lockstep/console_script.h"
+#include "harness/lockstep/script_loop.h"
 #include "harness/record/firmware_recorder.h"
 
 namespace towbench::harness {
@@ -122,6 +123,28 @@ class FirmwareLoop {
   }
 
   bool turn_is_last() {
+    if (script_over_ns_ < 0) {
+      if (!script_ends()) {
+        return false;
+      }
+      script_over_ns_ = bench_.now_ns();
+    } else {
+      act_on_board(bench_.now_ns());
+      bench_.serve();
+    }
+    return !outcome_.complete || person_ != nullptr || !bench_.failure().empty() || settled();
+  }
+
+  // As script_loop.cc has it. Whether a third-party image is idle nobody knows.
+  bool settled() {
+    const auto& experiment = fixture_.experiment;
+    const bool sound = experiment.faults.empty() && experiment.board.faults.empty();
+    const auto waited_ns = bench_.now_ns() - script_over_ns_;
+    return (sound && bench_.probe().has_port() && bench_.idle()) ||
+           bench_.undriven_ns() >= kCoasting_ns || waited_ns >= kLongestSettling_ns;
+  }
+
+  bool script_ends() {
     const auto now_ns = bench_.now_ns();
     act_on_board(now_ns);
     // Bytes that come while the image still sets up its UART would be lost, as on a bench.
@@ -170,6 +193,7 @@ class FirmwareLoop {
   FirmwareTerminal* person_;
   HostClock::time_point start_;
   std::string shown_;
+  core::Nanoseconds script_over_ns_ = -1;
   ConsoleScript script_;
   core::Nanoseconds limit_ns_;
   RunOutcome outcome_;

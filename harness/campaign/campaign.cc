@@ -39,17 +39,26 @@ CarrierKind kind_of_carrier(const std::string& carrier) {
   return kind_of(options);
 }
 
-// Tried once, so that a slip is told before the first case.
-void check_entry(const CampaignEntry& entry) {
-  for (const auto& words : entry.also) {
+// Tried once, so that a slip is told before the first case, with its place in the file.
+void check_words(const std::string& words, const FixtureError::Place& place) {
+  try {
     (void)parse_fault(words);
+  } catch (const FixtureError& error) {
+    throw FixtureError(place, '"' + words + '"', error.what());
+  }
+}
+
+void check_entry(const CampaignEntry& entry, const TableReader& reader) {
+  for (const auto& words : entry.also) {
+    check_words(words, reader.place_of("also"));
   }
   for (const auto& part : entry.parts) {
     for (const auto& kind : entry.kinds) {
       const auto place = place_named(part);
       const auto* row = place ? find_fault(place->part, kind) : nullptr;
       const bool built = row != nullptr && row->start == FaultStart::kWholeRun;
-      (void)parse_fault(fmt::format("{} {} {} {}", part, kind, built ? "" : "at=1s", entry.words));
+      check_words(fmt::format("{} {} {} {}", part, kind, built ? "" : "at=1s", entry.words),
+                  reader.place_of("kinds"));
     }
   }
 }
@@ -112,7 +121,7 @@ void read_campaign(const std::filesystem::path& path, Campaign& campaign, Canoni
                "largest relative difference of a drawn machine's parameters");
   for (auto& table : reader.tables("inject")) {
     campaign.entries.push_back(read_entry(table));
-    check_entry(campaign.entries.back());
+    check_entry(campaign.entries.back(), table);
   }
   reader.require("name");
   if (base.empty()) {

@@ -20,6 +20,7 @@
 #include "harness/campaign/worker_pool.h"
 #include "harness/commands/command.h"
 #include "harness/commands/exit_codes.h"
+#include "harness/commands/option_checks.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
@@ -288,12 +289,15 @@ void add_campaign(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--out", options->out,
                    "folder of results and matrix.md; what is there already is not run again")
+      ->check(folder_to_write())
       ->capture_default_str();
   verb->add_option("--shard", options->shard, "i/n: every n-th case, from the i-th on")
       ->capture_default_str();
-  verb->add_option("--workers", options->workers, "processes; as many as cores when 0");
+  verb->add_option("--workers", options->workers, "processes; as many as cores when 0")
+      ->check(whole_number());
   verb->add_option("--seeds", options->seeds,
-                   "cases of each combination, instead of the file's numbers");
+                   "cases of each combination, instead of the file's numbers")
+      ->check(whole_number());
   verb->add_option("--only", options->only, "cases whose name holds this text");
   verb->add_option("--keep", options->keep,
                    "run the case of this name alone, into a run folder with a report");

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,6 +62,11 @@ int parse_and_run(std::span<const AddVerb> add_verbs, int argc, char** argv) {
   return exit_code;
 }
 
+std::string cut(const std::string& text) {
+  constexpr std::size_t kMost = 200;
+  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
+}
+
 // What could not be printed was not told: a result that nobody has is no success.
 int finish_output() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) {
@@ -79,6 +85,10 @@ int run_command_line(std::span<const AddVerb> verbs, int argc, char** argv) noex
   } catch (const FixtureError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return kExitBadInput;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::fprintf(stderr, "towbench: %s: %s\n", cut(error.path1().string()).c_str(),
+                 error.code().message().c_str());
+    return error.code() == std::errc::filename_too_long ? kExitBadInput : kExitRuntime;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "towbench: %s\n", error.what());
     return kExitRuntime;

@@ -12,6 +12,7 @@
 #include "harness/commands/carrier_option.h"
 #include "harness/commands/command.h"
 #include "harness/commands/linux_session.h"
+#include "harness/commands/option_checks.h"
 #include "harness/commands/serial_console.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/controller_fixture.h"
@@ -251,7 +252,8 @@ void add_control(CLI::App& app, int& exit_code) {
                                    "(docs/guide/beaglebone.md)");
   devices->excludes(connect)->excludes(rig)->excludes(lines)->excludes(clock);
   devices->excludes(encoder_lines)->excludes(console);
-  verb->add_option("--out", options->out, "folder for log.csv and the other records");
+  verb->add_option("--out", options->out, "folder for log.csv and the other records")
+      ->check(folder_to_write());
   verb->add_flag("--fast", options->fast, "as fast as it goes, not at the wall clock's pace")
       ->excludes(devices)
       ->excludes(clock);

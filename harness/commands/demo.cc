@@ -10,6 +10,7 @@
 #include "harness/commands/encoder_option.h"
 #include "harness/commands/exit_codes.h"
 #include "harness/commands/experiment_options.h"
+#include "harness/commands/option_checks.h"
 #include "harness/commands/verdict_table.h"
 #include "harness/fixtures/fixture_error.h"
 #include "harness/fixtures/fixture_paths.h"
@@ -73,6 +74,7 @@ void add_demo(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand(
       "demo", "trapezoid, circle, open-loop pulses and an end-stop, judged in one report");
   verb->add_option("--out", options->out, "folder below which the run folders are made")
+      ->check(folder_to_write())
       ->capture_default_str();
   verb->add_option("--carrier", options->carrier, kCarrierHelp);
   verb->add_option("--lines", options->lines, kLinesHelp);

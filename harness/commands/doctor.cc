@@ -8,6 +8,7 @@
 
 #include "harness/checks/check.h"
 #include "harness/commands/command.h"
+#include "harness/commands/option_checks.h"
 #include "harness/realtime/host_findings.h"
 #include "harness/realtime/loop_comparison.h"
 #include "harness/realtime/own_lateness.h"
@@ -56,10 +57,12 @@ void add_doctor(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DoctorOptions>();
   auto* verb = app.add_subcommand("doctor", "what this host is fit for, and how to improve it");
   verb->add_option("--seconds", options->seconds, "how long to measure its lateness; 0: not at all")
+      ->check(seconds_given())
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
   verb->add_option("--compare", options->compare_blocks,
-                   "instead: so many blocks of our loop against a bare one, half a second each");
+                   "instead: so many blocks of our loop against a bare one, half a second each")
+      ->check(whole_number());
   verb->add_flag("--json", options->json, "print the findings as JSON");
   verb->footer("Example: towbench doctor --seconds 3");
   verb->callback([options, &exit_code] { exit_code = execute_doctor(*options); });

@@ -11,6 +11,7 @@
 #include "harness/checks/check.h"
 #include "harness/commands/carrier_option.h"
 #include "harness/commands/command.h"
+#include "harness/commands/option_checks.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/fault_cases/faulted_experiment.h"
@@ -186,8 +187,8 @@ int execute_emulate(const EmulateOptions& options) {
                     });
   emulator::PlantNode plant(machine.rig, machine.seed, machine.events, refusals);
   bool heard_is_written = true;
-  const auto ended = real ? serve_by_the_wall_clock(options, caller, plant, lines.wires(),
-                                                    refusals.heard(), heard_is_written)
+  const auto ended = real ? serve_by_the_wall_clock(options, caller, plant, lines.wires(), refusals,
+                                                    heard_is_written)
                           : serve_plant(plant, caller.connection->link(), caller.hello,
                                         lines.wires(), &refusals.heard());
   if (recorder) {
@@ -225,13 +226,15 @@ void add_emulate(CLI::App& app, int& exit_code) {
       "--encoder-lines", options->encoder_lines,
       std::string("encoder channels on real lines: ") + std::string(protocol::kEncoderLineForms));
   verb->add_option("--patience", options->patience_s, "seconds to wait for it; 0: for ever")
+      ->check(seconds_given())
       ->check(CLI::NonNegativeNumber);
   verb->add_option("--clock", options->clock,
                    "lockstep: time waits for both sides; real: 10 kHz by this host's clock")
       ->check(CLI::IsMember({"lockstep", "real"}))
       ->capture_default_str();
-  verb->add_option("--out", options->out, "folder for truth.csv and plant_events.jsonl");
-  verb->add_option("--seed", options->seed, "of every random quantity");
+  verb->add_option("--out", options->out, "folder for truth.csv and plant_events.jsonl")
+      ->check(folder_to_write());
+  verb->add_option("--seed", options->seed, "of every random quantity")->check(whole_number());
   // For the bench's own child: the connected end it inherited.
   auto* inherited = verb->add_option("--stream-descriptor", options->stream_descriptor)->group("");
   carrier->excludes(inherited);

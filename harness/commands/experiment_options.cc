@@ -7,6 +7,7 @@
 #include "harness/board_bench/firmware_run.h"
 #include "harness/commands/encoder_option.h"
 #include "harness/commands/exit_codes.h"
+#include "harness/commands/option_checks.h"
 #include "harness/commands/progress_line.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_error.h"
@@ -18,8 +19,10 @@ namespace towbench::harness {
 
 void add_experiment_options(CLI::App& verb, ExperimentOptions& options) {
   verb.add_option("--out", options.out, "folder below which the run folder is made")
+      ->check(folder_to_write())
       ->capture_default_str();
-  verb.add_option("--seed", options.seed, "instead of the experiment's own seed");
+  verb.add_option("--seed", options.seed, "instead of the experiment's own seed")
+      ->check(whole_number());
   verb.add_option("--carrier", options.carrier, kCarrierHelp);
   verb.add_option("--lines", options.lines, kLinesHelp);
   verb.add_option("--encoder-lines", options.encoder_lines, kEncoderLinesHelp);

@@ -14,8 +14,10 @@
 #include "harness/commands/command.h"
 #include "harness/commands/exit_codes.h"
 #include "harness/commands/experiment_options.h"
+#include "harness/commands/option_checks.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fault_cases/shrink.h"
+#include "harness/files/regular_file.h"
 #include "harness/proof/run_manifest.h"
 #include "harness/record/temporary_folder.h"
 #include "harness/run/experiment_run.h"
@@ -37,12 +39,18 @@ struct Recorded {
   bool by_wall_clock = false;
 };
 
-Recorded recorded_in(const std::filesystem::path& folder) {
-  std::ifstream stream(folder / "result.json");
-  if (!stream) {
-    throw FixtureError({(folder / "result.json").string()}, "no such file", "a run folder");
+nlohmann::json result_in(const std::filesystem::path& folder) {
+  constexpr std::uint64_t kLargestResult_bytes = 64U << 20U;
+  const auto file = folder / "result.json";
+  const auto text = read_regular_file(file, kLargestResult_bytes);
+  if (const auto* refused = std::get_if<Unreadable>(&text)) {
+    throw FixtureError({file.string()}, refused->what, "a run folder");
   }
-  const auto result = nlohmann::json::parse(stream, nullptr, false);
+  return nlohmann::json::parse(std::get<std::string>(text), nullptr, false);
+}
+
+Recorded recorded_in(const std::filesystem::path& folder) {
+  const auto result = result_in(folder);
   try {
     if (result.at("status") != "complete") {
       throw FixtureError({(folder / "result.json").string(), 0, "status"},
@@ -104,11 +112,6 @@ int compare(const std::filesystem::path& recorded, const RunResult& run) {
     }
   }
   return exit_code;
-}
-
-nlohmann::json result_in(const std::filesystem::path& folder) {
-  std::ifstream stream(folder / "result.json");
-  return nlohmann::json::parse(stream, nullptr, false);
 }
 
 // What was claimed of the run against what is judged of it now, from the inputs in the folder.
@@ -220,7 +223,8 @@ void add_replay(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ReplayOptions>();
   auto* verb = app.add_subcommand("replay", "run a folder's inputs again and compare the records");
   verb->add_option("folder", options->folder, "a complete run folder")->required();
-  verb->add_option("--out", options->out, "keep the replayed run below this folder");
+  verb->add_option("--out", options->out, "keep the replayed run below this folder")
+      ->check(folder_to_write());
   verb->add_option("--carrier", options->carrier, kCarrierHelp)->capture_default_str();
   verb->add_flag("--shrink", options->shrink,
                  "instead: find the smallest run that breaks the same requirement, and run it");

@@ -2,20 +2,21 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
+
+#include "harness/files/regular_file.h"
 
 namespace towbench::harness {
 namespace {
 
 std::string read_table(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) {
-    throw CsvError(fmt::format("{}: cannot be read", path.string()));
+  constexpr std::uint64_t kLargestRecord_bytes = 1ULL << 33U;  // a day at 1 kHz
+  auto text = read_regular_file(path, kLargestRecord_bytes);
+  if (const auto* refused = std::get_if<Unreadable>(&text)) {
+    throw CsvError(fmt::format("{}: {}", path.string(), refused->what));
   }
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return std::get<std::string>(std::move(text));
 }
 
 std::vector<std::string> split_header(std::string_view line) {

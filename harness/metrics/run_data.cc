@@ -1,9 +1,11 @@
 #include "harness/metrics/run_data.h"
 
-#include <fstream>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "harness/files/regular_file.h"
 
 namespace towbench::harness {
 namespace {
@@ -26,10 +28,12 @@ RunEvent parse_event(const nlohmann::json& line) {
 }
 
 std::vector<RunEvent> load_events(const std::filesystem::path& path) {
-  std::ifstream stream(path);
-  if (!stream) {
-    throw CsvError(fmt::format("{}: cannot be read", path.string()));
+  constexpr std::uint64_t kLargestRecord_bytes = 1ULL << 31U;
+  const auto text = read_regular_file(path, kLargestRecord_bytes);
+  if (const auto* refused = std::get_if<Unreadable>(&text)) {
+    throw CsvError(fmt::format("{}: {}", path.string(), refused->what));
   }
+  std::istringstream stream(std::get<std::string>(text));
   std::vector<RunEvent> events;
   std::string line;
   while (std::getline(stream, line)) {

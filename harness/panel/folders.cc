@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <fstream>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "harness/files/regular_file.h"
 #include "harness/panel/panel_json.h"
 #include "harness/proof/run_manifest.h"
 
@@ -21,8 +21,11 @@ std::string text_of(const json& object, const char* key) {
 }
 
 json read(const fs::path& file) {
-  std::ifstream stream(file);
-  return json::parse(stream, nullptr, false);
+  // A list names many folders; a page has no use for more.
+  constexpr std::uint64_t kLargestShown_bytes = 4U << 20U;
+  const auto text = read_regular_file(file, kLargestShown_bytes);
+  const auto* const whole = std::get_if<std::string>(&text);
+  return whole == nullptr ? json(json::value_t::discarded) : json::parse(*whole, nullptr, false);
 }
 
 // Its cases stand in one file, or in one of each job of an array.

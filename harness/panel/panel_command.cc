@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "harness/checks/check.h"
+#include "harness/commands/option_checks.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_error.h"
 #include "harness/panel/panel_assets.h"
@@ -50,8 +51,12 @@ void add_panel(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<PanelOptions>();
   auto* verb = app.add_subcommand("panel", "watch and steer runs in the browser");
   verb->add_option("--out", options->out, "folder of the run folders, its own and older ones")
+      ->check(folder_to_write())
+      ->check(folder_to_write())
       ->capture_default_str();
   verb->add_option("--port", options->web.port, "TCP port; 0: any that is free")
+      ->check(whole_number())
+      ->check(whole_number())
       ->capture_default_str();
   verb->add_option("--listen", options->web.address,
                    "address to listen on; another than this machine's own lets others steer")

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -148,6 +150,7 @@ class WebServer::Implementation {
   std::function<void(const std::string&)> told_;
   const std::atomic<bool>* stop_ = nullptr;
   std::size_t connections_ = 0;
+  std::deque<std::weak_ptr<Exchange>> waiting_;  // the last ones, oldest first
   std::vector<std::shared_ptr<WebClient>> pages_;
 };
 
@@ -161,12 +164,20 @@ class WebServer::Implementation::Exchange : public std::enable_shared_from_this<
   Exchange& operator=(const Exchange&) = delete;
   ~Exchange() { --owner_.connections_; }
 
+  // It has not said what it wants, and others wait.
+  void give_up() {
+    if (reading_) {
+      stream_.close();
+    }
+  }
+
   void start() {
     parser_.header_limit(kLongestHead);
     parser_.body_limit(0);
     stream_.expires_after(kPatience);
     http::async_read(stream_, buffer_, parser_,
                      [self = shared_from_this()](beast::error_code error, std::size_t) {
+                       self->reading_ = false;
                        if (!error) {
                          self->serve();
                        }
@@ -230,6 +241,7 @@ class WebServer::Implementation::Exchange : public std::enable_shared_from_this<
   }
 
   Implementation& owner_;
+  bool reading_ = true;
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
   http::request_parser<http::string_body> parser_;
@@ -237,10 +249,20 @@ class WebServer::Implementation::Exchange : public std::enable_shared_from_this<
 
 void WebServer::Implementation::accept() {
   acceptor_.async_accept([this](beast::error_code error, tcp::socket socket) {
-    // One too many is closed at once; so is one that went while it waited.
-    if (!error && connections_ < kMostConnections) {
-      keep_from_children(socket);
-      std::make_shared<Exchange>(std::move(socket), *this)->start();
+    // One too many makes the oldest give up that has not said what it wants.
+    if (!error) {
+      if (waiting_.size() >= kMostConnections) {
+        if (const auto oldest = waiting_.front().lock()) {
+          oldest->give_up();
+        }
+        waiting_.pop_front();
+      }
+      if (connections_ < 2 * kMostConnections) {
+        keep_from_children(socket);
+        const auto exchange = std::make_shared<Exchange>(std::move(socket), *this);
+        waiting_.push_back(exchange);
+        exchange->start();
+      }
     }
     accept();
   });

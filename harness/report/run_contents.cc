@@ -1,11 +1,10 @@
 #include "harness/report/run_contents.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 
+#include "harness/files/regular_file.h"
 #include "harness/report/agreement.h"
 
 namespace towbench::harness::report {
@@ -14,11 +13,11 @@ namespace {
 using Json = nlohmann::json;
 
 std::optional<std::string> read_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    return std::nullopt;
-  }
-  return std::string(std::istreambuf_iterator<char>(file), {});
+  constexpr std::uint64_t kLargestRecord_bytes = 1ULL << 33U;
+  auto text = read_regular_file(path, kLargestRecord_bytes);
+  return std::holds_alternative<Unreadable>(text)
+             ? std::nullopt
+             : std::optional(std::get<std::string>(std::move(text)));
 }
 
 Json read_json(const std::filesystem::path& path, std::vector<std::string>& remarks) {

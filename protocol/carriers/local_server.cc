@@ -83,6 +83,14 @@ CarrierResult<void> LocalServer::lock() {
   if (::flock(lock_descriptor_, LOCK_EX | LOCK_NB) != 0) {
     return refuse(path_, "another process listens here");
   }
+  // Whoever had it before removes the file: then this is the lock of nothing.
+  struct stat ours {};
+  struct stat there {};
+  if (::fstat(lock_descriptor_, &ours) != 0 || ::lstat(name.c_str(), &there) != 0 ||
+      ours.st_ino != there.st_ino || ours.st_dev != there.st_dev) {
+    return refuse(path_, "another process listened here until now");
+  }
+  locked_ = true;
   return {};
 }
 
@@ -133,7 +141,12 @@ LocalServer::~LocalServer() {
     ::unlink(path_.c_str());
   }
   if (lock_descriptor_ >= 0) {
-    ::close(lock_descriptor_);  // the lock file stays: removing it would race with the next server
+    // While it is locked: who opens it from now on makes a new one, and who has it open finds that
+    // out (lock()).
+    if (locked_) {
+      ::unlink((path_.string() + ".lock").c_str());
+    }
+    ::close(lock_descriptor_);
   }
 }
 

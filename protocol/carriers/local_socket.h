@@ -91,6 +91,7 @@ class LocalServer {
 
   std::filesystem::path path_;
   int lock_descriptor_ = -1;
+  bool locked_ = false;
   bool bound_ = false;
   boost::asio::io_context context_{1};
   Protocol::acceptor acceptor_;

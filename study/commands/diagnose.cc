@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "harness/checks/check.h"
+#include "harness/commands/option_checks.h"
 #include "study/commands/diagnose_active.h"
 #include "study/commands/diagnose_logs.h"
 #include "study/commands/verbs.h"
@@ -54,8 +55,9 @@ void add_diagnose(CLI::App& app, int& exit_code) {
   verb->add_option("--columns", options->columns, "TOML map of a foreign log's columns")
       ->check(CLI::ExistingFile);
   verb->add_option("--axis", options->axis, "axis of the plant")->check(CLI::IsMember({"y", "x"}));
-  verb->add_option("--out", options->out, "folder to write to");
-  verb->add_option("--seed", options->seed, "of the bootstrap and the simulated references");
+  verb->add_option("--out", options->out, "folder to write to")->check(folder_to_write());
+  verb->add_option("--seed", options->seed, "of the bootstrap and the simulated references")
+      ->check(whole_number());
   verb->add_flag("-q,--quiet", options->quiet, "no progress");
   verb->add_flag("--json", options->json, "print diagnosis.json");
   add_active_options(*verb, *active);

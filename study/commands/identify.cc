@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "harness/checks/check.h"
+#include "harness/commands/option_checks.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
@@ -286,8 +287,9 @@ void add_identify(CLI::App& app, int& exit_code) {
       ->check(CLI::ExistingFile);
   verb->add_option("--settings", options->settings, "folder of the experiments' own files")
       ->check(CLI::ExistingDirectory);
-  verb->add_option("--seed", options->seed, "of the sensors' noise and of where things stand");
-  verb->add_option("--out", options->out, "folder to write to");
+  verb->add_option("--seed", options->seed, "of the sensors' noise and of where things stand")
+      ->check(whole_number());
+  verb->add_option("--out", options->out, "folder to write to")->check(folder_to_write());
   verb->add_flag("--resume", options->resume, "continue what was interrupted in that folder");
   verb->add_flag("--blind", options->blind, "do not set the rig's own parameters beside");
   verb->add_flag("--quiet", options->quiet, "no progress, no tables");
@@ -304,8 +306,10 @@ void add_identify(CLI::App& app, int& exit_code) {
                    "the machine of that number in such a set, 0: the rig itself")
       ->check(CLI::Range(0, 999));
   verb->add_option("--seeds", options->seeds, "with --drawn: seeds of each")
+      ->check(whole_number())
       ->check(CLI::Range(1, 10000));
   verb->add_option("--workers", options->workers, "with --drawn: processes at once")
+      ->check(whole_number())
       ->check(CLI::Range(1, 256));
   verb->footer(
       "Example: towbench identify fixtures/rigs/tow-dry.toml --out identified\n"

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "harness/checks/check.h"
+#include "harness/commands/option_checks.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
@@ -179,7 +180,8 @@ void add_results(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("results", "the thesis's tables: thesis, bench, truth");
   verb->add_option("--out", options->out, "file to write");
   verb->add_option("--work", options->work, "folder of the identification; what is done stays");
-  verb->add_option("--seed", options->seed, "of the sensors' noise and of where things stand");
+  verb->add_option("--seed", options->seed, "of the sensors' noise and of where things stand")
+      ->check(whole_number());
   verb->footer(
       "Example: towbench results --out docs/measurements/results.md\n"
       "Exit: 0 written, 4 written, but an experiment was refused or its data are no good.");

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "harness/checks/check.h"
+#include "harness/commands/option_checks.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
@@ -176,8 +177,12 @@ void add_tow(CLI::App& app, int& exit_code) {
       ->check(CLI::ExistingFile);
   verb->add_option("--settings", options->settings, "folder of the experiments' own files")
       ->check(CLI::ExistingDirectory);
-  verb->add_option("--seed", options->seed, "of the sensors' noise and of where things stand");
-  verb->add_option("--out", options->out, "folder to write to");
+  verb->add_option("--seed", options->seed, "of the sensors' noise and of where things stand")
+      ->check(whole_number())
+      ->check(whole_number());
+  verb->add_option("--out", options->out, "folder to write to")
+      ->check(folder_to_write())
+      ->check(folder_to_write());
   verb->add_flag("--quiet", options->quiet, "no progress, no tables");
   verb->add_flag("--json", options->json, "print estimates.json");
   verb->footer(

@@ -8,7 +8,12 @@ constexpr std::size_t kBlock = 1 << 20;
 }  // namespace
 
 BoundedLines::BoundedLines(const std::filesystem::path& path)
-    : file_(path, std::ios::binary), opened_(file_.is_open()) {}
+    : opened_(std::filesystem::is_regular_file(path)) {
+  if (opened_) {
+    file_.open(path, std::ios::binary);
+    opened_ = file_.is_open();
+  }
+}
 
 // Keeps what is not yet given and reads on behind it.
 bool BoundedLines::refill() {

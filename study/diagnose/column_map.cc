@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include "harness/files/regular_file.h"
+#include "harness/files/toml_nesting.h"
+
 namespace towbench::harness::diagnose {
 namespace {
 
@@ -56,7 +59,17 @@ bool set(ColumnMap& map, std::string_view key, const toml::node& node) {
 ColumnMap read_column_map(const std::filesystem::path& path, Findings& findings) {
   ColumnMap map;
   try {
-    const toml::table table = toml::parse_file(path.string());
+    constexpr std::uint64_t kLargestMap_bytes = 1U << 20U;
+    const auto text = read_regular_file(path, kLargestMap_bytes);
+    if (const auto* refused = std::get_if<Unreadable>(&text)) {
+      fatal(findings, fmt::format("{}: {}, no column map", path.string(), refused->what));
+      return map;
+    }
+    if (const auto line = line_nested_too_deep(std::get<std::string>(text)); line != 0) {
+      fatal(findings, fmt::format("{}:{}: keys nested too deep", path.string(), line));
+      return map;
+    }
+    const toml::table table = toml::parse(std::get<std::string>(text), path.string());
     for (const auto& [key, node] : table) {
       if (!set(map, key.str(), node)) {
         fatal(findings, fmt::format("{}:{}: '{}' is no key of a column map, or its value is of the "

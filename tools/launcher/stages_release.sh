@@ -1,6 +1,16 @@
 # shellcheck shell=bash disable=SC2154,SC2034
 # The stages of `./towbench test --all`, and those on request. Sourced by test.sh.
 
+stage_attack() {
+  built release towbench-bench towbench-panel towbench-study
+  local status=0 log=$build/attack.log
+  python3 "$root/tests/attack/attack.py" "$root" "$build/release/bin" 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
+  local handled missed
+  read -r handled missed < <(sed -nE 's/^\| \*\*all\*\* \| [0-9]+ \| ([0-9]+) \| ([0-9]+) \|$/\1 \2/p' "$log")
+  passed=$((passed + ${handled:-0})) failed=$((failed + ${missed:-1}))
+  return "$status"
+}
+
 stage_long_tests() {
   built release
   run_ctest release . -R "$(long_tests)"

@@ -13,7 +13,7 @@ source "$root/tools/launcher/stages_release.sh"
 
 guard_stages=(lint tests board carriers sanitize_thread sanitize_address fuzz fresh_start)
 quick_stages=(lint tests)
-release_stages=(long_tests alone tidy step_cost armhf package campaign diagnosis mutants guard_mutations slurm)
+release_stages=(attack long_tests alone tidy step_cost armhf package campaign diagnosis mutants guard_mutations slurm)
 on_request_stages=(build_times carrier_table panel_cost)
 
 test_usage() {
@@ -42,6 +42,7 @@ guards main:
                     where launcher, build files and packages are as when it passed last
 
 with --all besides:
+  attack            hostile use: every option, fixture, run folder, wire and request, some 1,500 attacks
   long_tests        the tests of tests/long_tests.txt: many seeds, long motions
   alone             every source compiled alone: no include is missing
   tidy              clang-tidy of the product

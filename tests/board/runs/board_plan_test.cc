@@ -135,7 +135,7 @@ at_s = 1.8
   ASSERT_NE(check_named(run, "fault_fired"), nullptr) << complaints_of(run);
   EXPECT_EQ(check_named(run, "fault_fired")->verdict, Verdict::kPass);
   EXPECT_NEAR(check_named(run, "fault_fired")->value.value_or(0), 1.8, 0.01);
-  auto late = servo("[[fault]]\ncomponent = \"encoder.y\"\nkind = \"frozen\"\nat_s = 4.9\n");
+  auto late = servo("[[fault]]\ncomponent = \"encoder.y\"\nkind = \"frozen\"\nat_s = 30.0\n");
   late.experiment.budgets_apply = false;
   EXPECT_EQ(run_experiment(late, options_).judgement.verdict, Verdict::kInvalid)
       << "the run ends before it";
