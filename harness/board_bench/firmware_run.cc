@@ -140,6 +140,9 @@ class FirmwareLoop {
     const auto& experiment = fixture_.experiment;
     const bool sound = experiment.faults.empty() && experiment.board.faults.empty();
     const auto waited_ns = bench_.now_ns() - script_over_ns_;
+    if (bench_.now_ns() % FirmwareBench::kPinRow_ns != 0) {
+      return false;  // a record ends with a whole row
+    }
     return (sound && bench_.probe().has_port() && bench_.idle()) ||
            bench_.undriven_ns() >= kCoasting_ns || waited_ns >= kLongestSettling_ns;
   }

@@ -80,7 +80,7 @@ Check log_is_complete(const CaseEvidence& evidence) {
 }
 
 MaybeCheck comes_to_rest(const CaseEvidence& evidence) {
-  constexpr double kStandstill_m_per_s = 5e-3;  // mean over the stretch
+  constexpr double kAtRest_m_per_s = 5e-3;  // mean over the stretch
   constexpr Nanoseconds kStretch_ns = 100 * core::kNanosecondsPerMillisecond;
   if (plant_may_end(evidence)) {
     return std::nullopt;
@@ -95,7 +95,7 @@ MaybeCheck comes_to_rest(const CaseEvidence& evidence) {
     const double turned_m = emulator::metres_per_count(evidence.prepared.built.axes[axis]) *
                             static_cast<double>(now.count - then.count);
     const double way_m = std::max(std::fabs(now.carriage_m - then.carriage_m), std::fabs(turned_m));
-    if (evidence.prepared.built.axes[axis].exists && way_m / length_s > kStandstill_m_per_s) {
+    if (evidence.prepared.built.axes[axis].exists && way_m / length_s > kAtRest_m_per_s) {
       check.verdict = Verdict::kInvalid;
       check.reason = fmt::format("{} still moves at {:.3g} m/s when the record ends",
                                  core::name_of(axis), way_m / length_s);

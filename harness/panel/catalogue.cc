@@ -9,6 +9,7 @@
 #include "harness/fault_plan/fault.h"
 #include "harness/fault_plan/fault_catalogue.h"
 #include "harness/fixtures/fixture_paths.h"
+#include "harness/panel/own_experiments.h"
 #include "harness/panel/panel_json.h"
 
 namespace towbench::harness {
@@ -86,26 +87,37 @@ json places_json() {
   return places;
 }
 
+// Read as `validate` reads it; one that cannot be run says why.
+json experiment_json(const std::filesystem::path& path, const std::string& name) {
+  try {
+    const auto fixture = load_experiment(path);
+    const auto& experiment = fixture.experiment;
+    json object = {{"name", name.empty() ? experiment.name : name},
+                   {"own", !name.empty()},
+                   {"title", experiment.title},
+                   {"description", experiment.description},
+                   {"duration_limit_s", experiment.duration_limit_s},
+                   {"seed", experiment.seed},
+                   {"budgets", experiment.budgets.size()},
+                   {"lines", json::array()}};
+    for (const auto& step : experiment.console) {
+      object["lines"].push_back(step.send);
+    }
+    return object;
+  } catch (const FixtureError& error) {
+    return {{"name", name.empty() ? path.stem().string() : name},
+            {"own", !name.empty()},
+            {"trouble", error.what()}};
+  }
+}
+
 json experiments_json() {
   auto experiments = json::array();
+  for (const auto& path : own_experiments(".")) {
+    experiments.push_back(experiment_json(path, path.string()));
+  }
   for (const auto& path : toml_files_in(fixtures_directory() / "experiments")) {
-    try {
-      const auto fixture = load_experiment(path);
-      const auto& experiment = fixture.experiment;
-      json object = {{"name", experiment.name},
-                     {"title", experiment.title},
-                     {"description", experiment.description},
-                     {"duration_limit_s", experiment.duration_limit_s},
-                     {"seed", experiment.seed},
-                     {"budgets", experiment.budgets.size()},
-                     {"lines", json::array()}};
-      for (const auto& step : experiment.console) {
-        object["lines"].push_back(step.send);
-      }
-      experiments.push_back(std::move(object));
-    } catch (const FixtureError& error) {
-      experiments.push_back({{"name", path.stem().string()}, {"trouble", error.what()}});
-    }
+    experiments.push_back(experiment_json(path, ""));
   }
   return experiments;
 }

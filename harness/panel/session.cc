@@ -162,6 +162,9 @@ void Session::run(std::uint64_t seed) {
     over.folder = result.folder.filename().string();
     over.verdict = result.complete ? std::string(name_of(result.judgement.verdict)) : "";
     over.reason = result.complete ? first_trouble(result.judgement) : result.reason;
+    if (over.reason.empty()) {
+      over.reason = result.judgement.judged;
+    }
     over.timing = result.timing;
     if (written && !written->contradictions.empty()) {
       over.verdict = std::string(name_of(Verdict::kInvalid));

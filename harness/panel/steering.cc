@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/fault_plan/fault_text.h"
+#include "harness/panel/own_experiments.h"
 
 namespace towbench::harness {
 namespace {
@@ -49,7 +50,7 @@ bool flag(const json& message, const char* key) {
 
 SessionStart start_of(const json& message) {
   SessionStart wanted;
-  wanted.experiment = text(message, "experiment");
+  wanted.experiment = experiment_named(text(message, "experiment")).string();
   for (const auto& line : message.value("lines", json::array())) {
     if (!line.is_array() || line.size() != 2 || !line[0].is_number_unsigned() ||
         !line[1].is_string() || line[1].get_ref<const std::string&>().size() > kMostTyped) {

@@ -69,8 +69,8 @@ void append_run(const RunContents& run, std::size_t index, int level, std::size_
   const std::vector<NumberedEvent> events = listed_events(run);
   const PlotTable table = plot_table(run);
   parts.body += verdict_section(run, verdict_of(run));
-  parts.body += checks_section(run, level);
   parts.body += plots_section(table, index, level);
+  parts.body += checks_section(run, level);
   parts.body += events_section(run, events, level);
   parts.body += metrics_section(run, level);
   parts.body += console_section(run, level);
@@ -82,11 +82,9 @@ void append_run(const RunContents& run, std::size_t index, int level, std::size_
   }
 }
 
-std::string title_block(const RunContents& run, int level) {
-  const std::string description = text_at(member(run.result, "experiment"), "description");
-  return heading(level, run_title(run)) +
-         (description.empty() ? ""
-                              : fmt::format("<p class=\"lead\">{}</p>\n", escaped(description)));
+std::string description_of(const RunContents& run) {
+  const std::string text = text_at(member(run.result, "experiment"), "description");
+  return text.empty() ? "" : fmt::format("<p class=\"lead\">{}</p>\n", escaped(text));
 }
 
 // Only the page's own script may run, and nothing may be fetched.
@@ -136,6 +134,46 @@ std::string document(const std::string& title, const Parts& parts) {
                                       : "<script>" + std::string(script.text) + "</script>"}});
 }
 
+// The check that came nearest to its limit, or broke it most.
+std::string worst_margin(const RunContents& run) {
+  const Json& checks = member(run.result, "checks");
+  std::optional<double> worst;
+  std::string name;
+  for (const Json& check : checks.is_array() ? checks : Json::array()) {
+    const std::optional<double> margin = number_at(check, "margin");
+    const std::optional<double> min = number_at(check, "min");
+    const std::optional<double> max = number_at(check, "max");
+    // An exact value has no margin, and one against zero no scale.
+    const bool has_scale = min != max && (min.value_or(0) != 0 || max.value_or(0) != 0);
+    if (has_scale && margin && (!worst || *margin < *worst)) {
+      worst = margin;
+      name = readable_name(text_at(check, "name"), text_at(check, "unit"));
+    }
+  }
+  return worst ? fmt::format("{:.0f}\u00a0% <span class=\"meaning\">{}</span>", 100 * *worst,
+                             escaped(name))
+               : std::string{};
+}
+
+// What is in a fold, from outside: verdict and title.
+std::string fold_head(const RunContents& run, const Verdict& verdict) {
+  return fmt::format(
+      "<summary><span class=\"chip {0}\"><span aria-hidden=\"true\">{1}</span> {2}</span> "
+      "<h2>{3}</h2></summary>\n",
+      class_of(verdict.kind), symbol_of(verdict.kind), word_of(verdict.kind),
+      escaped(run_title(run)));
+}
+
+// Open is the one that a reader looks for: the first that did not pass, or else the first.
+std::size_t open_fold(std::span<const RunContents> runs) {
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (verdict_of(runs[i]).kind != VerdictKind::kPass) {
+      return i;
+    }
+  }
+  return 0;
+}
+
 std::string summary_row(const RunContents& run, std::size_t index) {
   const Verdict verdict = verdict_of(run);
   const std::optional<double> time_s = number_at(run.result, "simulated_time_s");
@@ -144,12 +182,13 @@ std::string summary_row(const RunContents& run, std::size_t index) {
       "<tr class=\"{0}\"><td data-label=\"Verdict\"><span class=\"chip {0}\"><span "
       "aria-hidden=\"true\">{1}</span> {2}</span></td><td data-label=\"Run\" class=\"what\"><a "
       "href=\"#run-{3}\">{4}</a><span class=\"meaning\">{5}</span></td>"
+      "<td data-label=\"Worst margin\" class=\"number\">{8}</td>"
       "<td data-label=\"Simulated\" class=\"number\">{6}</td>"
       "<td data-label=\"Speed\" class=\"number\">{7}</td></tr>\n",
       class_of(verdict.kind), symbol_of(verdict.kind), word_of(verdict.kind), index,
       escaped(run_title(run)), escaped(verdict.sentence),
       time_s ? readable_quantity(*time_s, "s") : "unknown",
-      factor ? readable_number(*factor) + " ×" : "unknown");
+      factor ? readable_number(*factor) + " ×" : "unknown", worst_margin(run));
 }
 
 std::string summary(std::span<const RunContents> runs) {
@@ -166,7 +205,8 @@ std::string summary(std::span<const RunContents> runs) {
       "<div class=\"verdict {0}\" data-verdict=\"{1}\">\n<span class=\"sign\" "
       "aria-hidden=\"true\">{2}</span>\n<div><p class=\"word\">{1}</p>\n<p>{3} of {4} runs "
       "passed.</p></div>\n</div>\n<section class=\"runs\"><h2>Runs</h2>\n<table>\n"
-      "<thead><tr><th>Verdict</th><th>Run</th><th class=\"number\">Simulated</th>"
+      "<thead><tr><th>Verdict</th><th>Run</th><th class=\"number\">Worst "
+      "margin</th><th class=\"number\">Simulated</th>"
       "<th class=\"number\">Speed</th></tr></thead>\n<tbody>\n{5}</tbody>\n</table>\n</section>\n",
       class_of(worst), word_of(worst), symbol_of(worst), passed, runs.size(), rows);
 }
@@ -177,7 +217,7 @@ std::string run_page(const RunContents& run) {
   Parts parts;
   parts.body =
       "<article class=\"run\" id=\"run-1\">\n<p class=\"eyebrow\">towbench run report</p>\n" +
-      title_block(run, 1);
+      heading(1, run_title(run)) + description_of(run);
   append_run(run, 1, 2, kPlotBytes, parts);
   parts.body += "</article>\n";
   return document(run_title(run) + " · towbench", parts);
@@ -190,11 +230,13 @@ std::string combined_page(std::span<const RunContents> runs) {
       "page</h1>\n</header>\n",
       runs.size());
   parts.body += summary(runs);
+  const std::size_t open = open_fold(runs);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    parts.body += fmt::format("<article class=\"run\" id=\"run-{}\">\n", i + 1);
-    parts.body += title_block(runs[i], 2);
+    parts.body +=
+        fmt::format("<details class=\"run\" id=\"run-{}\"{}>\n", i + 1, i == open ? " open" : "");
+    parts.body += fold_head(runs[i], verdict_of(runs[i])) + description_of(runs[i]);
     append_run(runs[i], i + 1, 3, 2 * kPlotBytes / (runs.size() + 1), parts);
-    parts.body += "<p class=\"back\"><a href=\"#top\">Back to the summary</a></p>\n</article>\n";
+    parts.body += "<p class=\"back\"><a href=\"#top\">Back to the summary</a></p>\n</details>\n";
   }
   return document(fmt::format("{} runs · towbench", runs.size()), parts);
 }

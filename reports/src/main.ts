@@ -79,6 +79,26 @@ function fill(host: HTMLElement): void {
   }
 }
 
+// A plot needs the width of what it stands in, which a closed fold has not.
+function fillWhenOpen(host: HTMLElement): void {
+  const fold = host.closest<HTMLDetailsElement>("details.run");
+  if (fold === null || fold.open) {
+    fill(host);
+    return;
+  }
+  fold.addEventListener("toggle", () => fill(host), { once: true });
+}
+
+function openNamedFold(): void {
+  const named = document.getElementById(location.hash.slice(1));
+  if (named instanceof HTMLDetailsElement) {
+    named.open = true;
+    named.scrollIntoView();
+  }
+}
+
 document.head.append(element("style", "", plotStyle));
-for (const host of document.querySelectorAll<HTMLElement>(".plot-host")) fill(host);
+for (const host of document.querySelectorAll<HTMLElement>(".plot-host")) fillWhenOpen(host);
+window.addEventListener("hashchange", openNamedFold);
+openNamedFold();
 document.documentElement.dataset.plots = "ready";

@@ -72,8 +72,20 @@ export async function driveRuns({ checks, person, page, bench, root, runs, shots
     await person.printed("amplifier");
     await page.click("#finish");
     const words = await person.over();
-    assert.match(words, /^circle: PASS/, words);
+    assert.match(words, /^PASScircle/, words);
     driven = await person.folder();
+  });
+
+  await checks.run("the verdict is the largest text, and the working folder's own files are offered", async () => {
+    const [word, largest] = await page.evaluate(() => {
+      const size = (one) => Number.parseFloat(getComputedStyle(one).fontSize);
+      const verdict = document.querySelector("#result .word");
+      const others = [...document.querySelectorAll("#view-run *")].filter((one) => one !== verdict && one.textContent.trim() !== "");
+      return [size(verdict), Math.max(...others.map(size))];
+    });
+    assert.ok(word > largest, `${word} px, others up to ${largest} px`);
+    const names = await page.$$eval("#experiment option", (all) => all.map((one) => one.textContent));
+    assert.ok(names.includes("circle"));
   });
 
   await checks.run("what was done by hand is in events.jsonl and replays bit for bit", async () => {
@@ -130,7 +142,7 @@ export async function driveRuns({ checks, person, page, bench, root, runs, shots
 
   await checks.run("an undisturbed run from the panel is judged like any other", async () => {
     await person.start("circle", "0");
-    assert.match(await person.over(), /^circle: PASS/);
+    assert.match(await person.over(), /^PASScircle/);
     execFileSync(bench, ["run", "circle", "--out", runs, "--quiet"], { cwd: root });
   });
 

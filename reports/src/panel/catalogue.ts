@@ -34,6 +34,7 @@ export interface ExperimentEntry {
   budgets: number;
   lines: string[];
   trouble?: string;
+  own?: boolean; // a file of the working folder, named by its path
 }
 
 export interface Catalogue {

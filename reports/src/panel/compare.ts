@@ -2,7 +2,7 @@
 // metrics make of it.
 import { element, missingNote } from "../dom";
 import type { LineRole } from "../theme";
-import { readable } from "../units";
+import { displayUnit, type DisplayUnit, readable, readableWithUnit } from "../units";
 import { loadText } from "./catalogue";
 import { column, type Log, parseLog } from "./csv";
 import { figure } from "./figure";
@@ -12,6 +12,7 @@ interface Metric {
   window: string;
   value: number | null;
   unit: string;
+  meaning?: string;
 }
 
 const roles: LineRole[] = ["measured", "truth"];
@@ -45,6 +46,37 @@ function plot(title: string, unit: string, names: string[], logs: Log[], axis: s
   });
 }
 
+interface Check {
+  name: string;
+  window: string;
+}
+
+// In a unit that leaves few digits before the point.
+function shownValue(metric: Metric): string {
+  if (metric.value === null) return "none";
+  return readableWithUnit(...scaled(metric.value, metric.unit));
+}
+
+function scaled(value: number, unitSi: string): [number, DisplayUnit] {
+  const size = Math.abs(value);
+  if (unitSi === "s" && size > 0 && size < 1) {
+    const unit = size < 1e-3 ? { name: "µs", perSi: 1e6 } : { name: "ms", perSi: 1e3 };
+    return [value * unit.perSi, unit];
+  }
+  const unit = displayUnit(unitSi, size);
+  return [value * unit.perSi, unit];
+}
+
+// What a budget judges first, by its meaning; the others behind a fold.
+function metricTables(names: string[], lists: Metric[][], checks: Check[]): HTMLElement[] {
+  const isJudged = (one: Metric) => checks.some((check) => check.name === one.name && (check.window || "whole") === one.window);
+  const judged = lists.map((list) => list.filter(isJudged));
+  const others = lists.map((list) => list.filter((one) => !isJudged(one)));
+  const rest = element("details");
+  rest.append(element("summary", "", `All other metrics (${others[0]!.length})`), metricTable(names, others));
+  return judged[0]!.length === 0 ? [rest] : [metricTable(names, judged), rest];
+}
+
 function metricTable(names: string[], lists: Metric[][]): HTMLElement {
   const made = element("table");
   const head = element("tr");
@@ -55,8 +87,8 @@ function metricTable(names: string[], lists: Metric[][]): HTMLElement {
     if (other === undefined || (metric.value === null && other.value === null)) continue;
     const row = element("tr");
     const ratio = metric.value && other.value !== null ? readable(other.value / metric.value) : "";
-    const shown = [metric, other].map((one) => (one.value === null ? "none" : `${readable(one.value)} ${one.unit}`));
-    for (const text of [metric.name, metric.window, ...shown, ratio]) row.append(element("td", "", text));
+    const shown = [metric, other].map(shownValue);
+    for (const text of [metric.meaning || metric.name, metric.window, ...shown, ratio]) row.append(element("td", "", text));
     made.append(row);
   }
   const wide = element("div", "wide");
@@ -76,7 +108,8 @@ export async function compare(host: HTMLElement, names: [string, string]): Promi
         plot(`${axis.toUpperCase()} duty`, "%", names, logs, axis, "duty"),
       );
     }
-    host.append(metricTable(names, metrics));
+    const checks = JSON.parse(await loadText(`/runs/${names[0]}/result.json`)).checks as Check[] | undefined;
+    host.append(...metricTables(names, metrics, checks ?? []));
   } catch (error) {
     host.replaceChildren(missingNote(`These two cannot be compared: ${String(error)}`));
   }

@@ -50,7 +50,7 @@ export class FoldersView {
     const head = element("tr");
     for (const text of ["", "Folder", "What", "Verdict", "Started"]) head.append(element("th", "", text));
     table.append(head, ...this.folders.map((folder) => this.entry(folder)));
-    this.list.replaceChildren(this.folders.length === 0 ? missingNote("No run folder yet.") : table);
+    this.list.replaceChildren(this.folders.length === 0 ? missingNote("No run yet. Start an experiment on the page Run; its folder is then listed here, with its report.") : table);
     this.showChoice();
   }
 

@@ -1,5 +1,6 @@
 // What exchanges cost the host: how long each took, or by the wall clock how far each was off its
 // period, in bins of doubling width.
+import { readable } from "../units";
 import { element, setText } from "../dom";
 
 const svgNs = "http://www.w3.org/2000/svg";
@@ -61,5 +62,5 @@ export class Histogram {
 
 function lower(bin: number): string {
   const us = bin === 0 ? 0 : 2 ** (bin - 1);
-  return us >= 1000 ? `${(us / 1000).toPrecision(2)} ms` : `${us} µs`;
+  return us >= 1000 ? `${readable(us / 1000)} ms` : `${us} µs`;
 }

@@ -158,12 +158,16 @@ export class RunView {
     }
     if (this.result.dataset.of === `${state.number}`) return;
     const verdict = state.verdict === "" ? "no verdict" : state.verdict;
-    const words = `${state.name}: ${verdict}${state.reason === "" ? "" : ` (${state.reason})`} `;
+    const words = `${state.name}${state.reason === "" ? "" : `: ${state.reason}`} `;
     const timing = state.timing === "" ? [] : [element("pre", "timing", state.timing.trimEnd())];
     this.result.dataset.of = `${state.number}`;
     const link = element("a", "", "open the report");
     link.href = `#folders/${state.folder}`;
-    this.result.replaceChildren(element("strong", "", words), ...(state.folder === "" ? [] : [link]), ...timing);
+    const box = element("div", `verdict ${verdict === "PASS" || verdict === "FAIL" ? verdict.toLowerCase() : "invalid"}`);
+    const said = element("p", "", words);
+    if (state.folder !== "") said.append(link);
+    box.append(element("p", "word", verdict), said);
+    this.result.replaceChildren(box, ...timing);
   }
 
   private makeScopes(): void {

@@ -10,6 +10,17 @@ function difference(a: (number | null)[], b: (number | null)[]): (number | null)
   return a.map((value, i) => (value === null || b[i] == null ? null : (value - b[i]!) * 1e3));
 }
 
+// Positions from where the controller's zero was last set: those before are in another frame.
+function inThisFrame(columns: (number | null)[][], at: number): (number | null)[] {
+  const jump_m = 0.02; // in a tick: 20 m/s at 1 kHz
+  const values = columns[at]!;
+  for (let i = values.length - 1; i > 0; --i) {
+    const [before, after] = [values[i - 1], values[i]];
+    if (before != null && after != null && Math.abs(after - before) > jump_m) return values.map((value, j) => (j < i ? null : value));
+  }
+  return values;
+}
+
 // The one that the control law follows is drawn solid, the others by its side.
 function estimates(axis: AxisName, followed: Estimator, shown: (at: Columns, estimator: Estimator) => Line["of"]): Line[] {
   const at = logColumns(axis);
@@ -37,8 +48,8 @@ export function logSpecs(axis: AxisName, followed: Estimator, hasForce: boolean)
       title: "Position",
       unit: "m",
       lines: [
-        { label: "reference", role: "reference", of: (c) => c[at.reference]! },
-        { label: "motor side", role: "measured", of: (c) => c[at.position]! },
+        { label: "reference", role: "reference", of: (c) => inThisFrame(c, at.reference) },
+        { label: "motor side", role: "measured", of: (c) => inThisFrame(c, at.position) },
       ],
     },
     {

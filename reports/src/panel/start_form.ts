@@ -11,6 +11,7 @@ export class StartForm {
     ["real", "wall clock, two processes"],
   ]);
   private readonly speed = speedSelect();
+  private readonly go = button("Start", () => this.submit(), "primary");
   private readonly about = element("p", "note");
   private readonly lines = element("div", "script-lines");
   private readonly faults = textField();
@@ -21,8 +22,7 @@ export class StartForm {
   private catalogue: Catalogue | null = null;
 
   constructor(private readonly start: (message: Record<string, unknown>) => void) {
-    const go = button("Start", () => this.submit(), "primary");
-    go.id = "start";
+    this.go.id = "start";
     this.choice.id = "experiment";
     this.speed.id = "start-speed";
     this.clock.id = "start-clock";
@@ -32,7 +32,7 @@ export class StartForm {
       for (const field of [this.speed, this.paused.box, this.faults]) field.disabled = this.isReal();
     });
     const row = element("div", "bar-row");
-    row.append(labelled("Experiment", this.choice), labelled("Clock", this.clock), labelled("Speed", this.speed), this.paused.row, this.hold.row, go);
+    row.append(labelled("Experiment", this.choice), labelled("Clock", this.clock), labelled("Speed", this.speed), this.paused.row, this.hold.row, this.go);
     const options = element("details", "options");
     options.append(
       element("summary", "", "What is typed, faults, seed, time limit"),
@@ -46,7 +46,8 @@ export class StartForm {
 
   setCatalogue(catalogue: Catalogue): void {
     this.catalogue = catalogue;
-    setOptions(this.choice, catalogue.experiments.map((one) => [one.name, one.name]));
+    setOptions(this.choice, catalogue.experiments.map((one) => [one.name, one.own ? `${one.name} (your file)` : one.name]));
+    if (catalogue.experiments.length === 0) this.about.textContent = "There is no experiment: start the panel where fixtures/ or your own experiment files are.";
     const circle = catalogue.experiments.find((one) => one.name === "circle");
     if (circle !== undefined) this.choice.value = circle.name;
     this.show();
@@ -66,6 +67,8 @@ export class StartForm {
     const entry = this.chosen();
     if (entry === undefined) return;
     this.about.textContent = entry.trouble ?? `${entry.title}. ${entry.description}`;
+    this.about.classList.toggle("trouble", entry.trouble !== undefined);
+    this.go.disabled = entry.trouble !== undefined;
     this.seed.value = String(entry.seed ?? "");
     this.limit.value = String(entry.duration_limit_s ?? "");
     this.lines.replaceChildren(

@@ -30,6 +30,8 @@ TEST(Steering, WhatIsNotUnderstoodIsRefusedInOneSentenceAndChangesNothing) {
         R"({"do":"break","fault":"moon full"})",
         R"({"do":"start"})",
         R"({"do":"start","experiment":"no-such-one","speed":1})",
+        R"({"do":"start","experiment":"/etc/passwd","speed":1})",
+        R"({"do":"start","experiment":"../circle.toml","speed":1})",
         R"({"do":"start","experiment":"circle"})",
         R"({"do":"start","experiment":"circle","speed":1,"lines":[[99,"x"]]})",
         R"({"do":"start","experiment":"circle","speed":1,"lines":[["a"]]})",

@@ -163,6 +163,11 @@ TEST_F(Report, OfSeveralRunsShowsTheWorstVerdictAndEveryRun) {
   const std::string page = test::read_text(written->page);
   EXPECT_LT(page.find("data-verdict=\"FAIL\""), page.find("data-verdict=\"PASS\""));
   expect_parts(page, {"1 of 2 runs passed.", "href=\"#run-2\"", "id=\"run-2\"", "first", "second"});
+  // Each run is behind a fold; the one that failed is open.
+  expect_parts(
+      page, {"<details class=\"run\" id=\"run-1\">", "<details class=\"run\" id=\"run-2\" open>"});
+  EXPECT_NE(page.find("Worst margin"), std::string::npos);
+  EXPECT_LT(page.find("class=\"plot-host\""), page.find("<section class=\"checks\">"));
 }
 
 TEST_F(Report, RefusesToCombineNothing) {
