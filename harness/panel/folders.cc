@@ -85,7 +85,12 @@ json folder_json(const fs::path& folder) {
   }
   const auto result = read(folder / "result.json");
   if (!result.is_object()) {
-    return nullptr;
+    return fs::exists(fs::symlink_status(folder / "result.json", ignored))
+               ? json{{"name", name},
+                      {"kind", "run"},
+                      {"title", "its result.json cannot be read"},
+                      {"verdict", "INVALID"}}
+               : json(nullptr);
   }
   const auto experiment = result.value("experiment", json::object());
   return {{"name", name},

@@ -21,7 +21,23 @@ stage_tests() {
   built release
   count every_long_test_exists
   run_ctest release . -E "$(long_tests)"
-  slowest_tests release >"$build/slowest_tests.txt"
+  slowest_tests release | protected_by >"$build/slowest_tests.txt"
+}
+
+# "SECONDS TEST" with what the test protects, "?" where nobody has said.
+protected_by() {
+  local seconds name pattern protects line
+  while read -r seconds name; do
+    line='?'
+    while IFS=';' read -r pattern protects; do
+      read -r pattern <<<"$pattern"
+      if [[ -n $pattern && $pattern != \#* && $name =~ $pattern ]]; then
+        read -r line <<<"$protects"
+        break
+      fi
+    done <"$root/tests/slow_tests.txt"
+    printf '%s %s: %s\n' "$seconds" "$name" "$line"
+  done
 }
 
 slowest_tests() {
