@@ -167,7 +167,7 @@ TEST_F(Report, OfSeveralRunsShowsTheWorstVerdictAndEveryRun) {
   expect_parts(
       page, {"<details class=\"run\" id=\"run-1\">", "<details class=\"run\" id=\"run-2\" open>"});
   EXPECT_NE(page.find("Worst margin"), std::string::npos);
-  EXPECT_LT(page.find("class=\"plot-host\""), page.find("<section class=\"checks\">"));
+  EXPECT_LT(page.find("<section class=\"plots\">"), page.find("<section class=\"checks\">"));
 }
 
 TEST_F(Report, RefusesToCombineNothing) {
