@@ -172,9 +172,13 @@ def attack_fixtures():
 
 # ---- folders: a run that somebody has changed
 def attack_folders():
-    code, _ = run([BENCH, 'run', 'pulses', '-q', '--out', 'runs'])
-    folder = os.path.join('runs', os.listdir('runs')[0])
+    code, _ = run([BENCH, 'run', 'trapezoid-400', '-q', '--out', 'attacked'])
+    folder = os.path.join('attacked', os.listdir('attacked')[0])
     count('folders', 'the run itself', '' if code == PASS else f'exit code {code}')
+    # What is refused below is refused for the change alone.
+    for verb in ([BENCH, 'report', folder], [BENCH, 'replay', folder], [STUDY, 'diagnose', '--data', folder, '--out', 'diagnosis', '-q']):
+        code, output = run(verb)
+        count('folders', f'{verb[1]} of the untouched run', judged(code, output, {PASS}))
 
     def check(name, path, change):
         kept = open(path, 'rb').read()
@@ -184,7 +188,9 @@ def attack_folders():
                 code, output = run([BENCH, verb, folder])
                 count('folders', f'{verb} after {name}', judged(code, output, allowed))
             code, output = run([STUDY, 'diagnose', '--data', folder, '--out', 'diagnosis', '-q'])
-            count('folders', f'diagnose after {name}', judged(code, output, {BAD, RUNTIME, INVALID}))
+            # A diagnosis never opens what only the plant knows.
+            unread = os.path.basename(path) in ('truth.csv', 'events.jsonl', 'metrics.json')
+            count('folders', f'diagnose after {name}', judged(code, output, {BAD, RUNTIME, INVALID} | ({PASS} if unread else set())))
         finally:
             if os.path.lexists(path):
                 os.unlink(path)
