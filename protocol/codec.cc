@@ -121,6 +121,8 @@ template <>
 struct IdOf<Fault> : std::integral_constant<MessageId, MessageId::kFault> {};
 template <>
 struct IdOf<Bye> : std::integral_constant<MessageId, MessageId::kBye> {};
+template <>
+struct IdOf<Reference> : std::integral_constant<MessageId, MessageId::kReference> {};
 
 template <typename Message>
 std::size_t payload_size() noexcept {
@@ -178,6 +180,7 @@ std::size_t encoded_size(const Advanced& /*m*/) noexcept { return payload_size<A
 std::size_t encoded_size(const Heartbeat& /*m*/) noexcept { return payload_size<Heartbeat>(); }
 std::size_t encoded_size(const Fault& /*m*/) noexcept { return payload_size<Fault>(); }
 std::size_t encoded_size(const Bye& /*m*/) noexcept { return payload_size<Bye>(); }
+std::size_t encoded_size(const Reference& /*m*/) noexcept { return payload_size<Reference>(); }
 
 std::size_t encode(const Hello& m, std::span<std::byte> into) noexcept { return encode_fixed(m, into); }
 std::size_t encode(const HelloReply& m, std::span<std::byte> into) noexcept { return encode_fixed(m, into); }
@@ -192,6 +195,7 @@ std::size_t encode(const Advanced& m, std::span<std::byte> into) noexcept { retu
 std::size_t encode(const Heartbeat& m, std::span<std::byte> into) noexcept { return encode_fixed(m, into); }
 std::size_t encode(const Fault& m, std::span<std::byte> into) noexcept { return encode_fixed(m, into); }
 std::size_t encode(const Bye& m, std::span<std::byte> into) noexcept { return encode_fixed(m, into); }
+std::size_t encode(const Reference& m, std::span<std::byte> into) noexcept { return encode_fixed(m, into); }
 // clang-format on
 
 std::size_t encoded_size(const EncoderEdges& message) noexcept {
@@ -285,6 +289,8 @@ core::Status Decoder::decode(std::span<const std::byte> payload, MessageSink& si
       return decode_fixed<Fault>(payload, sink);
     case MessageId::kBye:
       return decode_fixed<Bye>(payload, sink);
+    case MessageId::kReference:
+      return decode_fixed<Reference>(payload, sink);
   }
   return core::failure(core::ErrorCode::kMessageUnknown);
 }
@@ -320,6 +326,8 @@ bool is_plausible(std::byte id, std::size_t size) noexcept {
       return size == payload_size<Fault>();
     case MessageId::kBye:
       return size == payload_size<Bye>();
+    case MessageId::kReference:
+      return size == payload_size<Reference>();
   }
   return false;
 }

@@ -32,6 +32,7 @@ enum class MessageId : std::uint8_t {
   kHeartbeat = 12,
   kFault = 13,
   kBye = 14,
+  kReference = 15,
 };
 
 inline constexpr std::size_t kEdgesHeaderSize = 25;
@@ -57,6 +58,7 @@ inline constexpr std::size_t kMaxHelloSize = 255;
 [[nodiscard]] std::size_t encoded_size(const Heartbeat& message) noexcept;
 [[nodiscard]] std::size_t encoded_size(const Fault& message) noexcept;
 [[nodiscard]] std::size_t encoded_size(const Bye& message) noexcept;
+[[nodiscard]] std::size_t encoded_size(const Reference& message) noexcept;
 
 // Writes the payload and returns its size; 0, and nothing written, when it does not fit.
 // Fields are written as they are: an illegal value is the sender's bug and the receiver's refusal.
@@ -80,6 +82,7 @@ TOWBENCH_REALTIME std::size_t encode(const Advanced& message, std::span<std::byt
 TOWBENCH_REALTIME std::size_t encode(const Heartbeat& message, std::span<std::byte> into) noexcept;
 TOWBENCH_REALTIME std::size_t encode(const Fault& message, std::span<std::byte> into) noexcept;
 TOWBENCH_REALTIME std::size_t encode(const Bye& message, std::span<std::byte> into) noexcept;
+TOWBENCH_REALTIME std::size_t encode(const Reference& message, std::span<std::byte> into) noexcept;
 
 // Whether a payload that starts with `id` can have `size` bytes. Lets a stream reader that lost its
 // place pass over nearly every false header without a checksum.

@@ -22,6 +22,7 @@ class EachMessage : public MessageSink {
   void on(const Heartbeat& m) noexcept override { self().handle(m); }
   void on(const Fault& m) noexcept override { self().handle(m); }
   void on(const Bye& m) noexcept override { self().handle(m); }
+  void on(const Reference& m) noexcept override { self().handle(m); }
 
  private:
   friend Derived;

@@ -34,6 +34,7 @@ class MessageSink {
   virtual void on(const Heartbeat&) noexcept {}
   virtual void on(const Fault&) noexcept {}
   virtual void on(const Bye&) noexcept {}
+  virtual void on(const Reference&) noexcept {}
 };
 
 }  // namespace towbench::protocol

@@ -21,8 +21,9 @@ inline constexpr std::uint16_t kProtocolVersion = 1;
 enum class Role : std::uint8_t { kController = 0, kPlant = 1, kObserver = 2 };
 
 // Bits of Hello::capabilities.
-inline constexpr std::uint32_t kCapabilityEdges = 1U << 0U;   // EncoderEdges
-inline constexpr std::uint32_t kCapabilityDigest = 1U << 1U;  // EncoderReport
+inline constexpr std::uint32_t kCapabilityEdges = 1U << 0U;      // EncoderEdges
+inline constexpr std::uint32_t kCapabilityDigest = 1U << 1U;     // EncoderReport
+inline constexpr std::uint32_t kCapabilityReference = 1U << 2U;  // Reference: wanted, or given
 
 // First message of each side. A mismatch is refused with both sides named (handshake.h).
 struct Hello {
@@ -158,6 +159,16 @@ struct CurrentSample {
   core::Axis axis = core::Axis::kY;
   core::Nanoseconds time_ns = 0;
   float armature_current_A = 0;
+};
+
+// Where an axis is to be, for a controller that has no reference of its own and asks for one
+// (kCapabilityReference). Counted from where the axis stood when the run began.
+struct Reference {
+  core::Axis axis = core::Axis::kY;
+  core::Nanoseconds time_ns = 0;
+  float position_m = 0;
+  float velocity_m_per_s = 0;
+  float acceleration_m_per_s2 = 0;
 };
 
 // Lockstep, controller to plant: "all my outputs up to now are sent; run until this time."

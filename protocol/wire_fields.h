@@ -144,6 +144,15 @@ void wire_fields(Io& io, typename Io::template Field<Bye>& m) noexcept {
   io.checked(m.time_ns, legal::time);
 }
 
+template <typename Io>
+void wire_fields(Io& io, typename Io::template Field<Reference>& m) noexcept {
+  io.checked(m.axis, legal::axis);
+  io.checked(m.time_ns, legal::time);
+  io.checked(m.position_m, legal::finite);
+  io.checked(m.velocity_m_per_s, legal::finite);
+  io.checked(m.acceleration_m_per_s2, legal::finite);
+}
+
 // What no single field shows.
 template <typename Message>
 [[nodiscard]] constexpr bool is_consistent(const Message& /*message*/) noexcept {

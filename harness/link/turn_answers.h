@@ -67,7 +67,8 @@ class TurnAnswers final : public protocol::EachMessage<TurnAnswers> {
       std::variant<protocol::Hello, protocol::HelloReply, protocol::PwmDuty, protocol::EncoderEdges,
                    protocol::EncoderReport, protocol::DigitalInputs, protocol::DigitalOutputs,
                    protocol::ForceSample, protocol::CurrentSample, protocol::Advance,
-                   protocol::Advanced, protocol::Heartbeat, protocol::Fault, protocol::Bye>;
+                   protocol::Advanced, protocol::Heartbeat, protocol::Fault, protocol::Bye,
+                   protocol::Reference>;
 
   protocol::MessageSink* controller_ = nullptr;
   bool in_turn_ = false;

@@ -133,5 +133,6 @@ template void CanPacker::handle(const Advanced&) noexcept;
 template void CanPacker::handle(const Heartbeat&) noexcept;
 template void CanPacker::handle(const Fault&) noexcept;
 template void CanPacker::handle(const Bye&) noexcept;
+template void CanPacker::handle(const Reference&) noexcept;
 
 }  // namespace towbench::protocol

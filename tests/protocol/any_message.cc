@@ -80,8 +80,10 @@ void AnyMessage::send_to(MessageSink& sink, unsigned kind) noexcept {
       return sink.on(Heartbeat{time(), any<std::uint32_t>()});
     case 12:
       return sink.on(Fault{core::ErrorCode::kBothChannelsActive, time(), any<std::uint32_t>()});
-    default:
+    case 13:
       return sink.on(Bye{time()});
+    default:
+      return sink.on(Reference{axis(), time(), real(), real(), real()});
   }
 }
 

@@ -66,7 +66,7 @@ ErrorCode decode_error_with(const std::string& name, std::size_t offset, const s
 }
 
 TEST(Codec, WritesTheExactBytesOfEveryMessage) {
-  EXPECT_EQ(golden_messages().size(), 14U);
+  EXPECT_EQ(golden_messages().size(), 15U);
   for (const Golden& golden : golden_messages()) {
     const auto expected = bytes_of(golden.payload_hex);
     const auto actual = encoded(golden.send);
@@ -177,6 +177,8 @@ TEST(Codec, RefusesEveryFieldOutOfItsRange) {
   EXPECT_EQ(decode_error_with("ForceSample", 29, "000080ff"), bad) << "minus infinity";
   EXPECT_EQ(decode_error_with("CurrentSample", 10, "0000807f"), bad) << "infinity";
   EXPECT_EQ(decode_error_with("Fault", 1, "ffff"), bad) << "error number 65535";
+  EXPECT_EQ(decode_error_with("Reference", 1, "02"), bad) << "axis 2";
+  EXPECT_EQ(decode_error_with("Reference", 10, "0000c07f"), bad) << "NaN";
   for (const char* name : {"Advance", "Advanced", "Heartbeat", "Bye"}) {
     EXPECT_EQ(decode_error_with(name, 1, "0000000000000080"), bad) << name << ": negative time";
   }

@@ -100,6 +100,10 @@ const std::vector<Golden>& golden_messages() {
          s.on(Fault{core::ErrorCode::kFaultKillSwitch, kTime_ns, kSequence});
        }},
       {"Bye", "0e 0807060504030201", [](MessageSink& s) { s.on(Bye{kTime_ns}); }},
+      {"Reference", "0f 01 0807060504030201 0000803f 000000c0 0000003f",
+       [](MessageSink& s) {
+         s.on(Reference{core::Axis::kX, kTime_ns, 1.0F, -2.0F, 0.5F});
+       }},
   };
   return messages;
 }

@@ -83,6 +83,12 @@ inline std::string text_of(const Fault& m) {
 inline std::string text_of(const Bye& m) {
   return "Bye " + std::to_string(m.time_ns);
 }
+inline std::string text_of(const Reference& m) {
+  std::ostringstream out;
+  out << std::setprecision(9) << "Reference " << name_of(m.axis) << ' ' << m.time_ns << ' '
+      << m.position_m << ' ' << m.velocity_m_per_s << ' ' << m.acceleration_m_per_s2;
+  return out.str();
+}
 
 class RecordingSink final : public EachMessage<RecordingSink> {
  public:
