@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "harness/board_bench/firmware_faults.h"
 #include "harness/board_bench/firmware_run.h"
+#include "harness/fault_cases/machine_faults.h"
 #include "harness/fixtures/fixture_error.h"
 
 namespace towbench::harness {
@@ -22,7 +22,7 @@ BoardRun::BoardRun(const ExperimentFixture& fixture, const RunOptions& options, 
     refuse_faults_beyond_machine(fixture.experiment.faults);
     const auto sound = fixture_;
     reference_ = std::make_unique<ReferenceBoard>(sound, options.firmware, seed);
-    const auto prepared = prepare_for_image(sound, reference_->record());
+    const auto prepared = prepare_without_events(sound, reference_->record());
     if (const auto pressed = pressed_where_welded(sound, prepared)) {
       reference_ = std::make_unique<ReferenceBoard>(*pressed, options.firmware, seed);
     }

@@ -1,6 +1,6 @@
-// Faults of the machine under an image on the virtual board. When they begin is found in the run of
-// the same image without them (reference_board.h), and what they have changed is read from both
-// records.
+// Faults of the machine under a controller that is not BBMC: an image on the virtual board, or a
+// program of its own. When they begin is found in the run of the same controller without them, and
+// what they have changed is read from both records.
 #pragma once
 
 #include <filesystem>
@@ -17,9 +17,9 @@ namespace towbench::harness {
 void refuse_faults_beyond_machine(const FaultPlan& faults);
 
 // The plan of a sound experiment, with its moments. Throws FixtureError for one that the reference
-// run does not meet, or that only an image with a record of its own would tell.
-[[nodiscard]] PreparedPlan prepare_for_image(const ExperimentFixture& sound,
-                                             const CaseRecord& reference);
+// run does not meet, or that only a controller with a record of its own would tell.
+[[nodiscard]] PreparedPlan prepare_without_events(const ExperimentFixture& sound,
+                                                  const CaseRecord& reference);
 // As events and as built.
 [[nodiscard]] ExperimentFixture with_faults(const ExperimentFixture& sound,
                                             const PreparedPlan& prepared);

@@ -1,4 +1,4 @@
-#include "harness/board_bench/firmware_faults.h"
+#include "harness/fault_cases/machine_faults.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@ namespace {
 
 void refuse(const Fault& fault, const char* allowed) {
   throw FixtureError({.file = "fault plan"},
-                     fmt::format("\"{}\" with an image on the virtual board", describe(fault)),
+                     fmt::format("\"{}\" with a controller that BBMC is not", describe(fault)),
                      allowed);
 }
 
@@ -69,17 +69,19 @@ std::size_t contacts_in(const std::filesystem::path& folder) {
 void refuse_faults_beyond_machine(const FaultPlan& faults) {
   for (const Fault& fault : faults) {
     if (fault.place.part == FaultPart::kLink || fault.place.part == FaultPart::kHost) {
-      refuse(fault, "a fault of the machine: there is no link and no host between board and plant");
+      refuse(fault,
+             "a fault of the machine: the link and the host of such a controller are its own");
     }
   }
 }
 
-PreparedPlan prepare_for_image(const ExperimentFixture& sound, const CaseRecord& reference) {
+PreparedPlan prepare_without_events(const ExperimentFixture& sound, const CaseRecord& reference) {
   for (const Fault& fault : sound.experiment.faults) {
     if (reference.log.empty() && asks_controller(fault.trigger)) {
-      refuse(fault,
-             "a time, a position, a speed or the edge of a line: this image tells nobody of its "
-             "motions and faults");
+      refuse(
+          fault,
+          "a time, a position, a speed or the edge of a line: this controller tells nobody of its "
+          "motions and faults");
     }
   }
   return prepare(sound.experiment.faults, sound, reference);
@@ -116,7 +118,7 @@ std::vector<Check> judge_beside_reference(const std::filesystem::path& folder,
   }
   Check fired;
   fired.name = "fault_fired";
-  fired.meaning = "the record differs from the same image's run without the fault";
+  fired.meaning = "the record differs from the same controller's run without the fault";
   fired.unit = "s";
   fired.verdict = fired_s >= 0 ? Verdict::kPass : Verdict::kInvalid;
   if (fired_s >= 0) {
