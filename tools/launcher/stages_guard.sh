@@ -87,8 +87,8 @@ left_out() {
 # One build of clang serves this stage and the fuzzer. Whole runs are left to --all: their parts are
 # tested one by one, at a tenth of the cost.
 stage_sanitize_address() {
-  local targets=(test_core test_protocol test_board test_harness_report test_harness)
-  local folders=(core protocol board harness) folder
+  local targets=(test_core test_protocol test_clients test_board test_harness_report test_harness)
+  local folders=(core protocol clients board harness) folder
   if [[ $everything == true ]]; then
     targets+=(test_bbmc test_emulator)
     folders+=(bbmc emulator)

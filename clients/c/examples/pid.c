@@ -1,0 +1,119 @@
+/* A PID position controller for two axes: pid ADDRESS, with ADDRESS = local:PATH. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "towbench.h"
+
+static const double kMetresPerCount[] = {2.24545e-6, 1.34727e-6};
+static const double kInertia[] = {0.13, 0.06}; /* duty per m/s2: the amplifier sets the current */
+static const double kProportional = 4600.0, kIntegral = 20000.0,
+                    kDerivative = 120.0; /* m/s2 per m, m s, m/s */
+static const double kFilter = 0.5, kPeriod_s = 1e-3, kLargestError_m = 0.01, kBrake = 20.0;
+
+typedef struct {
+  double integral, slope, before;
+  int64_t count_before;
+} pid;
+
+static double error_of(const tb_bench* bench, int axis) {
+  return (double)bench->axis[axis].reference.position_m -
+         kMetresPerCount[axis] * (double)bench->axis[axis].count;
+}
+
+static double duty_of(pid* loop, const tb_bench* bench, int axis) {
+  const double error = error_of(bench, axis);
+  loop->slope += kFilter * ((error - loop->before) / kPeriod_s - loop->slope);
+  loop->before = error;
+  const double duty = kInertia[axis] * ((double)bench->axis[axis].reference.acceleration_m_per_s2 +
+                                        kProportional * error + kIntegral * loop->integral +
+                                        kDerivative * loop->slope);
+  if (fabs(duty) < 1.0) loop->integral += error * kPeriod_s; /* no wind-up at the limit */
+  return duty;
+}
+
+static double braking_duty(const pid* loop, const tb_bench* bench, int axis) {
+  const double moved_m =
+      kMetresPerCount[axis] * (double)(bench->axis[axis].count - loop->count_before);
+  return -kInertia[axis] * kBrake * moved_m / kPeriod_s;
+}
+
+static const char* reason_to_stop(const tb_bench* bench) {
+  const uint16_t halls = TB_HALL_Y_MIN | TB_HALL_Y_MAX | TB_HALL_X_MIN | TB_HALL_X_MAX;
+  if (bench->lines & TB_KILL_SWITCH) return "kill switch";
+  if (bench->lines & halls) return "end-stop";
+  if (bench->counts.sequence_gaps) return "a message was lost";
+  for (int i = 0; i < TB_AXES; ++i) {
+    if (fabs(error_of(bench, i)) > kLargestError_m) return "tracking error";
+  }
+  return NULL;
+}
+
+/* Sends what is in `out` and feeds until the turn is over. 0 when the run is. */
+static int exchange(int line, tb_bench* bench) {
+  static uint8_t bytes[4096];
+  static size_t from, to;
+  if (write(line, bench->out, bench->out_size) != (ssize_t)bench->out_size) return 0;
+  bench->out_size = 0;
+  for (;;) {
+    from += tb_feed(bench, bytes + from, to - from);
+    if (tb_ended(bench)) return 0;
+    if (tb_greeted(bench) || tb_turn_over(bench)) return 1;
+    const ssize_t got = read(line, bytes, sizeof bytes);
+    if (got <= 0) return 0;
+    from = 0;
+    to = (size_t)got;
+  }
+}
+
+static int open_local(const char* address) {
+  const struct timespec pause = {0, 10000000};
+  struct sockaddr_un place = {.sun_family = AF_UNIX};
+  if (strncmp(address, "local:", 6) != 0 || strlen(address) - 6 >= sizeof place.sun_path) return -1;
+  memcpy(place.sun_path, address + 6, strlen(address) - 5);
+  for (int tries = 0; tries < 1000; ++tries) {
+    const int line = socket(AF_UNIX, SOCK_STREAM, 0);
+    if (connect(line, (const struct sockaddr*)&place, sizeof place) == 0) return line;
+    close(line);
+    nanosleep(&pause, NULL);
+  }
+  return -1;
+}
+
+int main(int argc, char** argv) {
+  static tb_bench bench;
+  static pid loops[TB_AXES];
+  const char* stopped = NULL;
+  int killed = 0;
+  const int line = argc == 2 ? open_local(argv[1]) : -1;
+  if (line < 0) return fprintf(stderr, "usage: pid local:PATH\n"), 2;
+  tb_init(&bench, TB_STREAM, 3, 1000000, TB_DIGEST | TB_REFERENCE);
+  tb_greet(&bench);
+  if (!exchange(line, &bench) || bench.refusal != 0)
+    return fprintf(stderr, "refused: %u\n", bench.refusal), 1;
+  tb_enable(&bench, 3);
+  tb_end_turn(&bench);
+  while (exchange(line, &bench)) {
+    const char* reason = stopped == NULL ? reason_to_stop(&bench) : NULL;
+    if (reason != NULL) {
+      stopped = reason;
+      printf("%.3f s: %s\n", 1e-9 * (double)bench.now_ns, stopped);
+    }
+    if (bench.lines & TB_KILL_SWITCH) killed = 1;
+    for (int i = 0; i < TB_AXES; ++i) {
+      const double duty = killed    ? 0
+                          : stopped ? braking_duty(&loops[i], &bench, i)
+                                    : duty_of(&loops[i], &bench, i);
+      tb_drive(&bench, i, duty, !killed);
+      loops[i].count_before = bench.axis[i].count;
+    }
+    tb_end_turn(&bench);
+  }
+  bench.out_size = 0;
+  tb_say_bye(&bench);
+  return write(line, bench.out, bench.out_size) < 0;
+}

@@ -1,0 +1,453 @@
+#include "towbench.h"
+
+#include <string.h>
+
+/* --- numbers on the wire
+ * ------------------------------------------------------------------------------------- */
+
+static uint64_t load(const uint8_t* at, int bytes) {
+  uint64_t value = 0;
+  for (int i = bytes - 1; i >= 0; --i) value = value << 8 | at[i];
+  return value;
+}
+
+static uint16_t load16(const uint8_t* at) {
+  return (uint16_t)load(at, 2);
+}
+static uint32_t load32(const uint8_t* at) {
+  return (uint32_t)load(at, 4);
+}
+static int64_t load_time(const uint8_t* at) {
+  return (int64_t)load(at, 8);
+}
+static float load_float(const uint8_t* at) {
+  const uint32_t bits = load32(at);
+  float value;
+  memcpy(&value, &bits, sizeof value);
+  return value;
+}
+static int is_finite(const uint8_t* at) {
+  return (load32(at) & 0x7f800000u) != 0x7f800000u;
+}
+
+uint32_t tb_crc32c(const uint8_t* bytes, size_t size) {
+  /* Four bits a step: a table of 64 bytes. */
+  static const uint32_t table[16] = {0x00000000, 0x105ec76f, 0x20bd8ede, 0x30e349b1,
+                                     0x417b1dbc, 0x5125dad3, 0x61c69362, 0x7198540d,
+                                     0x82f63b78, 0x92a8fc17, 0xa24bb5a6, 0xb21572c9,
+                                     0xc38d26c4, 0xd3d3e1ab, 0xe330a81a, 0xf36e6f75};
+  uint32_t crc = 0xffffffffu;
+  for (size_t i = 0; i < size; ++i) {
+    crc ^= bytes[i];
+    crc = table[crc & 15u] ^ crc >> 4;
+    crc = table[crc & 15u] ^ crc >> 4;
+  }
+  return crc ^ 0xffffffffu;
+}
+
+/* --- sending
+ * ---------------------------------------------------------------------------------------------------
+ */
+
+typedef struct {
+  uint8_t bytes[40];
+  size_t size;
+} message;
+
+static void put(message* m, uint64_t value, int bytes) {
+  for (int i = 0; i < bytes; ++i) m->bytes[m->size++] = (uint8_t)(value >> 8 * i);
+}
+
+static message message_of(uint8_t id) {
+  message m;
+  memset(&m, 0, sizeof m);
+  put(&m, id, 1);
+  return m;
+}
+
+static int send_stream(tb_bench* bench, const message* m) {
+  if (bench->out_size + m->size + 6 > TB_OUT_SIZE) return 0;
+  uint8_t* at = bench->out + bench->out_size;
+  at[0] = (uint8_t)m->size;
+  at[1] = (uint8_t)(m->size >> 8);
+  memcpy(at + 2, m->bytes, m->size);
+  const uint32_t crc = tb_crc32c(at, m->size + 2);
+  for (int i = 0; i < 4; ++i) at[2 + m->size + (size_t)i] = (uint8_t)(crc >> 8 * i);
+  bench->out_size += m->size + 6;
+  return 1;
+}
+
+/* No message of ours has 254 bytes, so a block ends at a zero or at the end. */
+static int send_cobs(tb_bench* bench, message* m) {
+  if (bench->out_size + m->size + 6 > TB_OUT_SIZE) return 0;
+  put(m, tb_crc32c(m->bytes, m->size), 4);
+  uint8_t* const start = bench->out + bench->out_size;
+  uint8_t* code = start;
+  uint8_t* at = start + 1;
+  for (size_t i = 0; i < m->size; ++i) {
+    if (m->bytes[i] == 0) {
+      *code = (uint8_t)(at - code);
+      code = at++;
+    } else {
+      *at++ = m->bytes[i];
+    }
+  }
+  *code = (uint8_t)(at - code);
+  *at++ = 0;
+  bench->out_size += (size_t)(at - start);
+  return 1;
+}
+
+static int send_message(tb_bench* bench, message m) {
+  return bench->framing == TB_STREAM ? send_stream(bench, &m) : send_cobs(bench, &m);
+}
+
+void tb_init(tb_bench* bench, tb_framing framing, uint8_t axes_mask, uint32_t exchange_ns,
+             uint32_t capabilities) {
+  memset(bench, 0, sizeof *bench);
+  bench->framing = framing;
+  bench->axes_mask = axes_mask;
+  bench->exchange_ns = exchange_ns;
+  bench->wanted = capabilities;
+  bench->in_place = 1;
+}
+
+int tb_greet(tb_bench* bench) {
+  message m = message_of(TB_HELLO);
+  put(&m, TB_VERSION, 2);
+  put(&m, 0, 1); /* role: controller */
+  put(&m, bench->axes_mask, 1);
+  put(&m, TB_TICK_NS, 4);
+  put(&m, bench->exchange_ns, 4);
+  put(&m, bench->wanted, 4);
+  put(&m, 0, 8); /* any machine */
+  bench->heard = 0;
+  return send_message(bench, m);
+}
+
+static int send_time(tb_bench* bench, uint8_t id, int64_t time_ns) {
+  message m = message_of(id);
+  put(&m, (uint64_t)time_ns, 8);
+  return send_message(bench, m);
+}
+
+int tb_enable(tb_bench* bench, uint8_t axes_mask) {
+  message m = message_of(TB_DIGITAL_OUTPUTS);
+  put(&m, axes_mask, 2);
+  put(&m, (uint64_t)bench->now_ns, 8);
+  put(&m, bench->outputs_sequence, 4);
+  const int sent = send_message(bench, m);
+  bench->outputs_sequence += (uint32_t)sent;
+  return sent;
+}
+
+int tb_drive(tb_bench* bench, int axis, double duty, int enable) {
+  enum { PERIOD_TICKS = 5000 };
+  double ticks = duty == duty ? duty * PERIOD_TICKS : 0.0;
+  ticks = ticks > PERIOD_TICKS ? PERIOD_TICKS : ticks < -PERIOD_TICKS ? -PERIOD_TICKS : ticks;
+  const int rounded = (int)(ticks + (ticks < 0 ? -0.5 : 0.5));
+  message m = message_of(TB_PWM_DUTY);
+  put(&m, (uint64_t)axis, 1);
+  put(&m, enable != 0, 1);
+  put(&m, (uint64_t)(rounded > 0 ? rounded : 0), 2);
+  put(&m, (uint64_t)(rounded < 0 ? -rounded : 0), 2);
+  put(&m, PERIOD_TICKS, 2);
+  put(&m, bench->axis[axis].duty_sequence, 4);
+  const int sent = send_message(bench, m);
+  bench->axis[axis].duty_sequence += (uint32_t)sent;
+  return sent;
+}
+
+int tb_end_turn(tb_bench* bench) {
+  /* The first one is of no length: it brings the inputs of time 0. */
+  const int64_t step_ns = bench->heard == TB_HELLO_REPLY ? 0 : (int64_t)bench->exchange_ns;
+  bench->heard = 0;
+  return send_time(bench, TB_ADVANCE, bench->now_ns + step_ns);
+}
+
+int tb_say_bye(tb_bench* bench) {
+  return send_time(bench, TB_BYE, bench->now_ns);
+}
+
+int tb_greeted(const tb_bench* bench) {
+  return bench->heard == TB_HELLO_REPLY;
+}
+int tb_turn_over(const tb_bench* bench) {
+  return bench->heard == TB_ADVANCED;
+}
+int tb_ended(const tb_bench* bench) {
+  return bench->heard == TB_BYE;
+}
+
+/* --- taking
+ * ----------------------------------------------------------------------------------------------------
+ */
+
+/* Bytes of a payload without edges; 0 for an unknown id. */
+static size_t shortest(uint8_t id) {
+  static const uint8_t sizes[] = {0, 25, 27, 13, 25, 39, 15, 15, 33, 14, 9, 9, 13, 15, 9, 22};
+  return id < sizeof sizes ? sizes[id] : 0;
+}
+
+static int is_hello(uint8_t id) {
+  return id == TB_HELLO || id == TB_HELLO_REPLY;
+}
+
+static int is_plausible(uint8_t id, size_t size) {
+  const size_t least = shortest(id);
+  if (least == 0) return 0;
+  if (is_hello(id)) return size >= least && size <= 255;
+  if (id == TB_ENCODER_EDGES)
+    return size >= least && size <= least + 4 * 1024 && (size - least) % 4 == 0;
+  return size == least;
+}
+
+static int is_known(uint16_t code) {
+  static const uint16_t ranges[][2] = {{0, 0},     {100, 109}, {200, 211}, {300, 303}, {310, 315},
+                                       {320, 321}, {330, 330}, {340, 340}, {350, 351}, {400, 406},
+                                       {410, 414}, {420, 424}, {500, 505}};
+  for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; ++i) {
+    if (code >= ranges[i][0] && code <= ranges[i][1]) return 1;
+  }
+  return 0;
+}
+
+static int is_legal_hello(const uint8_t* p) {
+  return p[3] <= 2 && p[4] < 4;
+}
+
+static int are_legal_edges(const uint8_t* p) {
+  const int64_t start_ns = load_time(p + 3), end_ns = load_time(p + 11);
+  int64_t length_ns = 0;
+  const unsigned count = load16(p + 23);
+  if (p[1] >= TB_AXES || p[2] >= 8 || start_ns < 0 || end_ns < 0 || count > 1024) return 0;
+  for (unsigned i = 0; i < count; ++i) {
+    const uint32_t edge = load32(p + 25 + 4 * i);
+    if (edge >> 30 == 3) return 0;
+    length_ns += edge & 0x3fffffffu;
+  }
+  return length_ns <= end_ns - start_ns;
+}
+
+static int is_legal(const uint8_t* p) {
+  int legal;
+  switch (p[0]) {
+    case TB_HELLO:
+      return is_legal_hello(p);
+    case TB_HELLO_REPLY:
+      return is_legal_hello(p) && is_known(load16(p + 25));
+    case TB_PWM_DUTY:
+      return p[1] < TB_AXES && p[2] < 2 && load16(p + 7) > 0 && load16(p + 3) <= load16(p + 7) &&
+             load16(p + 5) <= load16(p + 7);
+    case TB_ENCODER_EDGES:
+      return are_legal_edges(p);
+    case TB_ENCODER_REPORT:
+      return p[1] < TB_AXES && p[2] < 8 && load_time(p + 15) >= 0 &&
+             load_time(p + 15) <= load_time(p + 3);
+    case TB_DIGITAL_INPUTS:
+      return load16(p + 1) < 128 && load_time(p + 3) >= 0;
+    case TB_DIGITAL_OUTPUTS:
+      return load16(p + 1) < 4 && load_time(p + 3) >= 0;
+    case TB_FORCE_SAMPLE:
+      legal = load_time(p + 1) >= 0;
+      for (int i = 0; i < 6; ++i) legal = legal && is_finite(p + 9 + 4 * i);
+      return legal;
+    case TB_CURRENT_SAMPLE:
+      return p[1] < TB_AXES && load_time(p + 2) >= 0 && is_finite(p + 10);
+    case TB_FAULT:
+      return is_known(load16(p + 1)) && load_time(p + 3) >= 0;
+    case TB_REFERENCE_POINT:
+      return p[1] < TB_AXES && load_time(p + 2) >= 0 && is_finite(p + 10) && is_finite(p + 14) &&
+             is_finite(p + 18);
+    default: /* a time first */
+      return load_time(p + 1) >= 0;
+  }
+}
+
+static void check_sequence(tb_bench* bench, tb_axis* axis, uint32_t sequence) {
+  if (axis->heard && sequence != axis->next_sequence) ++bench->counts.sequence_gaps;
+  axis->heard = 1;
+  axis->next_sequence = sequence + 1;
+}
+
+static void take_report(tb_bench* bench, const uint8_t* p) {
+  tb_axis* axis = &bench->axis[p[1]];
+  check_sequence(bench, axis, load32(p + 35));
+  axis->levels = p[2];
+  axis->count += (int32_t)load32(p + 11);
+  if (load16(p + 31) != 0) axis->index_count = (int32_t)load32(p + 27);
+  axis->index_pulses += load16(p + 31);
+  axis->illegal_transitions += load16(p + 33);
+}
+
+static void take_edges(tb_bench* bench, const uint8_t* p) {
+  tb_axis* axis = &bench->axis[p[1]];
+  const unsigned count = load16(p + 23);
+  check_sequence(bench, axis, load32(p + 19));
+  axis->levels = p[2];
+  for (unsigned i = 0; i < count; ++i) {
+    const uint8_t line = p[25 + 4 * i + 3] >> 6;
+    const int equal = (axis->levels & 1) == (axis->levels >> 1 & 1);
+    axis->levels ^= (uint8_t)(1u << line);
+    if (line == 2) {
+      if (axis->levels & 4) {
+        axis->index_count = axis->count;
+        ++axis->index_pulses;
+      }
+    } else {
+      axis->count += (line == 0) == equal ? 1 : -1; /* A leads B towards max */
+    }
+  }
+}
+
+static void take_reference(tb_bench* bench, const uint8_t* p) {
+  tb_reference* reference = &bench->axis[p[1]].reference;
+  reference->position_m = load_float(p + 10);
+  reference->velocity_m_per_s = load_float(p + 14);
+  reference->acceleration_m_per_s2 = load_float(p + 18);
+}
+
+static int refused(uint32_t* count) {
+  ++*count;
+  return 0;
+}
+
+int tb_take(tb_bench* bench, const uint8_t* p, size_t size) {
+  const size_t least = size == 0 ? 0 : shortest(p[0]);
+  if (size == 0) return refused(&bench->counts.truncated);
+  if (least == 0) return refused(&bench->counts.unknown);
+  if (size < least) return refused(&bench->counts.truncated);
+  const size_t whole = least + (p[0] == TB_ENCODER_EDGES ? 4u * load16(p + 23) : 0u);
+  /* The greeting of another version may be longer than ours; nothing else may be. */
+  const int may_be_longer = is_hello(p[0]) && load16(p + 1) != TB_VERSION;
+  if (size < whole || (size > whole && !may_be_longer) || !is_legal(p))
+    return refused(&bench->counts.bad_field);
+  switch (p[0]) {
+    case TB_HELLO_REPLY:
+      bench->capabilities = load32(p + 13);
+      bench->refusal = load16(p + 25);
+      break;
+    case TB_ENCODER_EDGES:
+      take_edges(bench, p);
+      break;
+    case TB_ENCODER_REPORT:
+      take_report(bench, p);
+      break;
+    case TB_DIGITAL_INPUTS:
+      bench->lines = load16(p + 1);
+      break;
+    case TB_CURRENT_SAMPLE:
+      bench->axis[p[1]].current_A = load_float(p + 10);
+      break;
+    case TB_ADVANCED:
+      bench->now_ns = load_time(p + 1);
+      break;
+    case TB_FAULT:
+      bench->fault = load16(p + 1);
+      ++bench->faults;
+      break;
+    case TB_REFERENCE_POINT:
+      take_reference(bench, p);
+      break;
+    default:
+      break;
+  }
+  return p[0];
+}
+
+static int ends_wait(int id) {
+  return id == TB_HELLO_REPLY || id == TB_ADVANCED || id == TB_BYE;
+}
+
+/* --- a stream: length, payload, checksum ---- */
+
+static void drop_front(tb_bench* bench, size_t size) {
+  memmove(bench->held, bench->held + size, bench->held_size - size);
+  bench->held_size -= size;
+}
+
+/* One step with what is held: the id of a message, 0 when it moved on, -1 when it needs more. */
+static int step_stream(tb_bench* bench) {
+  if (bench->held_size < 3) return -1;
+  const size_t size = load16(bench->held);
+  const int fits = size <= TB_LONGEST_PAYLOAD;
+  if (is_plausible(bench->held[2], size) && fits) {
+    if (bench->held_size < size + 6) return -1;
+    if (tb_crc32c(bench->held, size + 2) == load32(bench->held + 2 + size)) {
+      const int id = tb_take(bench, bench->held + 2, size);
+      drop_front(bench, size + 6);
+      bench->in_place = 1;
+      return id;
+    }
+    bench->counts.bad_checksum += bench->in_place;
+  } else if (bench->in_place) {
+    ++*(fits ? &bench->counts.truncated : &bench->counts.too_long);
+  }
+  bench->in_place = 0;
+  ++bench->counts.discarded_bytes;
+  drop_front(bench, 1);
+  return 0;
+}
+
+/* --- a serial line: COBS, checksum, zero ---- */
+
+/* In place; the plain size, or 0 when it is no COBS. */
+static size_t unstuff(uint8_t* bytes, size_t size) {
+  size_t from = 0, to = 0;
+  while (from < size) {
+    const uint8_t step = bytes[from];
+    if (step == 0 || from + step > size) return 0;
+    memmove(bytes + to, bytes + from + 1, step - 1u);
+    to += step - 1u;
+    from += step;
+    if (step < 255 && from < size) bytes[to++] = 0;
+  }
+  return to;
+}
+
+static int take_stuffed(tb_bench* bench) {
+  const size_t stuffed = bench->held_size;
+  const size_t size = unstuff(bench->held, stuffed);
+  bench->held_size = 0;
+  if (stuffed == 0) return 0;
+  if (size > 4 && tb_crc32c(bench->held, size - 4) == load32(bench->held + size - 4)) {
+    return tb_take(bench, bench->held, size - 4);
+  }
+  ++bench->counts.bad_checksum;
+  bench->counts.discarded_bytes += (uint32_t)stuffed;
+  return 0;
+}
+
+static int take_cobs_byte(tb_bench* bench, uint8_t byte) {
+  if (byte != 0) {
+    if (bench->held_size == sizeof bench->held) bench->skips = 1;
+    if (!bench->skips) bench->held[bench->held_size++] = byte;
+    return 0;
+  }
+  if (bench->skips) {
+    ++bench->counts.too_long;
+    bench->skips = 0;
+    bench->held_size = 0;
+    return 0;
+  }
+  return take_stuffed(bench);
+}
+
+size_t tb_feed(tb_bench* bench, const uint8_t* bytes, size_t size) {
+  size_t taken = 0;
+  for (;;) {
+    int id = bench->framing == TB_STREAM ? step_stream(bench) : -1;
+    if (id < 0) {
+      if (taken == size) return taken;
+      if (bench->framing == TB_STREAM) {
+        bench->held[bench->held_size++] = bytes[taken++];
+        continue;
+      }
+      id = take_cobs_byte(bench, bytes[taken++]);
+    }
+    if (ends_wait(id)) {
+      bench->heard = (uint8_t)id;
+      return taken;
+    }
+  }
+}

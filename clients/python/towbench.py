@@ -1,0 +1,521 @@
+"""A motion controller's side of the towbench protocol. Standard library only, Python 3.9 or later.
+
+    bench = towbench.connect("local:/tmp/tb/plant")
+    bench.greet(reference=True)
+    while bench.turn():                      # outputs out, time goes on, inputs in
+        y = bench.axes["y"]
+        bench.drive("y", 4.0 * (y.reference.position_m - METRES_PER_COUNT * y.count))
+
+Bytes and rules: docs/reference/protocol.md. CAN is not spoken here; a local socket and a serial line are.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import select
+import socket
+import struct
+import time
+from dataclasses import dataclass, field
+from typing import Callable, Iterator, NamedTuple
+
+VERSION = 1
+CONTROLLER, PLANT, OBSERVER = 0, 1, 2
+EDGES, DIGEST, REFERENCE = 1, 2, 4  # capabilities
+AXES = ("y", "x")
+HALL_Y_MIN, HALL_Y_MAX, HALL_X_MIN, HALL_X_MAX, KILL_SWITCH, READY_Y, READY_X = (1 << n for n in range(7))
+HALLS = HALL_Y_MIN | HALL_Y_MAX | HALL_X_MIN | HALL_X_MAX
+MAX_EDGES = 1024
+_EDGES_HEADER = 25
+
+# The error numbers of version 1.
+KNOWN_CODES = frozenset(
+    [0, *range(100, 110), *range(200, 212), *range(300, 304), *range(310, 316), 320, 321, 330, 340, 350, 351]
+    + [*range(400, 407), *range(410, 415), *range(420, 425), *range(500, 506)]
+)
+
+
+class BenchError(Exception):
+    """The bench refused us, is gone, or is silent."""
+
+
+# --- messages ---------------------------------------------------------------------------------------------------
+
+
+class Layout(NamedTuple):
+    """The fields behind the id, little-endian, and whether they are legal together."""
+
+    name: str
+    fields: struct.Struct
+    legal: Callable[[tuple], bool]
+
+
+def _axis(value: int) -> bool:
+    return value < 2
+
+
+def _hello(m: tuple) -> bool:
+    return m[1] <= OBSERVER and m[2] < 4
+
+
+def _finite(values: tuple) -> bool:
+    return all(map(math.isfinite, values))
+
+
+HELLO, HELLO_REPLY, PWM_DUTY, ENCODER_EDGES, ENCODER_REPORT, DIGITAL_INPUTS, DIGITAL_OUTPUTS = range(1, 8)
+FORCE_SAMPLE, CURRENT_SAMPLE, ADVANCE, ADVANCED, HEARTBEAT, FAULT, BYE, REFERENCE_POINT = range(8, 16)
+
+LAYOUTS: dict[int, Layout] = {
+    HELLO: Layout("Hello", struct.Struct("<HBBIIIQ"), _hello),
+    HELLO_REPLY: Layout("HelloReply", struct.Struct("<HBBIIIQH"), lambda m: _hello(m) and m[7] in KNOWN_CODES),
+    PWM_DUTY: Layout(
+        "PwmDuty", struct.Struct("<BBHHHI"), lambda m: _axis(m[0]) and m[1] < 2 and 0 < m[4] >= max(m[2], m[3])
+    ),
+    # With the count of edges, which stand behind: 32 bits each.
+    ENCODER_EDGES: Layout(
+        "EncoderEdges",
+        struct.Struct("<BBqqIH"),
+        lambda m: _axis(m[0]) and m[1] < 8 and m[2] >= 0 and m[3] >= 0 and m[5] <= MAX_EDGES,
+    ),
+    ENCODER_REPORT: Layout(
+        "EncoderReport", struct.Struct("<BBqiqIiHHI"), lambda m: _axis(m[0]) and m[1] < 8 and 0 <= m[4] <= m[2]
+    ),
+    DIGITAL_INPUTS: Layout("DigitalInputs", struct.Struct("<HqI"), lambda m: m[0] < 128 and m[1] >= 0),
+    DIGITAL_OUTPUTS: Layout("DigitalOutputs", struct.Struct("<HqI"), lambda m: m[0] < 4 and m[1] >= 0),
+    FORCE_SAMPLE: Layout("ForceSample", struct.Struct("<q6f"), lambda m: m[0] >= 0 and _finite(m[1:])),
+    CURRENT_SAMPLE: Layout(
+        "CurrentSample", struct.Struct("<Bqf"), lambda m: _axis(m[0]) and m[1] >= 0 and math.isfinite(m[2])
+    ),
+    ADVANCE: Layout("Advance", struct.Struct("<q"), lambda m: m[0] >= 0),
+    ADVANCED: Layout("Advanced", struct.Struct("<q"), lambda m: m[0] >= 0),
+    HEARTBEAT: Layout("Heartbeat", struct.Struct("<qI"), lambda m: m[0] >= 0),
+    FAULT: Layout("Fault", struct.Struct("<HqI"), lambda m: m[0] in KNOWN_CODES and m[1] >= 0),
+    BYE: Layout("Bye", struct.Struct("<q"), lambda m: m[0] >= 0),
+    REFERENCE_POINT: Layout(
+        "Reference", struct.Struct("<Bq3f"), lambda m: _axis(m[0]) and m[1] >= 0 and _finite(m[2:])
+    ),
+}
+
+
+def encode(kind: int, *fields: float, edges: tuple[int, ...] = ()) -> bytes:
+    """The payload: one byte of id, then the fields."""
+    return bytes((kind,)) + LAYOUTS[kind].fields.pack(*fields) + struct.pack(f"<{len(edges)}I", *edges)
+
+
+def decode(payload: bytes) -> tuple[int, tuple, tuple[int, ...]]:
+    """Id, fields and edges. KeyError: unknown id; EOFError: shorter than its message; ValueError: an illegal field."""
+    if not payload:
+        raise EOFError("empty")
+    kind = payload[0]
+    layout = LAYOUTS[kind]
+    size = 1 + layout.fields.size
+    if len(payload) < size:
+        raise EOFError(layout.name)
+    fields = layout.fields.unpack_from(payload, 1)
+    if not layout.legal(fields):
+        raise ValueError(layout.name)
+    edges: tuple[int, ...] = ()
+    if kind == ENCODER_EDGES:
+        size += 4 * fields[5]
+        if len(payload) != size:
+            raise ValueError(layout.name)
+        edges = struct.unpack_from(f"<{fields[5]}I", payload, _EDGES_HEADER)
+        length = sum(edge & 0x3FFFFFFF for edge in edges)
+        if any(edge >> 30 == 3 for edge in edges) or length > fields[3] - fields[2]:
+            raise ValueError(layout.name)
+    # The greeting of another version may be longer than ours; nothing else may be.
+    if len(payload) > size and (kind not in (HELLO, HELLO_REPLY) or fields[0] == VERSION):
+        raise ValueError(layout.name)
+    return kind, fields, edges
+
+
+def is_plausible(kind: int, size: int) -> bool:
+    """Whether a payload of this id can have this size."""
+    layout = LAYOUTS.get(kind)
+    if layout is None:
+        return False
+    shortest = 1 + layout.fields.size
+    if kind in (HELLO, HELLO_REPLY):
+        return shortest <= size <= 255
+    if kind == ENCODER_EDGES:
+        return shortest <= size <= shortest + 4 * MAX_EDGES and (size - shortest) % 4 == 0
+    return size == shortest
+
+
+# --- checksum and framing -----------------------------------------------------------------------------------------
+
+
+def _crc_table(bits: int) -> list[int]:
+    table = []
+    for value in range(1 << bits):
+        for _ in range(bits):
+            value = value >> 1 ^ (0x82F63B78 if value & 1 else 0)
+        table.append(value)
+    return table
+
+
+_CRC8 = _crc_table(8)
+_CRC16 = [_CRC8[_CRC8[n & 255] & 255 ^ n >> 8] ^ _CRC8[n & 255] >> 8 for n in range(1 << 16)]
+
+
+def crc32c(data: bytes) -> int:
+    """CRC-32C, two bytes a step."""
+    crc = 0xFFFFFFFF
+    pairs = len(data) >> 1
+    table = _CRC16
+    for word in struct.unpack_from(f"<{pairs}H", data):
+        crc = table[(crc ^ word) & 0xFFFF] ^ crc >> 16
+    if len(data) & 1:
+        crc = _CRC8[(crc ^ data[-1]) & 255] ^ crc >> 8
+    return crc ^ 0xFFFFFFFF
+
+
+@dataclass
+class Counts:
+    """What a reader met that was no message, and gaps in sequence numbers."""
+
+    bad_checksum: int = 0
+    too_long: int = 0
+    truncated: int = 0
+    unknown: int = 0
+    bad_field: int = 0
+    discarded_bytes: int = 0
+    sequence_gaps: int = 0
+
+
+class LengthFraming:
+    """length u16, payload, CRC-32C over both: for a stream that loses nothing."""
+
+    def __init__(self, counts: Counts) -> None:
+        self.counts = counts
+        self._held = bytearray()
+        self._in_place = True
+
+    @staticmethod
+    def frame(payload: bytes) -> bytes:
+        covered = len(payload).to_bytes(2, "little") + payload
+        return covered + crc32c(covered).to_bytes(4, "little")
+
+    def feed(self, data: bytes) -> Iterator[bytes]:
+        held = self._held
+        held += data
+        at = 0
+        while len(held) - at >= 3:
+            size = held[at] | held[at + 1] << 8
+            if is_plausible(held[at + 2], size):
+                end = at + 2 + size
+                if len(held) < end + 4:
+                    break
+                if crc32c(held[at:end]) == int.from_bytes(held[end : end + 4], "little"):
+                    yield bytes(held[at + 2 : end])
+                    at = end + 4
+                    self._in_place = True
+                    continue
+                self.counts.bad_checksum += self._in_place
+            elif self._in_place:
+                self.counts.truncated += 1
+            self._in_place = False
+            self.counts.discarded_bytes += 1
+            at += 1
+        del held[:at]
+
+
+class CobsFraming:
+    """COBS(payload, CRC-32C over it), 0: for a serial line."""
+
+    _LONGEST = _EDGES_HEADER + 4 * MAX_EDGES + 4
+
+    def __init__(self, counts: Counts) -> None:
+        self.counts = counts
+        self._held = bytearray()
+
+    @staticmethod
+    def frame(payload: bytes) -> bytes:
+        covered = payload + crc32c(payload).to_bytes(4, "little")
+        out = bytearray()
+        for block in covered.split(b"\0"):
+            while len(block) >= 254:
+                out.append(255)
+                out += block[:254]
+                block = block[254:]
+            out.append(len(block) + 1)
+            out += block
+        return bytes(out) + b"\0"
+
+    @staticmethod
+    def _unstuff(data: bytes) -> bytes | None:
+        out = bytearray()
+        at = 0
+        while at < len(data):
+            step = data[at]
+            if step == 0 or at + step > len(data):
+                return None
+            out += data[at + 1 : at + step]
+            at += step
+            if step < 255 and at < len(data):
+                out.append(0)
+        return bytes(out)
+
+    def feed(self, data: bytes) -> Iterator[bytes]:
+        self._held += data
+        while (end := self._held.find(0)) >= 0:
+            stuffed = bytes(self._held[:end])
+            del self._held[: end + 1]
+            if not stuffed:
+                continue
+            plain = self._unstuff(stuffed)
+            if plain is not None and len(plain) > 4 and crc32c(plain[:-4]) == int.from_bytes(plain[-4:], "little"):
+                yield plain[:-4]
+            else:
+                self.counts.bad_checksum += 1
+                self.counts.discarded_bytes += end + 1
+        if len(self._held) > 2 * self._LONGEST:
+            self.counts.too_long += 1
+            self.counts.discarded_bytes += len(self._held)
+            self._held.clear()
+
+
+# --- where the bytes go -------------------------------------------------------------------------------------------
+
+
+class SocketPort:
+    def __init__(self, path: str, patience_s: float) -> None:
+        deadline = time.monotonic() + patience_s
+        while True:
+            self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+            try:
+                self._socket.connect(path)
+                return
+            except (FileNotFoundError, ConnectionRefusedError) as error:
+                self._socket.close()
+                if time.monotonic() > deadline:
+                    raise BenchError(f"{path}: nobody listens ({error})") from error
+                time.sleep(0.01)
+
+    def send(self, data: bytes) -> None:
+        self._socket.sendall(data)
+
+    def receive(self, timeout_s: float) -> bytes:
+        self._socket.settimeout(timeout_s)
+        try:
+            data = self._socket.recv(65536)
+        except TimeoutError:
+            return b""
+        if not data:
+            raise BenchError("the bench closed the connection")
+        return data
+
+
+class SerialPort:
+    def __init__(self, device: str, baud: int) -> None:
+        import termios
+        import tty
+
+        self._line = os.open(device, os.O_RDWR | os.O_NOCTTY)
+        tty.setraw(self._line)
+        attributes = termios.tcgetattr(self._line)
+        attributes[4] = attributes[5] = getattr(termios, f"B{baud}")
+        termios.tcsetattr(self._line, termios.TCSANOW, attributes)
+
+    def send(self, data: bytes) -> None:
+        while data:
+            data = data[os.write(self._line, data) :]
+
+    def receive(self, timeout_s: float) -> bytes:
+        ready, _, _ = select.select([self._line], [], [], timeout_s)
+        return os.read(self._line, 65536) if ready else b""
+
+
+# --- the controller's end -----------------------------------------------------------------------------------------
+
+
+class Reference(NamedTuple):
+    """Where the axis is to be now, counted from where it stood when the run began."""
+
+    position_m: float = 0.0
+    velocity_m_per_s: float = 0.0
+    acceleration_m_per_s2: float = 0.0
+
+
+@dataclass
+class Axis:
+    count: int = 0  # since the run began
+    index_count: int | None = None  # at the last index pulse
+    illegal_transitions: int = 0
+    reference: Reference = Reference()
+    current_A: float | None = None
+    _levels: int | None = None
+    _sequence: int | None = None
+    _duty_sequence: int = 0
+
+
+# Of (A, B) before << 2 | after: A leads B towards max.
+_STEP = {0b0010: 1, 0b1011: 1, 0b1101: 1, 0b0100: 1, 0b0001: -1, 0b0111: -1, 0b1110: -1, 0b1000: -1}
+
+
+@dataclass
+class Bench:
+    """One run: greet() once, then turn() until it says False."""
+
+    port: SocketPort | SerialPort
+    framing: LengthFraming | CobsFraming
+    counts: Counts
+    silence_s: float = 1.0
+    period_ticks: int = 1000
+    now_ns: int = 0
+    exchange_ns: int = 1_000_000
+    lines: int = 0
+    axes: dict[str, Axis] = field(default_factory=lambda: {name: Axis() for name in AXES})
+    faults: list[tuple[int, int, int]] = field(default_factory=list)  # number, time, detail: what the bench refused
+    gives_reference: bool = False
+    _out: bytearray = field(default_factory=bytearray)
+    _outputs_sequence: int = 0
+    _ended: int = 0  # the message that ended the last wait
+    _reply: tuple | None = None
+    _waiting: list[bytes] = field(default_factory=list)
+
+    def send(self, kind: int, *fields: float) -> None:
+        """Leaves with the next turn."""
+        self._out += self.framing.frame(encode(kind, *fields))
+
+    def greet(
+        self,
+        axes: tuple[str, ...] = AXES,
+        exchange_ns: int = 1_000_000,
+        tick_ns: int = 100_000,
+        reference: bool = False,
+        edges: bool = False,
+        version: int = VERSION,
+    ) -> None:
+        """Agrees with the bench and hears the first inputs. BenchError says why it was refused."""
+        self.exchange_ns = exchange_ns
+        mask = sum(1 << AXES.index(name) for name in axes)
+        wanted = (EDGES if edges else DIGEST) | (REFERENCE if reference else 0)
+        self.send(HELLO, version, CONTROLLER, mask, tick_ns, exchange_ns, wanted, 0)
+        self._wait(HELLO_REPLY)
+        assert self._reply is not None
+        if self._reply[7] != 0:
+            raise BenchError(f"refused with error {self._reply[7]}; the plant says {self._reply[:7]}")
+        self.gives_reference = bool(self._reply[5] & REFERENCE)
+        self.send(ADVANCE, 0)
+        self._wait(ADVANCED)
+
+    def enable(self, *axes: str) -> None:
+        """Of these axes the amplifier is on from now on, of the others off."""
+        lines = sum(1 << AXES.index(name) for name in axes)
+        self.send(DIGITAL_OUTPUTS, lines, self.now_ns, self._outputs_sequence)
+        self._outputs_sequence = self._outputs_sequence + 1 & 0xFFFFFFFF
+
+    def drive(self, axis: str, duty: float, enable: bool = True) -> None:
+        """Duty from -1 to 1, positive towards max. A number that is none drives nothing."""
+        state = self.axes[axis]
+        ticks = round(max(-1.0, min(1.0, duty)) * self.period_ticks) if math.isfinite(duty) else 0
+        self.send(
+            PWM_DUTY, AXES.index(axis), int(enable), max(ticks, 0), max(-ticks, 0), self.period_ticks,
+            state._duty_sequence,
+        )  # fmt: skip
+        state._duty_sequence = state._duty_sequence + 1 & 0xFFFFFFFF
+
+    def turn(self) -> bool:
+        """Sends what was said since the last turn and hears what happened until the next exchange.
+
+        False when the bench has ended the run; BenchError when it is gone.
+        """
+        self.send(ADVANCE, self.now_ns + self.exchange_ns)
+        self._wait(ADVANCED)
+        if self._ended != BYE:
+            return True
+        self.send(BYE, self.now_ns)
+        try:
+            self.port.send(bytes(self._out))
+        except OSError:
+            pass  # the bench need not wait for the answer
+        return False
+
+    def _wait(self, expected: int) -> None:
+        try:
+            self.port.send(bytes(self._out))
+        except OSError as error:
+            raise BenchError(f"the bench is gone: {error}") from error
+        self._out.clear()
+        deadline = time.monotonic() + self.silence_s
+        self._ended = 0
+        while True:
+            while self._waiting:
+                kind = self._take(self._waiting.pop(0))
+                if kind in (expected, BYE):
+                    self._ended = kind
+                    return
+            left_s = deadline - time.monotonic()
+            if left_s <= 0:
+                raise BenchError(f"the bench was silent for {self.silence_s} s")
+            self._waiting.extend(self.framing.feed(self.port.receive(left_s)))
+
+    def _take(self, payload: bytes) -> int:
+        try:
+            kind, fields, edges = decode(payload)
+        except KeyError:
+            self.counts.unknown += 1
+            return 0
+        except EOFError:
+            self.counts.truncated += 1
+            return 0
+        except ValueError:
+            self.counts.bad_field += 1
+            return 0
+        if kind == ENCODER_REPORT:
+            axis = self.axes[AXES[fields[0]]]
+            self._check_sequence(axis, fields[9])
+            axis.count += fields[3]
+            axis.illegal_transitions += fields[8]
+            if fields[7]:
+                axis.index_count = fields[6]
+        elif kind == REFERENCE_POINT:
+            self.axes[AXES[fields[0]]].reference = Reference(*fields[2:])
+        elif kind == ADVANCED:
+            self.now_ns = fields[0]
+        elif kind == ENCODER_EDGES:
+            self._count_edges(self.axes[AXES[fields[0]]], fields, edges)
+        elif kind == DIGITAL_INPUTS:
+            self.lines = fields[0]
+        elif kind == FAULT:
+            self.faults.append(fields)
+        elif kind == CURRENT_SAMPLE:
+            self.axes[AXES[fields[0]]].current_A = fields[2]
+        elif kind == HELLO_REPLY:
+            self._reply = fields
+        return kind
+
+    def _check_sequence(self, axis: Axis, sequence: int) -> None:
+        if axis._sequence is not None and sequence != axis._sequence + 1 & 0xFFFFFFFF:
+            self.counts.sequence_gaps += 1
+        axis._sequence = sequence
+
+    def _count_edges(self, axis: Axis, fields: tuple, edges: tuple[int, ...]) -> None:
+        self._check_sequence(axis, fields[4])
+        levels = fields[1]
+        for edge in edges:
+            line = edge >> 30
+            before = levels
+            levels ^= 1 << line
+            if line == 2:
+                if levels & 4:
+                    axis.index_count = axis.count
+            else:
+                # Bit 0 is A, bit 1 is B: the table wants A first.
+                a, b, a_now, b_now = before & 1, before >> 1 & 1, levels & 1, levels >> 1 & 1
+                axis.count += _STEP[a << 3 | b << 2 | a_now << 1 | b_now]
+        axis._levels = levels
+
+
+def connect(address: str, patience_s: float = 10.0) -> Bench:
+    """local:PATH or serial:DEVICE[@BAUD]. Waits for a bench that is still starting."""
+    counts = Counts()
+    scheme, _, place = address.partition(":")
+    if scheme == "local":
+        return Bench(SocketPort(place, patience_s), LengthFraming(counts), counts)
+    if scheme == "serial":
+        device, _, baud = place.partition("@")
+        return Bench(SerialPort(device, int(baud or 921600)), CobsFraming(counts), counts, silence_s=patience_s)
+    raise BenchError(f"{address!r}: local:PATH or serial:DEVICE[@BAUD]")

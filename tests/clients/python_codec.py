@@ -1,0 +1,58 @@
+"""The Python client takes and refuses what the bench's own codec does: python_codec.py CLIENT_VECTORS ROOT"""
+
+import random
+import subprocess
+import sys
+
+sys.path.insert(0, sys.argv[2] + "/clients/python")
+import towbench  # noqa: E402
+
+REFUSALS = {KeyError: "unknown", EOFError: "truncated", ValueError: "bad_field"}
+
+
+def verdict_of(payload: bytes) -> str:
+    try:
+        kind, fields, edges = towbench.decode(payload)
+    except tuple(REFUSALS) as error:
+        return REFUSALS[type(error)]
+    hello = kind in (towbench.HELLO, towbench.HELLO_REPLY)
+    assert hello or towbench.encode(kind, *fields, edges=edges) == payload, payload.hex()
+    return "ok"
+
+
+def payloads_of(framing_type, stream: bytes, step: int) -> list:
+    framing = framing_type(towbench.Counts())
+    found = []
+    for at in range(0, len(stream), step):
+        found += framing.feed(stream[at : at + step])
+    return found
+
+
+vectors = subprocess.run([sys.argv[1]], capture_output=True, text=True, check=True).stdout.splitlines()
+counted = {}
+streams = {}
+for line in vectors:
+    kind, _, digits = line.partition(" ")
+    if kind in ("frames", "cobs"):
+        streams[kind] = bytes.fromhex(digits)
+        continue
+    counted[kind] = counted.get(kind, 0) + 1
+    assert verdict_of(bytes.fromhex(digits)) == kind, f"the bench says {kind}, the client {verdict_of(bytes.fromhex(digits))}: {digits}"
+assert min(counted.get(kind, 0) for kind in ("ok", "unknown", "truncated", "bad_field")) > 5, counted
+
+for name, framing_type in (("frames", towbench.LengthFraming), ("cobs", towbench.CobsFraming)):
+    stream = streams[name]
+    whole = payloads_of(framing_type, stream, len(stream))
+    assert len(whole) == 200, (name, len(whole))
+    assert b"".join(map(framing_type.frame, whole)) == stream, f"{name}: another frame than the bench's"
+    for step in (1, 7, 1000):
+        assert payloads_of(framing_type, stream, step) == whole, (name, step)
+    damage = random.Random(3)
+    for _ in range(300):  # a damaged byte costs few messages, and no wrong one comes
+        at = damage.randrange(len(stream))
+        broken = stream[:at] + bytes([stream[at] ^ 1 + damage.randrange(255)]) + stream[at + 1 :]
+        # What a false header holds back comes when its length of bytes has.
+        rest = payloads_of(framing_type, broken + bytes(5000), 4096)
+        assert all(payload in whole for payload in rest), (name, at)
+        assert len(rest) >= 198, (name, at, len(rest))
+print(counted)
