@@ -11,6 +11,7 @@
 #include "emulator/faults/scheduled_event.h"
 #include "harness/experiment/board_plan.h"
 #include "harness/experiment/hand_act.h"
+#include "harness/experiment/reference.h"
 #include "harness/fault_plan/fault.h"
 
 namespace towbench::harness {
@@ -51,7 +52,8 @@ struct Experiment {
   std::string description;
   double duration_limit_s = 60;
   std::uint64_t seed = 1;
-  std::vector<ConsoleStep> console;
+  std::vector<ConsoleStep> console;              // of BBMC; none with a reference
+  std::vector<ReferenceMotion> reference;        // sorted by time
   std::vector<emulator::ScheduledEvent> events;  // sorted by time
   FaultPlan faults;
   BoardPlan board;

@@ -4,15 +4,13 @@
 
 #include "core/time.h"
 #include "harness/experiment/board_plan_text.h"
+#include "harness/experiment/reference_text.h"
 #include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/canonical_hash.h"
 #include "harness/metrics/metric.h"
 
 namespace towbench::harness {
 namespace {
-
-// A day of virtual time: longer is a slip of the pen.
-constexpr double kLongestRun_s = 86'400.0;
 
 ConsoleStep read_console_step(TableReader& reader) {
   ConsoleStep step;
@@ -154,6 +152,11 @@ Experiment read_script(TableReader& reader) {
   for (auto& step : reader.tables("console")) {
     experiment.console.push_back(read_console_step(step));
   }
+  experiment.reference = read_reference(reader);
+  if (!experiment.reference.empty() && !experiment.console.empty()) {
+    throw FixtureError(reader.place_of("reference"), "beside [[console]]",
+                       "one of them: BBMC's console, or a reference for any controller");
+  }
   for (auto& event : reader.tables("event")) {
     experiment.events.push_back(read_event(event));
   }
@@ -216,6 +219,19 @@ void check_axes_agree(const ExperimentFixture& fixture) {
   }
 }
 
+void check_axes_move(const ExperimentFixture& fixture) {
+  for (const auto axis : core::kAxes) {
+    const auto& motions = fixture.experiment.reference;
+    const bool moves = std::any_of(motions.begin(), motions.end(),
+                                   [&](const auto& motion) { return motion.moves(axis); });
+    if (moves && !fixture.rig.parameters.axes[axis].exists) {
+      throw FixtureError({fixture.file.string(), 0, "reference"},
+                         "a motion of " + std::string(core::name_of(axis)),
+                         "an axis that the rig " + fixture.rig_file.string() + " has");
+    }
+  }
+}
+
 void check_name(const TableReader& reader, const std::string& name) {
   const bool plain =
       !name.empty() && name.size() <= 60 && std::all_of(name.begin(), name.end(), [](char c) {
@@ -235,8 +251,14 @@ Experiment read_experiment(const FixtureFile& file) {
   for (const char* key : {"rig", "controller", "start"}) {
     reader.permit(key);
   }
-  for (const char* key : {"name", "rig", "controller", "duration_limit_s"}) {
+  for (const char* key : {"name", "rig", "duration_limit_s"}) {
     reader.require(key);
+  }
+  if (experiment.reference.empty()) {
+    reader.require("controller");
+  } else if (reader.has("controller")) {
+    throw FixtureError(reader.place_of("controller"), "a key without effect",
+                       "none beside [[reference]]: the controller is --controller's");
   }
   reader.finish();
   check_name(reader, experiment.name);
@@ -256,11 +278,15 @@ ExperimentFixture load_experiment(const std::filesystem::path& path) {
   reader.text("rig", rig, "path of the rig file");
   reader.text("controller", controller, "path of the controller file");
   fixture.rig_file = file.resolve(rig, reader.place_of("rig"));
-  fixture.controller_file = file.resolve(controller, reader.place_of("controller"));
   fixture.rig = load_rig(fixture.rig_file, fixture.sources);
   place_carriage(reader, fixture.rig);
-  fixture.controller = load_controller(fixture.controller_file, fixture.sources);
-  check_axes_agree(fixture);
+  if (fixture.experiment.reference.empty()) {
+    fixture.controller_file = file.resolve(controller, reader.place_of("controller"));
+    fixture.controller = load_controller(fixture.controller_file, fixture.sources);
+    check_axes_agree(fixture);
+  } else {
+    check_axes_move(fixture);
+  }
   CanonicalHash hash;
   hash.add(file.text());
   fixture.hash = hash.value();

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/experiment/board_plan_text.h"
+#include "harness/experiment/reference_text.h"
 #include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/toml_number.h"
 
@@ -85,12 +86,14 @@ std::string to_toml(const ExperimentFixture& fixture, const std::string& rig,
                     const std::string& controller) {
   const auto& experiment = fixture.experiment;
   auto text = fmt::format(
-      "schema = 1\nname = {}\ntitle = {}\ndescription = {}\nrig = {}\ncontroller = {}\n"
+      "schema = 1\nname = {}\ntitle = {}\ndescription = {}\nrig = {}\n{}"
       "duration_limit_s = {}\nseed = {}\n",
       quoted(experiment.name), quoted(experiment.title), quoted(experiment.description),
-      quoted(rig), quoted(controller), toml_number(experiment.duration_limit_s), experiment.seed);
+      quoted(rig), controller.empty() ? "" : "controller = " + quoted(controller) + '\n',
+      toml_number(experiment.duration_limit_s), experiment.seed);
   text += start_toml(fixture.rig.parameters);
   append(text, experiment.console, console_toml);
+  append(text, experiment.reference, [](const ReferenceMotion& motion) { return to_toml(motion); });
   append(text, experiment.events, event_toml);
   append(text, experiment.faults, [](const Fault& fault) { return to_toml(fault); });
   append(text, experiment.board.faults, [](const BoardFault& fault) { return to_toml(fault); });

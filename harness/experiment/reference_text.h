@@ -1,0 +1,17 @@
+// [[reference]] of an experiment file, read and written.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/experiment/reference.h"
+#include "harness/fixtures/table_reader.h"
+
+namespace towbench::harness {
+
+// Every [[reference]], in order of time. Throws FixtureError for one that lacks what its kind
+// needs, and where two motions of an axis overlap.
+[[nodiscard]] std::vector<ReferenceMotion> read_reference(TableReader& experiment);
+[[nodiscard]] std::string to_toml(const ReferenceMotion& motion);
+
+}  // namespace towbench::harness
