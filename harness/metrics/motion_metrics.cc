@@ -27,6 +27,31 @@ MetricValue duty_peak(const RunData& data, core::Axis axis, const TimeSpan& span
   return over(data.log.column("time_s"), data.log_of(axis, "duty_pct"), span).peak();
 }
 
+MetricValue duty_saturated_share(const RunData& data, core::Axis axis, const TimeSpan& span) {
+  constexpr double kLimit_pct = 99.9;
+  const auto time_s = data.log.column("time_s");
+  const auto duty_pct = data.log_of(axis, "duty_pct");
+  Statistics share;
+  for (std::size_t i = 0; i < duty_pct.size(); ++i) {
+    if (span.holds(time_s[i])) {
+      share.add(std::fabs(duty_pct[i]) >= kLimit_pct ? 1.0 : 0.0);
+    }
+  }
+  return share.mean();
+}
+
+MetricValue duty_ripple(const RunData& data, core::Axis axis, const TimeSpan& span) {
+  const auto time_s = data.log.column("time_s");
+  const auto duty_pct = data.log_of(axis, "duty_pct");
+  Statistics change;
+  for (std::size_t i = 1; i < duty_pct.size(); ++i) {
+    if (span.holds(time_s[i])) {
+      change.add(duty_pct[i] - duty_pct[i - 1]);
+    }
+  }
+  return change.rms();
+}
+
 MetricValue carriage_speed_peak(const RunData& data, core::Axis axis, const TimeSpan& span) {
   return over(data.truth.column("time_s"), data.truth_of(axis, "carriage_speed_m_per_s"), span)
       .peak();

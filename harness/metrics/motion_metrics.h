@@ -6,6 +6,10 @@
 namespace towbench::harness {
 
 MetricValue duty_peak(const RunData& data, core::Axis axis, const TimeSpan& span);
+// Share of the control ticks with the duty at its limit, 0 .. 1.
+MetricValue duty_saturated_share(const RunData& data, core::Axis axis, const TimeSpan& span);
+// RMS of the duty's change from one control tick to the next.
+MetricValue duty_ripple(const RunData& data, core::Axis axis, const TimeSpan& span);
 // Of the true carriage.
 MetricValue carriage_speed_peak(const RunData& data, core::Axis axis, const TimeSpan& span);
 MetricValue carriage_travel(const RunData& data, core::Axis axis, const TimeSpan& span);

@@ -1,5 +1,6 @@
 #include "harness/metrics/tracking_metrics.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "harness/metrics/statistics.h"
@@ -83,6 +84,19 @@ MetricValue tracking_error_rms(const RunData& data, core::Axis axis, const TimeS
 }
 MetricValue tracking_error_mean(const RunData& data, core::Axis axis, const TimeSpan& span) {
   return tracking_error(data, axis, span).mean();
+}
+MetricValue final_error(const RunData& data, core::Axis axis, const TimeSpan& span) {
+  const auto time_s = data.log.column("time_s");
+  const auto state = data.log_of(axis, "state");
+  const auto reference_m = data.log_of(axis, "reference_m");
+  const auto position_m = data.log_of(axis, "position_m");
+  MetricValue last;
+  for (std::size_t i = 0; i < std::min(reference_m.size(), position_m.size()); ++i) {
+    if (span.holds(time_s[i]) && state[i] == kStatePosition) {
+      last = {std::fabs(reference_m[i] - position_m[i]), last.samples + 1};
+    }
+  }
+  return last;
 }
 MetricValue carriage_error_peak(const RunData& data, core::Axis axis, const TimeSpan& span) {
   return carriage_error(data, axis, span).peak();

@@ -14,6 +14,8 @@ namespace towbench::harness {
 MetricValue tracking_error_peak(const RunData& data, core::Axis axis, const TimeSpan& span);
 MetricValue tracking_error_rms(const RunData& data, core::Axis axis, const TimeSpan& span);
 MetricValue tracking_error_mean(const RunData& data, core::Axis axis, const TimeSpan& span);
+// |reference - encoder| in the last control tick of the span.
+MetricValue final_error(const RunData& data, core::Axis axis, const TimeSpan& span);
 MetricValue carriage_error_peak(const RunData& data, core::Axis axis, const TimeSpan& span);
 MetricValue carriage_error_rms(const RunData& data, core::Axis axis, const TimeSpan& span);
 
