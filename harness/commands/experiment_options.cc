@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "harness/board_bench/firmware_run.h"
+#include "harness/commands/carrier_option.h"
 #include "harness/commands/encoder_option.h"
 #include "harness/commands/exit_codes.h"
 #include "harness/commands/option_checks.h"
@@ -72,12 +73,27 @@ void choose_controller(const std::string& text, RunOptions& options) {
     return;
   }
   constexpr std::string_view kScheme = "firmware:";
+  constexpr std::string_view kProcess = "process:";
+  constexpr std::string_view kExternal = "external:";
   const bool alone = options.carrier == Carrier::kInProcess && options.lines.controller.empty() &&
                      options.encoder_lines.controller.empty() &&
                      options.clock == RunClock::kLockstep;
-  if (!text.starts_with(kScheme) || text.size() == kScheme.size() || !alone) {
+  const bool is_process = text.starts_with(kProcess) && text.size() > kProcess.size();
+  const bool is_external = text.starts_with(kExternal) && text.size() > kExternal.size();
+  const bool is_firmware = text.starts_with(kScheme) && text.size() > kScheme.size();
+  if (!(is_firmware || is_process || is_external) || !alone) {
     throw FixtureError({"command line", 0, "--controller"}, '"' + text + '"',
-                       "firmware:IMAGE.elf, in lockstep and in this process");
+                       "firmware:IMAGE.elf, process:COMMAND or external:ADDRESS, in lockstep and "
+                       "without another carrier");
+  }
+  if (is_process) {
+    options.external = ExternalController{.command = text.substr(kProcess.size())};
+    return;
+  }
+  if (is_external) {
+    options.external = ExternalController{
+        .address = carrier_address("--controller", text.substr(kExternal.size()))};
+    return;
   }
   options.firmware = text.substr(kScheme.size());
   check_firmware(options.firmware);
@@ -131,6 +147,9 @@ RunResult run_with_options(const ExperimentFixture& fixture, const ExperimentOpt
   run_options.watchers.terminal = [](const std::string& path) {
     std::fprintf(stderr, "console: %s   (any terminal program; Ctrl-C here ends the run)\n",
                  path.c_str());
+  };
+  run_options.watchers.waiting = [](const std::string& address) {
+    std::fprintf(stderr, "waiting for a controller at %s\n", address.c_str());
   };
   run_options.watchers.stop = &stop_requested();
   ProgressLine progress(fixture.experiment.name, fixture.experiment.duration_limit_s,

@@ -17,7 +17,7 @@ struct ExperimentOptions {
   std::string carrier;        // empty: in-process, or local for the real clock
   std::string lines;          // "CONTROLLER,PLANT"; empty: lines are messages
   std::string encoder_lines;  // the same of the encoders
-  std::string controller;     // "firmware:IMAGE.elf"; empty: the experiment's own
+  std::string controller;     // firmware:, process: or external:; empty: the experiment's own
   std::string console;        // "pty": of the firmware, for a person
   std::string clock = "lockstep";
   bool json = false;
@@ -37,12 +37,15 @@ inline constexpr const char* kLinesHelp =
     "digital lines on real ones, controller's and machine's end: "
     "CHIP[+FIRST][~MILLISECONDS],[sim:]CHIP[+FIRST]";
 
-// "firmware:IMAGE.elf" (the virtual board). Throws FixtureError for another word, for a file that
-// is no such image, and beside another carrier, clock or lines.
+// "firmware:IMAGE.elf" (the virtual board), "process:COMMAND", "external:ADDRESS". Throws
+// FixtureError for another word, for a file that is no such image, and beside another carrier,
+// clock or lines.
 void choose_controller(const std::string& text, RunOptions& options);
 
 inline constexpr const char* kControllerHelp =
-    "firmware:IMAGE.elf: an unmodified bare-metal image on the virtual AM335x";
+    "firmware:IMAGE.elf: an unmodified bare-metal image on the virtual AM335x; "
+    "process:\"COMMAND {address}\": a program that the bench starts; external:ADDRESS: one that "
+    "comes by itself; both for experiments with [[reference]]";
 
 void add_experiment_options(CLI::App& verb, ExperimentOptions& options);
 

@@ -37,6 +37,7 @@ struct Recorded {
   std::filesystem::path experiment;
   std::uint64_t seed = 0;
   bool by_wall_clock = false;
+  std::string carrier;
 };
 
 nlohmann::json result_in(const std::filesystem::path& folder) {
@@ -58,7 +59,8 @@ Recorded recorded_in(const std::filesystem::path& folder) {
                          "\"complete\": a run that was cut short has no whole record to compare");
     }
     return {folder / result.at("experiment").at("file").get<std::string>(),
-            result.at("seed").get<std::uint64_t>(), result.at("clock") == "real"};
+            result.at("seed").get<std::uint64_t>(), result.at("clock") == "real",
+            result.at("carrier").get<std::string>()};
   } catch (const nlohmann::json::exception& error) {
     throw FixtureError({(folder / "result.json").string()}, error.what(), "a run's result.json");
   }
@@ -188,6 +190,19 @@ bool is_as_recorded(const std::filesystem::path& folder) {
   return manifest.problems.empty();
 }
 
+// Who controlled, beside BBMC: what is not in the folder cannot be played again.
+void choose_recorded_controller(const std::filesystem::path& folder, const std::string& carrier,
+                                RunOptions& options) {
+  constexpr std::string_view kProcess = "process:";
+  if (carrier.starts_with(kProcess)) {
+    options.external = ExternalController{.command = carrier.substr(kProcess.size())};
+  } else if (carrier == "virtual board" || carrier.starts_with("external:")) {
+    throw FixtureError({(folder / "result.json").string(), 0, "carrier"}, '"' + carrier + '"',
+                       "a run of BBMC or of a process: the folder does not hold this controller; "
+                       "run the experiment in its inputs with --controller");
+  }
+}
+
 int execute_replay(const ReplayOptions& options) {
   const std::filesystem::path folder = options.folder;
   const auto recorded = recorded_in(folder);
@@ -195,6 +210,12 @@ int execute_replay(const ReplayOptions& options) {
     return kExitInvalid;
   }
   const auto fixture = load_experiment(recorded.experiment);
+  RunOptions run_options;
+  choose_recorded_controller(folder, recorded.carrier, run_options);
+  if (options.shrink && run_options.external) {
+    throw FixtureError({"command line", 0, "--shrink"}, '"' + recorded.carrier + '"',
+                       "a run of BBMC");
+  }
   if (options.shrink && !recorded.by_wall_clock) {
     return shrink_run(fixture, recorded.seed, options);
   }
@@ -202,7 +223,6 @@ int execute_replay(const ReplayOptions& options) {
     return replay_inputs(fixture, recorded.seed, options);
   }
   const bool temporary = options.out.empty();
-  RunOptions run_options;
   run_options.out = temporary ? make_temporary_folder() : std::filesystem::path(options.out);
   run_options.seed = recorded.seed;
   choose_carrier(options.carrier, run_options);

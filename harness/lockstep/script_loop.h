@@ -29,6 +29,8 @@ struct LoopWatchers {
   const std::atomic<bool>* stop = nullptr;
   // Called every few thousand exchanges with the virtual time. May be empty.
   std::function<void(core::Nanoseconds)> progress{};
+  // Told where the bench waits for a controller that somebody else starts. May be empty.
+  std::function<void(const std::string& address)> waiting{};
   // Told the path of a person's terminal before the run begins. May be empty.
   std::function<void(const std::string& path)> terminal{};
 };

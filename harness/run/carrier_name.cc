@@ -10,7 +10,9 @@ std::string name_of_carrier(const RunOptions& options) {
                      (encoders.empty() ? "" : " and encoders on " + encoders);
   switch (options.carrier) {
     case Carrier::kInProcess:
-      return options.firmware.empty() ? "in-process" : "virtual board";
+      return options.external           ? options.external->text()
+             : options.firmware.empty() ? "in-process"
+                                        : "virtual board";
     case Carrier::kLocal:
       return "local" + lines;
     case Carrier::kSerialPty:

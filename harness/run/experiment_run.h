@@ -8,6 +8,7 @@
 
 #include "harness/checks/check.h"
 #include "harness/experiment/experiment_fixture.h"
+#include "harness/external/external_controller.h"
 #include "harness/fault_cases/fault_case.h"
 #include "harness/judge/judge.h"
 #include "harness/lockstep/hand.h"
@@ -37,6 +38,8 @@ struct RunOptions {
   // An ELF image that runs on the virtual board instead of the experiment's controller; empty:
   // none.
   std::filesystem::path firmware;
+  // Instead of the experiment's controller, for an experiment that states its reference itself.
+  std::optional<ExternalController> external;
   // Its UART is a terminal for a person, by the wall clock, instead of the experiment's console.
   bool person_at_console = false;
   RunClock clock = RunClock::kLockstep;              // kReal needs two processes: not kInProcess

@@ -30,6 +30,13 @@ void plan_board(RunPlan& plan) {
   plan.fixture = plan.board->fixture();
 }
 
+void plan_external(RunPlan& plan) {
+  plan.kind = RunKind::kExternal;
+  plan.external = std::make_unique<ExternalRun>(plan.given, *plan.options.external, plan.seed,
+                                                plan.options.watchers);
+  plan.fixture = plan.external->fixture();
+}
+
 void plan_faults(RunPlan& plan) {
   refuse_faults_without_reference(plan.options);
   plan.faults = std::make_unique<FaultedExperiment>(plan.given, plan.seed, kind_of(plan.options));
@@ -49,8 +56,18 @@ RunKind kind_without_board(const RunPlan& plan) {
 RunPlan plan_run(const ExperimentFixture& fixture, const RunOptions& options) {
   RunPlan plan(fixture, options);
   plan.seed = options.seed.value_or(fixture.experiment.seed);
+  if (options.external) {
+    refuse_board_plan(fixture);
+    plan_external(plan);
+    return plan;
+  }
+  if (!fixture.experiment.reference.empty()) {
+    throw FixtureError({fixture.file.string()}, "[[reference]]",
+                       "--controller process:COMMAND or external:ADDRESS: BBMC has motions of its "
+                       "own, which its console starts");
+  }
   if (!options.firmware.empty()) {
-    plan_board(plan);  // the machine's faults are the board's to make: firmware_faults.h
+    plan_board(plan);  // the machine's faults are the board's to make: machine_faults.h
     return plan;
   }
   if (!fixture.experiment.faults.empty()) {

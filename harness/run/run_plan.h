@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "harness/experiment/experiment_fixture.h"
+#include "harness/external/external_run.h"
 #include "harness/fault_cases/faulted_experiment.h"
 #include "harness/record/result_files.h"
 #include "harness/run/board_run.h"
@@ -17,6 +18,7 @@ namespace towbench::harness {
 enum class RunKind : std::uint8_t {
   kInProcess,
   kBoard,         // an image on the virtual board, in this process
+  kExternal,      // a controller that the bench did not write; the plant in this process
   kChildProcess,  // the plant in a process of its own
   kKilledHost,    // the same, and the controller's process does not live to the end
 };
@@ -38,6 +40,7 @@ struct RunPlan {
   ExperimentFixture given;                    // before anything was planned or done
   std::unique_ptr<FaultedExperiment> faults;  // of Disturbance::kPlanned
   std::unique_ptr<BoardRun> board;            // of RunKind::kBoard
+  std::unique_ptr<ExternalRun> external;      // of RunKind::kExternal
   ExperimentFixture fixture;                  // with the faults as events and as built
   std::filesystem::path folder;               // from begin_record() on, as is `identity`
   RunIdentity identity;

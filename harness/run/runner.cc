@@ -2,6 +2,7 @@
 
 #include "harness/run/board_runner.h"
 #include "harness/run/child_runner.h"
+#include "harness/run/external_runner.h"
 #include "harness/run/in_process_runner.h"
 #include "harness/run/killed_host_runner.h"
 #include "harness/run/real_time_runner.h"
@@ -18,6 +19,8 @@ std::unique_ptr<Runner> make_runner(const RunPlan& plan) {
       return std::make_unique<InProcessRunner>(plan);
     case RunKind::kBoard:
       return std::make_unique<BoardRunner>(plan);
+    case RunKind::kExternal:
+      return std::make_unique<ExternalRunner>(plan);
     case RunKind::kKilledHost:
       return std::make_unique<KilledHostRunner>(plan);
     case RunKind::kChildProcess:

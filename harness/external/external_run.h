@@ -1,0 +1,56 @@
+// An experiment whose controller is a program that the bench did not write: the greeting, the run,
+// faults of the machine beside a run without them, and what is judged of it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "harness/checks/check.h"
+#include "harness/experiment/experiment_fixture.h"
+#include "harness/external/external_controller.h"
+#include "harness/fault_cases/case_record.h"
+#include "harness/judge/judge.h"
+#include "harness/lockstep/script_loop.h"
+#include "harness/record/temporary_folder.h"
+
+namespace towbench::harness {
+
+class ExternalRun {
+ public:
+  // With faults of the machine in the experiment the controller runs once without them, here.
+  // `watchers` outlives this. Throws FixtureError for a fault that cannot be here, or where the
+  // run without faults cannot be made.
+  ExternalRun(const ExperimentFixture& fixture, const ExternalController& controller,
+              std::uint64_t seed, const LoopWatchers& watchers);
+
+  // What is to be run: with the faults as events and as built.
+  [[nodiscard]] const ExperimentFixture& fixture() const noexcept { return fixture_; }
+  // Writes the record of both sides, and what the controller's process printed to controller.txt.
+  [[nodiscard]] RunOutcome play(const std::filesystem::path& folder);
+  // Before the judge: the record without faults, in a folder of its own below.
+  void keep_reference(const std::filesystem::path& folder) const;
+  // Adds what every external controller must keep, and drops what speaks of BBMC.
+  void judge_into(const std::filesystem::path& folder, const RunOutcome& outcome,
+                  Judgement& judgement) const;
+
+ private:
+  struct Reference {
+    TemporaryFolder files;
+    CaseRecord record;
+  };
+  [[nodiscard]] RunOutcome play(const ExperimentFixture& fixture,
+                                const std::filesystem::path& folder, CaseRecord* record,
+                                std::vector<std::string>& refused) const;
+  void make_reference(const ExperimentFixture& sound);
+
+  ExternalController controller_;
+  std::uint64_t seed_;
+  const LoopWatchers& watchers_;
+  ExperimentFixture fixture_;
+  std::unique_ptr<Reference> reference_;
+  std::vector<std::string> refused_;  // of the run's messages, in words
+};
+
+}  // namespace towbench::harness
