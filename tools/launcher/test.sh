@@ -97,12 +97,14 @@ is_stage() { [[ -n $1 && " ${guard_stages[*]} ${release_stages[*]} ${on_request_
 
 run_stages() {
   passed=0 failed=0 skipped=0 summary=''
-  local stage started status verdict whole=$SECONDS
+  local stage started status verdict failed_before whole=$SECONDS
   for stage in "$@"; do
     printf '\n== %s\n' "$stage"
     started=$SECONDS skip_reason='' note='' built_s=0
-    status=0
+    status=0 failed_before=$failed
     "stage_$stage" || status=$?
+    # What a stage has counted as failed fails it, whatever its last command returned.
+    ((status != 0 || failed == failed_before)) || status=1
     case $status in
       0) verdict=passed$note ;;
       99) verdict="skipped: $skip_reason$note" skipped=$((skipped + 1)) ;;
@@ -152,9 +154,8 @@ reported() {
 run_ctest() {
   local preset=$1 folder=$2 log=$build/$1.ctest.log status=0 line
   shift 2
-  # One more than there are processors: some tests wait for a silence or a browser.
   watched "tests ($preset)" ctest_steps "$log.running" ctest --test-dir "$build/$preset/$folder" --output-on-failure \
-    --no-tests=error -j "$(($(nproc) + 1))" "$@" || status=$?
+    --no-tests=error -j "$(nproc)" "$@" || status=$?
   mv "$log.running" "$log"
   line=$(grep -E 'tests? failed out of' "$log" || echo '0 tests failed out of 0')
   local total=${line##* } bad=${line#*passed, } off
