@@ -97,10 +97,10 @@ MaybeCheck kill_removes_drive(const CaseEvidence& evidence, CaseFigures& figures
     }
     const auto end_ns = drive_ends_ns(run, edge.change_ns, run.next_reset_ns(deadline_ns));
     auto check = passed(kName, kMeaning);
-    check.unit = "s";
-    check.max = core::seconds(kReaction_ns);
-    // Nothing was driven: nothing to measure.
+    // Nothing was driven: nothing to measure, and no limit to measure it by.
     if (end_ns) {
+      check.unit = "s";
+      check.max = core::seconds(kReaction_ns);
       check.value = core::seconds(std::max<Nanoseconds>(0, *end_ns - edge.change_ns));
       figures.kill_to_zero_duty_s = check.value;
     }
