@@ -7,11 +7,13 @@
 #include <CLI/CLI.hpp>
 #include <toml++/toml.h>
 
+#include "harness/campaign/campaign.h"
 #include "harness/checks/check.h"
 #include "harness/commands/command.h"
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/fixture_paths.h"
+#include "harness/fixtures/linux_devices_fixture.h"
 
 namespace towbench::harness {
 namespace {
@@ -21,14 +23,19 @@ void read_by_kind(const std::filesystem::path& path) {
   SourceFiles sources;
   const auto file = FixtureFile::load(path);
   const auto& table = file.table();
-  if (table.contains("rig") || table.contains("console") || table.contains("budget")) {
+  const auto folder = path.parent_path().filename();
+  if (folder == "campaigns") {
+    (void)load_campaign(path, 0);
+  } else if (folder == "devices") {
+    (void)load_linux_devices(path);
+  } else if (table.contains("rig") || table.contains("console") || table.contains("budget")) {
     (void)load_experiment(path);
   } else if (table.contains("fault")) {
     (void)read_fault_plan(file);
   } else if (table.contains("plants")) {
     (void)load_rig(path, sources);
   } else if (table.contains("control_rate_Hz") || table.contains("safety") ||
-             path.parent_path().filename() == "controllers") {
+             folder == "controllers") {
     (void)load_controller(path, sources);
   } else {
     (void)load_plant(path, sources);
@@ -42,7 +49,8 @@ int execute_validate(const std::vector<std::string>& named) {
     paths.push_back(find_experiment(name));
   }
   if (paths.empty()) {
-    for (const char* kind : {"plants", "rigs", "controllers", "experiments", "faults"}) {
+    for (const char* kind : {"plants", "rigs", "controllers", "devices", "experiments", "motions",
+                             "any-controller", "faults", "campaigns"}) {
       for (auto& path : toml_files_in(fixtures_directory() / kind)) {
         paths.push_back(std::move(path));
       }
