@@ -27,6 +27,7 @@ TEST_P(LinkFaultOverACarrier, EndsInTheDocumentedStateWithTheFilesOfARunInOnePro
   auto fixture = Runs::shipped("wall-clock-window");
   add_faults(fixture, {parse_fault(GetParam().words)});
   const auto run = runs.run(fixture, GetParam().carrier);
+  ASSERT_NE(check_named(run, "fault_fired"), nullptr) << complaints_of(run);
   EXPECT_EQ(check_named(run, "fault_fired")->verdict, Verdict::kPass) << complaints_of(run);
   EXPECT_EQ(check_named(run, "recorded_run_is_judged")->verdict, Verdict::kPass);
   ASSERT_TRUE(run.faults.has_value()) << run.reason;
