@@ -150,12 +150,13 @@ reported() {
   count_report "$log" "$status"
 }
 
-# run_ctest PRESET FOLDER [ctest arguments...]: counts each test, shows the failed ones.
+# run_ctest PRESET FOLDER [ctest arguments...]: counts each test, shows the failed ones. One more at a
+# time than processors, because many tests wait.
 run_ctest() {
   local preset=$1 folder=$2 log=$build/$1.ctest.log status=0 line
   shift 2
   watched "tests ($preset)" ctest_steps "$log.running" ctest --test-dir "$build/$preset/$folder" --output-on-failure \
-    --no-tests=error -j "$(nproc)" "$@" || status=$?
+    --no-tests=error -j "$(($(nproc) + 1))" "$@" || status=$?
   mv "$log.running" "$log"
   line=$(grep -E 'tests? failed out of' "$log" || echo '0 tests failed out of 0')
   local total=${line##* } bad=${line#*passed, } off
