@@ -37,6 +37,8 @@ void add_experiment_options(CLI::App& verb, ExperimentOptions& options) {
       ->capture_default_str();
   verb.add_flag("--json", options.json, "print the result as JSON instead of a table");
   verb.add_flag("-q,--quiet", options.quiet, "print failures and the report's path only");
+  verb.add_flag("--no-image", options.no_image,
+                "keep the SHA-256 of a firmware image in the run folder, not the image: no replay");
   verb.add_flag("--no-report", options.no_report, "write no report.html");
 }
 
@@ -143,6 +145,7 @@ RunResult run_with_options(const ExperimentFixture& fixture, const ExperimentOpt
     throw FixtureError({"command line", 0, "--console"}, options.console,
                        "with --controller firmware:IMAGE.elf");
   }
+  run_options.keeps_image = !options.no_image;
   run_options.person_at_console = !options.console.empty();
   run_options.watchers.terminal = [](const std::string& path) {
     std::fprintf(stderr, "console: %s   (any terminal program; Ctrl-C here ends the run)\n",

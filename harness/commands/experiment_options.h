@@ -23,6 +23,7 @@ struct ExperimentOptions {
   bool json = false;
   bool quiet = false;
   bool no_report = false;
+  bool no_image = false;
 };
 
 // "lockstep" or "real"; empty `carrier` is what the clock needs. Throws FixtureError for a carrier

@@ -38,6 +38,7 @@ struct Recorded {
   std::uint64_t seed = 0;
   bool by_wall_clock = false;
   std::string carrier;
+  std::filesystem::path image;  // of the virtual board, in the folder
 };
 
 nlohmann::json result_in(const std::filesystem::path& folder) {
@@ -58,9 +59,10 @@ Recorded recorded_in(const std::filesystem::path& folder) {
                          result.at("status").dump(),
                          "\"complete\": a run that was cut short has no whole record to compare");
     }
+    const auto image = result.value("image", nlohmann::json::object()).value("file", "");
     return {folder / result.at("experiment").at("file").get<std::string>(),
             result.at("seed").get<std::uint64_t>(), result.at("clock") == "real",
-            result.at("carrier").get<std::string>()};
+            result.at("carrier").get<std::string>(), image.empty() ? "" : folder / image};
   } catch (const nlohmann::json::exception& error) {
     throw FixtureError({(folder / "result.json").string()}, error.what(), "a run's result.json");
   }
@@ -133,12 +135,27 @@ int compare_verdicts(const std::filesystem::path& recorded, const RunResult& run
   return kExitPass;
 }
 
+// BBMC's runs are judged in memory, those of another controller as whole runs.
+ShrunkCase shrunk_case(const ExperimentFixture& fixture, const RunOptions& options) {
+  if (!options.external && options.firmware.empty()) {
+    return shrink(fixture, *options.seed);
+  }
+  auto plain = fixture;
+  plain.experiment.seed = *options.seed;
+  return shrink(plain, [&](const ExperimentFixture& smaller) {
+    const TemporaryFolder folder;
+    auto trial = options;
+    trial.out = folder.path();
+    const auto run = run_experiment(smaller, trial);
+    return run.complete ? run.judgement.checks : std::vector<Check>{};
+  });
+}
+
 // The smallest run that fails in the same way, as a run folder of its own.
-int shrink_run(const ExperimentFixture& fixture, std::uint64_t seed, const ReplayOptions& options) {
-  const auto shrunk = shrink(fixture, seed);
-  RunOptions run_options;
+int shrink_run(const ExperimentFixture& fixture, RunOptions run_options,
+               const ReplayOptions& options) {
+  const auto shrunk = shrunk_case(fixture, run_options);
   run_options.out = options.out.empty() ? "runs" : options.out;
-  run_options.seed = seed;
   const auto run = run_experiment(shrunk.fixture, run_options);
   const bool reproduces = std::any_of(
       run.judgement.checks.begin(), run.judgement.checks.end(), [&](const Check& check) {
@@ -191,14 +208,17 @@ bool is_as_recorded(const std::filesystem::path& folder) {
 }
 
 // Who controlled, beside BBMC: what is not in the folder cannot be played again.
-void choose_recorded_controller(const std::filesystem::path& folder, const std::string& carrier,
+void choose_recorded_controller(const std::filesystem::path& folder, const Recorded& recorded,
                                 RunOptions& options) {
   constexpr std::string_view kProcess = "process:";
+  const auto& carrier = recorded.carrier;
   if (carrier.starts_with(kProcess)) {
     options.external = ExternalController{.command = carrier.substr(kProcess.size())};
+  } else if (carrier == "virtual board" && !recorded.image.empty()) {
+    options.firmware = recorded.image;
   } else if (carrier == "virtual board" || carrier.starts_with("external:")) {
     throw FixtureError({(folder / "result.json").string(), 0, "carrier"}, '"' + carrier + '"',
-                       "a run of BBMC or of a process: the folder does not hold this controller; "
+                       "a run whose controller the folder holds or names: this one does not; "
                        "run the experiment in its inputs with --controller");
   }
 }
@@ -211,13 +231,10 @@ int execute_replay(const ReplayOptions& options) {
   }
   const auto fixture = load_experiment(recorded.experiment);
   RunOptions run_options;
-  choose_recorded_controller(folder, recorded.carrier, run_options);
-  if (options.shrink && run_options.external) {
-    throw FixtureError({"command line", 0, "--shrink"}, '"' + recorded.carrier + '"',
-                       "a run of BBMC");
-  }
+  choose_recorded_controller(folder, recorded, run_options);
   if (options.shrink && !recorded.by_wall_clock) {
-    return shrink_run(fixture, recorded.seed, options);
+    run_options.seed = recorded.seed;
+    return shrink_run(fixture, run_options, options);
   }
   if (recorded.by_wall_clock) {
     return replay_inputs(fixture, recorded.seed, options);

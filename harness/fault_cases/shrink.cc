@@ -23,16 +23,14 @@ constexpr double kSmallestNumber = 1e-3;
 constexpr double kSmallestTime_s = 1e-3;
 
 // The first requirement that the run breaks; none when it breaks none or cannot be.
-std::optional<Check> broken_rule(const ExperimentFixture& fixture, std::uint64_t seed,
+std::optional<Check> broken_rule(const ExperimentFixture& fixture, const CaseJudge& judge,
                                  const std::string& wanted) {
   try {
-    const auto reference = run_reference(fixture, seed);
-    const auto prepared = prepare(fixture.experiment.faults, fixture, *reference);
-    const auto verdict = judge_case(fixture, prepared, *reference, seed);
-    if (verdict.verdict() != Verdict::kFail) {
+    const auto checks = judge(fixture);
+    if (worst_of(checks) != Verdict::kFail) {
       return std::nullopt;  // one that cannot be judged is no smaller failure
     }
-    for (const auto& check : verdict.checks) {
+    for (const auto& check : checks) {
       if (check.verdict == Verdict::kFail && (wanted.empty() || check.name == wanted)) {
         return check;
       }
@@ -60,8 +58,8 @@ std::vector<double> simpler(double value) {
 
 class Shrinker {
  public:
-  Shrinker(ExperimentFixture fixture, std::uint64_t seed, std::string rule)
-      : best_(std::move(fixture)), seed_(seed), rule_(std::move(rule)) {}
+  Shrinker(ExperimentFixture fixture, const CaseJudge& judge, std::string rule)
+      : best_(std::move(fixture)), judge_(judge), rule_(std::move(rule)) {}
 
   void run() {
     bool smaller = true;
@@ -89,7 +87,7 @@ class Shrinker {
     auto candidate = best_;
     change(candidate.experiment);
     ++trials_;
-    if (!broken_rule(candidate, seed_, rule_)) {
+    if (!broken_rule(candidate, judge_, rule_)) {
       return false;
     }
     best_ = std::move(candidate);
@@ -202,7 +200,7 @@ class Shrinker {
   }
 
   ExperimentFixture best_;
-  std::uint64_t seed_;
+  const CaseJudge& judge_;
   std::string rule_;
   std::size_t trials_ = 0;
 };
@@ -210,19 +208,29 @@ class Shrinker {
 }  // namespace
 
 ShrunkCase shrink(const ExperimentFixture& failing, std::uint64_t seed) {
+  auto plain = without_expectations(failing);
+  plain.experiment.seed = seed;
+  return shrink(plain, [seed](const ExperimentFixture& fixture) {
+    const auto reference = run_reference(fixture, seed);
+    const auto prepared = prepare(fixture.experiment.faults, fixture, *reference);
+    return judge_case(fixture, prepared, *reference, seed).checks;
+  });
+}
+
+ShrunkCase shrink(const ExperimentFixture& failing, const CaseJudge& judge) {
   if (failing.experiment.faults.empty()) {
     throw FixtureError({.file = failing.file.string()}, "a run without faults",
                        "one with faults: only those are judged by requirements");
   }
-  auto plain = without_expectations(failing);
+  auto plain = failing;
   plain.experiment.windows.resize(1);
   plain.experiment.budgets.clear();
-  const auto broken = broken_rule(plain, seed, "");
+  const auto broken = broken_rule(plain, judge, "");
   if (!broken) {
     throw FixtureError({.file = failing.file.string()}, "a run that breaks no requirement",
                        "a failing one");
   }
-  Shrinker shrinker(std::move(plain), seed, broken->name);
+  Shrinker shrinker(std::move(plain), judge, broken->name);
   shrinker.run();
 
   ShrunkCase shrunk;
@@ -235,12 +243,11 @@ ShrunkCase shrink(const ExperimentFixture& failing, std::uint64_t seed) {
   experiment.title = "Smallest run found that breaks " + shrunk.rule;
   experiment.description =
       fmt::format("From {}, in {} trials.", failing.experiment.name, shrunk.trials);
-  experiment.seed = seed;
   shrunk.fixture.sources.front().text = to_toml(shrunk.fixture);
   CanonicalHash hash;
   hash.add(shrunk.fixture.sources.front().text);
   shrunk.fixture.hash = hash.value();
-  if (const auto again = broken_rule(shrunk.fixture, seed, shrunk.rule)) {
+  if (const auto again = broken_rule(shrunk.fixture, judge, shrunk.rule)) {
     shrunk.reason = again->reason;
   }
   return shrunk;

@@ -7,8 +7,11 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
+#include <vector>
 
+#include "harness/checks/check.h"
 #include "harness/experiment/experiment_fixture.h"
 
 namespace towbench::harness {
@@ -20,7 +23,12 @@ struct ShrunkCase {
   std::size_t trials = 0;
 };
 
+// What is judged of one run with its faults. FixtureError: it cannot be run.
+using CaseJudge = std::function<std::vector<Check>(const ExperimentFixture&)>;
+
 // Throws FixtureError when the experiment has no faults, or breaks no requirement.
+[[nodiscard]] ShrunkCase shrink(const ExperimentFixture& failing, const CaseJudge& judge);
+// Of BBMC, in memory.
 [[nodiscard]] ShrunkCase shrink(const ExperimentFixture& failing, std::uint64_t seed);
 
 }  // namespace towbench::harness

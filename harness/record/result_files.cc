@@ -17,27 +17,38 @@ json or_null(const std::optional<double>& value) {
   return value ? json(*value) : json(nullptr);
 }
 
+json image_json(const ImageIdentity& image) {
+  return {{"file", image.copy.string()},
+          {"name", image.name},
+          {"bytes", image.bytes},
+          {"sha256", image.sha256}};
+}
+
 json head(const ExperimentFixture& fixture, const RunIdentity& identity) {
   const auto& experiment = fixture.experiment;
-  return {{"schema", 1},
-          {"status", "incomplete"},
-          {"reason", "the run has not finished: it is under way or was killed"},
-          {"experiment",
-           {{"name", experiment.name},
-            {"title", experiment.title},
-            {"description", experiment.description},
-            {"file", identity.experiment_copy.string()}}},
-          {"clock", identity.clock},
-          {"carrier", identity.carrier},
-          {"fidelity", identity.fidelity},
-          {"seed", identity.seed},
-          {"version", TOWBENCH_VERSION},
-          {"hashes",
-           {{"rig", hash_text(fixture.rig.hash)},
-            {"controller", hash_text(fixture.controller.hash)},
-            {"experiment", hash_text(fixture.hash)}}},
-          {"machine", describe_machine()},
-          {"started_utc", identity.started_utc}};
+  json result = {{"schema", 1},
+                 {"status", "incomplete"},
+                 {"reason", "the run has not finished: it is under way or was killed"},
+                 {"experiment",
+                  {{"name", experiment.name},
+                   {"title", experiment.title},
+                   {"description", experiment.description},
+                   {"file", identity.experiment_copy.string()}}},
+                 {"clock", identity.clock},
+                 {"carrier", identity.carrier},
+                 {"fidelity", identity.fidelity},
+                 {"seed", identity.seed},
+                 {"version", TOWBENCH_VERSION},
+                 {"hashes",
+                  {{"rig", hash_text(fixture.rig.hash)},
+                   {"controller", hash_text(fixture.controller.hash)},
+                   {"experiment", hash_text(fixture.hash)}}},
+                 {"machine", describe_machine()},
+                 {"started_utc", identity.started_utc}};
+  if (identity.image) {
+    result["image"] = image_json(*identity.image);
+  }
+  return result;
 }
 
 json limits_json(const emulator::RigParameters& rig) {

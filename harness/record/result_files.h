@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "harness/experiment/experiment_fixture.h"
@@ -10,6 +11,14 @@
 #include "harness/lockstep/run_outcome.h"
 
 namespace towbench::harness {
+
+// An image that runs in the controller's place, as the run folder holds it.
+struct ImageIdentity {
+  std::filesystem::path copy{};  // relative to the folder; empty: only its digest is kept
+  std::string name{};
+  std::uint64_t bytes = 0;
+  std::string sha256{};
+};
 
 // What is known of a run before it starts.
 struct RunIdentity {
@@ -19,6 +28,7 @@ struct RunIdentity {
   std::uint64_t seed = 0;
   std::string started_utc;
   std::filesystem::path experiment_copy;  // relative to the folder
+  std::optional<ImageIdentity> image{};
 };
 
 // The first result.json: incomplete until the run has been judged.

@@ -65,6 +65,9 @@ std::string provenance_section(const RunContents& run, int level) {
   }
   html += entries("Version", member(result, "version"), false);
   html += entries("Fixture hash", member(result, "hashes"), true);
+  if (result.contains("image")) {
+    html += entries("Image", member(result, "image"), true);
+  }
   html += entries("Machine", member(result, "machine"), false);
   html += entries("Rows", member(result, "rows"), false);
   return html + "</dl>\n</section>\n";

@@ -2,6 +2,7 @@
 
 #include "harness/fixtures/canonical_hash.h"
 #include "harness/fixtures/fixture_error.h"
+#include "harness/proof/sha256.h"
 #include "harness/record/line_writer.h"
 #include "harness/record/run_folder.h"
 #include "harness/run/carrier_name.h"
@@ -33,7 +34,7 @@ void plan_board(RunPlan& plan) {
 void plan_external(RunPlan& plan) {
   plan.kind = RunKind::kExternal;
   plan.external = std::make_unique<ExternalRun>(plan.given, *plan.options.external, plan.seed,
-                                                plan.options.watchers);
+                                                plan.options.watchers, plan.options.reference);
   plan.fixture = plan.external->fixture();
 }
 
@@ -42,6 +43,20 @@ void plan_faults(RunPlan& plan) {
   plan.faults = std::make_unique<FaultedExperiment>(plan.given, plan.seed, kind_of(plan.options));
   plan.disturbance = Disturbance::kPlanned;
   plan.fixture = plan.faults->fixture();
+}
+
+// The image itself is an input: with it the folder replays.
+ImageIdentity keep_image(const RunOptions& options, const std::filesystem::path& folder) {
+  const auto name = options.firmware.filename();
+  ImageIdentity image{.name = name.string()};
+  if (options.keeps_image) {
+    image.copy = std::filesystem::path("inputs") / name;
+    std::filesystem::copy_file(options.firmware, folder / image.copy);
+  }
+  const auto digest = digest_of(options.firmware);
+  image.bytes = digest.bytes;
+  image.sha256 = digest.sha256;
+  return image;
 }
 
 RunKind kind_without_board(const RunPlan& plan) {
@@ -93,6 +108,9 @@ void begin_record(RunPlan& plan) {
   plan.folder = create_run_folder(options.out, given.experiment.name,
                                   hash_text(given.hash).substr(0, kShortHash));
   plan.identity.experiment_copy = copy_inputs(given.sources, plan.folder);
+  if (!options.firmware.empty()) {
+    plan.identity.image = keep_image(options, plan.folder);
+  }
   write_started(plan.folder, given, plan.identity);
   if (options.tap != nullptr) {
     options.tap->begins(plan.folder);
