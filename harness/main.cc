@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
                               add_replay,
                               add_report,
                               add_campaign,
+                              add_conform,
                               add_panel_elsewhere,
                               add_doctor,
                               add_completion,
