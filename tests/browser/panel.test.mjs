@@ -31,7 +31,7 @@ const { hostname, port, origin } = new URL(address);
 await withBrowser(async (context) => {
   const page = await context.newPage();
   // Generous: a test that only fails on a busy machine says nothing about the page.
-  page.setDefaultTimeout(Number(process.env.TOWBENCH_PATIENCE_MS ?? 90_000));
+  page.setDefaultTimeout(Number(process.env.TOWBENCH_PATIENCE_MS ?? 180_000));
   const noise = listen(page, origin);
   await page.setViewportSize({ width: 1440, height: 1100 });
 

@@ -42,6 +42,12 @@ stage_campaign() {
   count "$bench_program" campaign log-full --fresh --out "$build/campaign-log-full"
 }
 
+# Of controllers that the bench did not write.
+stage_other_controllers() {
+  built release towbench-bench c_pid
+  count python3 "$root/tests/clients/campaign_of_controllers.py" whole "$root" "$bench_program" "$build/release/tests/clients/c_pid"
+}
+
 # Every effect under two seeds, hidden by another generator: named, and nothing else, in 19 of 20.
 stage_diagnosis() {
   built release diagnose_campaign

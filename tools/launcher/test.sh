@@ -11,9 +11,9 @@ source "$root/tools/launcher/stages_guard.sh"
 # shellcheck source=tools/launcher/stages_release.sh
 source "$root/tools/launcher/stages_release.sh"
 
-guard_stages=(lint tests board carriers sanitize_thread sanitize_address fuzz fresh_start)
+guard_stages=(lint tests board sanitize_thread sanitize_address carriers fuzz fresh_start)
 quick_stages=(lint tests)
-release_stages=(attack long_tests alone tidy step_cost armhf package campaign diagnosis mutants guard_mutations slurm)
+release_stages=(attack long_tests alone tidy step_cost armhf package campaign other_controllers diagnosis mutants guard_mutations slurm)
 on_request_stages=(build_times carrier_table panel_cost)
 
 test_usage() {
@@ -32,12 +32,13 @@ guards main:
   tests             unit, integration and browser tests of the release build
   board             BBMC as a bare-metal image on the virtual board: the same duty to the last bit, and the
                     demo's experiments twice: loopback's verdicts, the same record to the last byte
-  carriers          the demo over serial lines, CAN and GPIO lines, and the carriers' own tests, in an
-                    emulated machine whose Debian kernel has both; a run by the wall clock
   sanitize_thread   threads and lock-free queues under the thread sanitizer: core, protocol, controller
   sanitize_address  memory under the address and undefined-behaviour sanitizers: core, protocol, board,
                     parsers of fixtures and faults, recorder, judge, report, panel
-  fuzz              every decoder and parser, ten seconds each (TOWBENCH_FUZZ_SECONDS to change)
+  carriers          the demo over serial lines, CAN and GPIO lines, and the carriers' own tests, in an
+                    emulated machine whose Debian kernel has both; a run by the wall clock
+  fuzz              every decoder and parser, ten seconds each (TOWBENCH_FUZZ_SECONDS to change), beside
+                    the carriers' machine
   fresh_start       a clone in a bare Debian 12, as root and as a user: ./towbench demo from nothing. Left out
                     where launcher, build files and packages are as when it passed last
 
@@ -50,6 +51,7 @@ with --all besides:
   armhf             the controller built for armhf, under qemu-user: the same duty to the last bit
   package           the .deb: built, checked by lintian, installed in a bare Debian 12, demo from an empty folder
   campaign          the standard fault campaign, some 3,000 cases, from scratch
+  other_controllers the standard campaign of controllers that the bench did not write: good and bad ones
   diagnosis         the campaign of hidden effects: named, and nothing else
   mutants           controllers with one reaction removed: the fault campaign must catch each
   guard_mutations   ten slips in the sources: the tests that guard main must catch each
@@ -96,7 +98,7 @@ run_test() {
 is_stage() { [[ -n $1 && " ${guard_stages[*]} ${release_stages[*]} ${on_request_stages[*]} " == *" $1 "* ]]; }
 
 run_stages() {
-  passed=0 failed=0 skipped=0 summary=''
+  passed=0 failed=0 skipped=0 summary='' fuzz_beside='' asked_for=("$@")
   local stage started status verdict failed_before whole=$SECONDS
   for stage in "$@"; do
     printf '\n== %s\n' "$stage"
@@ -118,6 +120,8 @@ run_stages() {
   ((passed)) || exit 99
   exit 0
 }
+
+is_asked_for() { [[ " ${asked_for[*]} " == *" $1 "* ]]; }
 
 # built PRESET [TARGET...]: build_preset, with the time it took in the summary.
 built() {
