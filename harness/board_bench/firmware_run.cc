@@ -155,6 +155,9 @@ class FirmwareLoop {
       const auto pending = script_.pending(now_ns);
       bench_.type(pending);
       script_.typed(pending.size());
+      if (outcome_.first_typed_ns == 0 && !pending.empty()) {
+        outcome_.first_typed_ns = now_ns;
+      }
     }
     const auto printed = bench_.serve();
     script_.hear(printed);

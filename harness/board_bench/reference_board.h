@@ -1,30 +1,18 @@
-// The same image on the same machine without the machine's faults: where the moments at which they
-// begin are found, and what they are judged beside. It runs before them.
+// The same image on the same machine without the machine's faults.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 
 #include "harness/experiment/experiment_fixture.h"
-#include "harness/fault_cases/case_record.h"
-#include "harness/record/temporary_folder.h"
+#include "harness/fault_cases/reference_run.h"
 
 namespace towbench::harness {
 
-class ReferenceBoard {
- public:
-  // Runs. Throws FixtureError when the image cannot be loaded.
-  ReferenceBoard(const ExperimentFixture& sound, const std::filesystem::path& image,
-                 std::uint64_t seed);
-
-  // Truth and events of the plant; rows and events of an image that tells them (debug_probe.h).
-  [[nodiscard]] const CaseRecord& record() const noexcept { return record_; }
-  // Its files, for those who judge and those who read.
-  void copy_to(const std::filesystem::path& folder) const;
-
- private:
-  TemporaryFolder files_;
-  CaseRecord record_;
-};
+// Its record has rows and events of an image that tells them (debug_probe.h). Throws FixtureError
+// when the image cannot be loaded.
+[[nodiscard]] std::shared_ptr<const ReferenceRun> run_reference_board(
+    const ExperimentFixture& sound, const std::filesystem::path& image, std::uint64_t seed);
 
 }  // namespace towbench::harness

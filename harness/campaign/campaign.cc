@@ -9,6 +9,7 @@
 #include "core/check.h"
 #include "harness/campaign/drawn_machines.h"
 #include "harness/fault_cases/case_run.h"
+#include "harness/fault_cases/machine_faults.h"
 #include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/canonical_hash.h"
 #include "harness/run/run_carrier.h"
@@ -94,15 +95,15 @@ void check_motions(const Campaign& campaign, const TableReader& reader) {
 }
 
 // What `base` names comes first; the file's own values stand instead of or behind it.
-void read_campaign(const std::filesystem::path& path, Campaign& campaign, CanonicalHash& hash) {
+void read_file(const std::filesystem::path& path, Campaign& campaign) {
   const auto file = FixtureFile::load(path);
-  hash.add(file.text());
+  campaign.texts.push_back(file.text());
   TableReader reader(file, file.table());
   std::string base;
   std::vector<std::string> motions;
   reader.text("base", base, "campaign whose motions and faults are tried first");
   if (!base.empty()) {
-    read_campaign(file.resolve(base, reader.place_of("base")), campaign, hash);
+    read_file(file.resolve(base, reader.place_of("base")), campaign);
   }
   reader.text("name", campaign.name, "short name");
   reader.text("title", campaign.title, "one line for a person");
@@ -119,6 +120,14 @@ void read_campaign(const std::filesystem::path& path, Campaign& campaign, Canoni
                "machines drawn at random, besides the nominal one");
   reader.value("spread", campaign.spread, core::between(0.001, 0.3),
                "largest relative difference of a drawn machine's parameters");
+  std::string other;
+  reader.text("for_any_controller", other,
+              "campaign that a program takes instead: its motions state their reference");
+  if (!other.empty()) {
+    campaign.for_any_controller = file.resolve(other, reader.place_of("for_any_controller"));
+  }
+  reader.value("without_fault", campaign.without_fault, core::Range{},
+               "whether each motion is judged without a fault too, by its budgets");
   for (auto& table : reader.tables("inject")) {
     campaign.entries.push_back(read_entry(table));
     check_entry(campaign.entries.back(), table);
@@ -130,10 +139,8 @@ void read_campaign(const std::filesystem::path& path, Campaign& campaign, Canoni
   }
   reader.finish();
   for (const auto& motion : motions) {
-    auto plain =
-        without_expectations(load_experiment(file.resolve(motion, reader.place_of("motions"))));
-    auto reference = run_reference(plain, plain.experiment.seed);
-    campaign.motions.push_back({std::move(plain), std::move(reference)});
+    campaign.motions.push_back(
+        load_motion(file.resolve(motion, reader.place_of("motions")), campaign.controller));
   }
   check_motions(campaign, reader);
 }
@@ -146,7 +153,84 @@ std::string this_program() {
   return bytes.str();
 }
 
+// What a controller cannot be given that is not BBMC.
+void leave_out_beyond_reach(Campaign& campaign) {
+  const bool is_image = !campaign.controller.external;
+  const auto reach = is_image ? FaultReach::kMachine : FaultReach::kMachineAndLink;
+  campaign.refused = {
+      "host: such a controller's host is its own",
+      is_image ? "link: an image on the virtual board has none"
+               : "link peer_killed, peer_restart, bus_off, baud_mismatch: without a link there is "
+                 "no run"};
+  std::vector<CampaignEntry> kept;
+  for (const auto& entry : campaign.entries) {
+    for (const auto& part : entry.carriers.empty() ? entry.parts : std::vector<std::string>{}) {
+      auto one = entry;
+      one.parts = {part};
+      std::erase_if(one.kinds, [&](const std::string& kind) {
+        Fault fault;
+        fault.place = *place_named(part);
+        fault.kind = find_fault(fault.place.part, kind)->kind;
+        return !is_within(fault, reach);
+      });
+      if (!one.kinds.empty()) {
+        kept.push_back(std::move(one));
+      }
+    }
+  }
+  campaign.entries = std::move(kept);
+  campaign.carriers.clear();
+}
+
+std::vector<std::string> refused_by_carriers() {
+  std::vector<std::string> refused;
+  for (const auto& row : fault_catalogue()) {
+    for (const auto carrier :
+         {CarrierKind::kInProcess, CarrierKind::kLocal, CarrierKind::kSerial, CarrierKind::kCan}) {
+      if (const auto why = why_not_over(carrier, row.kind); !why.empty()) {
+        refused.push_back(
+            fmt::format("{} {} over {}: {}", name_of(row.part), row.name, name_of(carrier), why));
+      }
+    }
+  }
+  return refused;
+}
+
+std::string fingerprint_of(const Campaign& campaign) {
+  CanonicalHash hash;
+  for (const auto& text : campaign.texts) {
+    hash.add(text);
+  }
+  for (const auto& motion : campaign.motions) {
+    for (const auto& source : motion.plain.sources) {
+      hash.add(source.text);
+    }
+  }
+  hash.add(fmt::format("{}/{}/{}", campaign.seeds, campaign.machines, campaign.spread));
+  hash.add(this_program());
+  add_identity(campaign.controller, hash);
+  return hash_text(hash.value());
+}
+
 }  // namespace
+
+CampaignMotion load_motion(const std::filesystem::path& path,
+                           const CandidateController& controller) {
+  auto motion = load_experiment(path);
+  return {.plain = controller.is_bbmc() ? without_expectations(motion) : std::move(motion)};
+}
+
+void run_reference(CampaignMotion& motion, const CandidateController& controller) {
+  if (!controller.is_bbmc()) {
+    motion.candidate_reference = reference_run_of(controller, motion.plain);
+    return;
+  }
+  if (!motion.plain.experiment.reference.empty()) {
+    throw FixtureError({motion.plain.file.string()}, "[[reference]]",
+                       "--controller process:COMMAND: BBMC has motions of its own");
+  }
+  motion.reference = run_reference(motion.plain, motion.plain.experiment.seed);
+}
 
 const CampaignMotion& Campaign::motion(const std::string& wanted) const {
   const auto found = std::find_if(motions.begin(), motions.end(), [&](const CampaignMotion& each) {
@@ -161,37 +245,38 @@ Campaign::Campaign(Campaign&&) noexcept = default;
 Campaign& Campaign::operator=(Campaign&&) noexcept = default;
 Campaign::~Campaign() = default;
 
-Campaign load_campaign(const std::filesystem::path& path, std::uint64_t seeds) {
+Campaign read_campaign(const std::filesystem::path& path, const CandidateController& controller) {
   Campaign campaign;
-  CanonicalHash hash;
-  read_campaign(path, campaign, hash);
+  campaign.controller = controller;
+  read_file(path, campaign);
   campaign.file = path;
+  for (const auto& entry : campaign.entries) {
+    check_carriers(campaign, entry);
+  }
+  return campaign;
+}
+
+Campaign load_campaign(const std::filesystem::path& path, std::uint64_t seeds,
+                       const CandidateController& controller) {
+  auto campaign = read_campaign(path, controller);
+  if (controller.external && !campaign.for_any_controller.empty()) {
+    campaign = read_campaign(std::filesystem::path(campaign.for_any_controller), controller);
+  }
   if (seeds != 0) {
     campaign.seeds = seeds;
     for (auto& entry : campaign.entries) {
       entry.seeds = 0;
     }
   }
-  for (const auto& row : fault_catalogue()) {
-    for (const auto carrier :
-         {CarrierKind::kInProcess, CarrierKind::kLocal, CarrierKind::kSerial, CarrierKind::kCan}) {
-      if (const auto why = why_not_over(carrier, row.kind); !why.empty()) {
-        campaign.refused.push_back(
-            fmt::format("{} {} over {}: {}", name_of(row.part), row.name, name_of(carrier), why));
-      }
-    }
+  if (controller.is_bbmc()) {
+    campaign.refused = refused_by_carriers();
+  } else {
+    leave_out_beyond_reach(campaign);
   }
-  for (const auto& entry : campaign.entries) {
-    check_carriers(campaign, entry);
+  for (auto& motion : campaign.motions) {
+    run_reference(motion, controller);
   }
-  for (const auto& motion : campaign.motions) {
-    for (const auto& source : motion.plain.sources) {
-      hash.add(source.text);
-    }
-  }
-  hash.add(fmt::format("{}/{}/{}", campaign.seeds, campaign.machines, campaign.spread));
-  hash.add(this_program());
-  campaign.fingerprint = hash_text(hash.value());
+  campaign.fingerprint = fingerprint_of(campaign);
   return campaign;
 }
 

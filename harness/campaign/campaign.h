@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/campaign/candidate_controller.h"
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/fault_cases/fault_case.h"
 #include "harness/fault_cases/motion_phases.h"
@@ -28,12 +29,21 @@ struct CampaignEntry {
   std::uint64_t seeds = 0;            // 0: as the campaign
 };
 
-// A motion on which faults are tried: an experiment without its expectations, and its reference
-// run.
+// A motion on which faults are tried, and its reference run, of BBMC or of the candidate
+// controller. What is typed to BBMC waits for no answer; an image's script waits for the image's
+// own words.
 struct CampaignMotion {
   ExperimentFixture plain;
-  std::unique_ptr<CaseRecord> reference;
+  std::unique_ptr<CaseRecord> reference{};
+  std::shared_ptr<const ReferenceRun> candidate_reference{};
+
+  [[nodiscard]] const CaseRecord& record() const noexcept {
+    return candidate_reference ? candidate_reference->record : *reference;
+  }
 };
+[[nodiscard]] CampaignMotion load_motion(const std::filesystem::path& path,
+                                         const CandidateController& controller);
+void run_reference(CampaignMotion& motion, const CandidateController& controller);
 
 class DrawnMachines;
 
@@ -48,9 +58,15 @@ struct Campaign {
   std::uint64_t seeds = 1;
   std::uint64_t machines = 0;  // drawn ones, besides the nominal one
   double spread = 0.1;         // they differ from it by up to so much, relative
+  // Of a campaign whose motions any controller can be given, which one that comes by itself takes
+  // instead of this.
+  std::filesystem::path for_any_controller;
+  bool without_fault = false;  // every motion is judged by its budgets too
+  CandidateController controller;
   std::filesystem::path file;
+  std::vector<std::string> texts;  // of the file and of those that it builds on
   std::vector<CampaignEntry> entries;
-  std::vector<CampaignMotion> motions;   // reference runs have been run
+  std::vector<CampaignMotion> motions;   // load_campaign(): reference runs have been run
   std::vector<std::string> carriers;     // empty: in one process
   std::vector<std::string> refused;      // "part kind over carrier: why"
   std::unique_ptr<DrawnMachines> drawn;  // once drawn (drawn_machines.h)
@@ -69,7 +85,8 @@ struct CampaignCase {
   std::string part;
   std::string kind;
   std::string moment;                  // phase or event; "built" for what is so from the start
-  std::vector<std::string> faults;     // in words; the first is the one that the case is about
+  std::vector<std::string> faults;     // in words; the first is the one that the case is about;
+                                       // none: the motion itself is judged
   std::size_t machine = 0;             // 0: nominal
   std::string carrier = "in-process";  // as `run --carrier` takes it
   // Of the same phase, tried in turn while the fault takes no effect at the moment before: an edge
@@ -77,8 +94,12 @@ struct CampaignCase {
   std::vector<double> further_moments_s{};
 };
 
+// The files alone: nothing has run. Throws FixtureError.
+[[nodiscard]] Campaign read_campaign(const std::filesystem::path& path,
+                                     const CandidateController& controller = {});
 // Throws FixtureError. `seeds` instead of every number of seeds in the fixture when it is not 0.
-[[nodiscard]] Campaign load_campaign(const std::filesystem::path& path, std::uint64_t seeds);
+[[nodiscard]] Campaign load_campaign(const std::filesystem::path& path, std::uint64_t seeds,
+                                     const CandidateController& controller = {});
 // The same list in the same order, on every machine.
 [[nodiscard]] std::vector<CampaignCase> cases_of(const Campaign& campaign);
 // The entries that ask for something that none of their motions has, in words. What was asked for

@@ -56,6 +56,11 @@ CaseVerdict verdict_on_record(const Campaign& campaign, const CampaignMotion& mo
 CaseVerdict verdict_of(const Campaign& campaign, const CampaignCase& one) {
   const auto& motion = motion_of(campaign, one);
   const auto plan = plan_of(one);
+  if (!campaign.controller.is_bbmc()) {
+    auto fixture = motion.plain;
+    add_faults(fixture, plan);
+    return judge_candidate(campaign.controller, fixture, motion.candidate_reference);
+  }
   const bool on_record =
       one.carrier != "in-process" || std::any_of(plan.begin(), plan.end(), [](const Fault& fault) {
         return fault.row().needs == FaultNeeds::kRecord;

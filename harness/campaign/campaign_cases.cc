@@ -42,6 +42,11 @@ class CaseList {
   explicit CaseList(const Campaign& campaign) : campaign_(campaign) {}
 
   std::vector<CampaignCase> build() {
+    if (campaign_.without_fault) {
+      for (const auto& motion : campaign_.motions) {
+        add_without_fault(motion.plain.experiment.name);
+      }
+    }
     for (const auto& entry : campaign_.entries) {
       const auto before = cases_.size();
       in_phase_.clear();
@@ -96,6 +101,16 @@ class CaseList {
     return entry.seeds == 0 ? campaign_.seeds : entry.seeds;
   }
 
+  void add_without_fault(const std::string& motion) {
+    CampaignCase one;
+    one.id = motion + "/no.fault";
+    one.motion = motion;
+    one.part = "no";
+    one.kind = "fault";
+    one.moment = "none";
+    cases_.push_back(one);
+  }
+
   // What is so from the start has no moment to draw: one case a machine.
   void add_built(const CampaignEntry& entry, const CampaignMotion& motion, const std::string& part,
                  const std::string& kind) {
@@ -115,10 +130,11 @@ class CaseList {
                   const std::string& kind, const FaultPlace& place) {
     Fault fault;
     fault.place = place;
-    const auto spans = phases_of(*motion.reference, trigger_axis(fault, *motion.reference));
+    const auto& reference = motion.record();
+    const auto spans = phases_of(reference, trigger_axis(fault, reference));
     // The motion itself; what is tried afterwards belongs to the script.
     const auto end_ns = onset_of({.kind = FaultTrigger::Kind::kEvent, .name = "motion_end"},
-                                 fault.place.axis, *motion.reference);
+                                 fault.place.axis, reference);
     for (const auto& phase : entry.phases) {
       std::vector<PhaseSpan> fitting;
       std::copy_if(spans.begin(), spans.end(), std::back_inserter(fitting),

@@ -241,11 +241,15 @@ std::string campaign_report(const CampaignReport& report, const Results& results
       "invalid; {} not run yet\n\n",
       report.title, name_of(sum.verdict()), sum.cases, sum.fired, sum.detected, sum.handled,
       sum.failed, sum.invalid, sum.missing);
-  text +=
+  if (!report.controller.empty()) {
+    text += fmt::format("Controller: `{}`\n\n", report.controller);
+  }
+  text += fmt::format(
       "Injected: made to happen. Fired: a plant or sensor signal differs from the fault-free "
-      "reference run. "
-      "Detected: the controller latched a fault. Handled: every requirement that applies held; a "
-      "fault that nobody can see is handled when nothing worse follows.\n\n";
+      "reference run. Detected: {}. Handled: every requirement that applies held; a fault that "
+      "nobody can see is handled when nothing worse follows.\n\n",
+      report.controller.empty() ? "the controller latched a fault"
+                                : "the drive ended earlier than in that run");
   text += fmt::format(
       "Failed and worst cases link to the folder of their run. Any other case, by the name in "
       "`results*.jsonl`, is run again with `{}`, which prints the folder.\n\n",
@@ -261,7 +265,7 @@ std::string campaign_report(const CampaignReport& report, const Results& results
     text += body.empty() ? "" : fmt::format("\n## {}\n\n{}", head, body);
   };
   section("Failed", complaints(report, results, "FAIL"));
-  section("Took no effect", complaints(report, results, "INVALID"));
+  section("Invalid: took no effect, or proves nothing", complaints(report, results, "INVALID"));
   section("Passed with a remark", remarks(results));
   section("Covered: cases of each kind at each moment", coverage(results));
   std::string refused;

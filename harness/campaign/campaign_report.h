@@ -44,6 +44,7 @@ struct CampaignSummary {
 // What the report says beside the results.
 struct CampaignReport {
   std::string title;
+  std::string controller;            // as --controller takes it; empty: BBMC
   std::vector<std::string> refused;  // kinds that a carrier cannot have, with the reason
   CampaignSummary sum;
   std::map<std::string, std::string> kept;  // case -> folder of its run, relative to the report

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/random.h"
-#include "harness/fault_cases/case_run.h"
 #include "harness/record/line_writer.h"
 
 namespace towbench::harness {
@@ -134,8 +133,10 @@ void write_machine(const Campaign& campaign, const CampaignMotion& motion,
 
   auto text = with_line(plain.sources.front().text, "rig", fmt::format("\"{}-drawn.toml\"", stem),
                         plain.file);
-  text = with_line(text, "controller",
-                   fmt::format("\"{}\"", path_from(plain.controller_file, folder)), plain.file);
+  if (!plain.controller_file.empty()) {
+    text = with_line(text, "controller",
+                     fmt::format("\"{}\"", path_from(plain.controller_file, folder)), plain.file);
+  }
   text = with_line(text, "seed", std::to_string(plain.experiment.seed + machine), plain.file);
   write_once(folder / (plain.experiment.name + ".toml"), text);
 }
@@ -143,7 +144,7 @@ void write_machine(const Campaign& campaign, const CampaignMotion& motion,
 }  // namespace
 
 DrawnMachines::DrawnMachines(const Campaign& campaign, std::filesystem::path folder)
-    : folder_(std::move(folder)) {
+    : folder_(std::move(folder)), controller_(campaign.controller) {
   for (std::size_t machine = 1; machine <= campaign.machines; ++machine) {
     const auto own = folder_of(folder_, machine);
     std::filesystem::create_directories(own);
@@ -162,10 +163,8 @@ const CampaignMotion& DrawnMachines::motion(std::size_t machine, const std::stri
     return each.plain.experiment.name == name;
   });
   if (found == motions_.end()) {
-    auto plain =
-        without_expectations(load_experiment(folder_of(folder_, machine) / (name + ".toml")));
-    auto reference = run_reference(plain, plain.experiment.seed);
-    motions_.push_back({std::move(plain), std::move(reference)});
+    motions_.push_back(load_motion(folder_of(folder_, machine) / (name + ".toml"), controller_));
+    run_reference(motions_.back(), controller_);
     found = motions_.end() - 1;
   }
   return *found;

@@ -32,6 +32,7 @@ class DrawnMachines {
 
  private:
   std::filesystem::path folder_;
+  CandidateController controller_;
   std::size_t machine_ = 0;
   std::vector<CampaignMotion> motions_;  // of that machine, as far as asked for
 };

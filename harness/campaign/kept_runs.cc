@@ -7,6 +7,7 @@
 
 #include "harness/campaign/campaign_report.h"
 #include "harness/campaign/drawn_machines.h"
+#include "harness/campaign/shell_words.h"
 #include "harness/fault_cases/faulted_experiment.h"
 #include "harness/record/line_writer.h"
 #include "harness/report/report.h"
@@ -86,6 +87,9 @@ std::string command_of(const Campaign& campaign, const json& line,
   if (one.carrier != "in-process") {
     text += " --carrier " + one.carrier;
   }
+  if (!campaign.controller.is_bbmc()) {
+    text += " --controller " + shell_quoted(campaign.controller.text);
+  }
   for (const auto& words : one.faults) {
     text += fmt::format(" --fault \"{}\"", words);
   }
@@ -98,6 +102,7 @@ std::filesystem::path keep_run(const Campaign& campaign, const CampaignCase& one
   options.out = folder / "runs";
   options.program = campaign.program;
   choose_carrier(one.carrier, options);
+  choose_candidate(campaign.controller, options);
   const auto run = run_experiment(experiment_of(campaign, one, folder), options);
   (void)write_report(run.folder);  // the folder says all, with a page or without
   return run.folder;

@@ -13,19 +13,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "harness/campaign/shell_words.h"
 #include "harness/record/line_writer.h"
 
 namespace towbench::harness {
 namespace {
-
-// For bash: nothing inside single quotes means anything.
-std::string quoted(const std::string& word) {
-  std::string text = "'";
-  for (const char letter : word) {
-    text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-  }
-  return text + "'";
-}
 
 // A program of the path, its output in files.
 pid_t start(const std::vector<std::string>& words, const std::filesystem::path& output,
@@ -85,13 +77,13 @@ std::string job_script(const SlurmArray& array) {
   for (const auto& line : array.directives) {
     text += "#SBATCH " + line + '\n';
   }
-  text += "exec " + quoted(array.program.string());
+  text += "exec " + shell_quoted(array.program.string());
   for (const auto& word : array.arguments) {
-    text += ' ' + quoted(word);
+    text += ' ' + shell_quoted(word);
   }
   return text +
          fmt::format(" \\\n  --shard \"$SLURM_ARRAY_TASK_ID/{}\" --workers 1 --quiet --out {}\n",
-                     array.tasks, quoted(array.folder.string()));
+                     array.tasks, shell_quoted(array.folder.string()));
 }
 
 std::string submit_and_wait(const SlurmArray& array, const std::vector<std::size_t>& shards,

@@ -16,10 +16,12 @@
 #include "harness/campaign/drawn_machines.h"
 #include "harness/campaign/kept_runs.h"
 #include "harness/campaign/results_file.h"
+#include "harness/campaign/shell_words.h"
 #include "harness/campaign/slurm_array.h"
 #include "harness/campaign/worker_pool.h"
 #include "harness/commands/command.h"
 #include "harness/commands/exit_codes.h"
+#include "harness/commands/experiment_options.h"
 #include "harness/commands/option_checks.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_paths.h"
@@ -30,10 +32,11 @@ namespace {
 
 struct CampaignOptions {
   std::string campaign = "standard";
-  std::string out = "runs/campaign";
+  std::string out;  // empty: default_folder()
   std::string shard = "1/1";
   std::string only;
   std::string keep;
+  std::string controller;
   std::vector<std::string> slurm_options;
   std::uint64_t seeds = 0;
   std::size_t workers = 0;
@@ -41,6 +44,11 @@ struct CampaignOptions {
   bool fresh = false;
   bool quiet = false;
 };
+
+// Results of BBMC are kept for the next call.
+const char* default_folder(const CampaignOptions& options) {
+  return options.controller.empty() ? "runs/campaign" : "runs/campaign-of-controller";
+}
 
 struct Shard {
   std::size_t index = 1;
@@ -167,6 +175,9 @@ void run_on_slurm(const CampaignOptions& options, const Campaign& campaign,
   if (options.seeds != 0) {
     array.arguments.insert(array.arguments.end(), {"--seeds", std::to_string(options.seeds)});
   }
+  if (!options.controller.empty()) {
+    array.arguments.insert(array.arguments.end(), {"--controller", options.controller});
+  }
   if (!options.only.empty()) {
     array.arguments.insert(array.arguments.end(), {"--only", options.only});
   }
@@ -201,8 +212,10 @@ void remove_results(const std::filesystem::path& folder, const Shard& shard) {
 // Which command keeps any case's run, in the words of this campaign's call.
 std::string keep_command(const CampaignOptions& options) {
   const auto seeds = options.seeds == 0 ? "" : fmt::format(" --seeds {}", options.seeds);
-  return fmt::format("./towbench campaign {}{} --out {} --keep CASE", options.campaign, seeds,
-                     options.out);
+  const auto controller =
+      options.controller.empty() ? "" : " --controller " + shell_quoted(options.controller);
+  return fmt::format("./towbench campaign {}{}{} --out {} --keep CASE", options.campaign, seeds,
+                     controller, options.out);
 }
 
 int keep_one(const CampaignOptions& options, const Campaign& campaign,
@@ -227,6 +240,7 @@ int report_all(const CampaignOptions& options, const Campaign& campaign,
   auto sum = summary_of(results);
   CampaignReport report;
   report.title = campaign.title;
+  report.controller = options.controller;
   report.refused = campaign.refused;
   sum.missing = left_over(all, options, shard, results).size();
   report.sum = sum;
@@ -257,9 +271,24 @@ int report_all(const CampaignOptions& options, const Campaign& campaign,
   return exit_code;
 }
 
-int execute_campaign(const CampaignOptions& options) {
+CandidateController controller_of(const std::string& text) {
+  RunOptions options;
+  choose_controller(text, options);
+  if (options.external && options.external->address) {
+    throw FixtureError({"command line", 0, "--controller"}, '"' + text + '"',
+                       "process:COMMAND or firmware:IMAGE.elf: a campaign starts its controller "
+                       "again for every case");
+  }
+  return {.external = options.external, .firmware = options.firmware, .text = text};
+}
+
+int execute_campaign(CampaignOptions& options) {
+  if (options.out.empty()) {
+    options.out = default_folder(options);
+  }
   const auto shard = parse_shard(options.shard);
-  auto campaign = load_campaign(find_campaign(options.campaign), options.seeds);
+  auto campaign = load_campaign(find_campaign(options.campaign), options.seeds,
+                                controller_of(options.controller));
   const std::filesystem::path folder = options.out;
   std::filesystem::create_directories(folder);
   campaign.drawn = std::make_unique<DrawnMachines>(campaign, folder);
@@ -267,7 +296,8 @@ int execute_campaign(const CampaignOptions& options) {
   if (!options.keep.empty()) {
     return keep_one(options, campaign, all);
   }
-  if (options.fresh) {
+  // What a command runs may have changed without its name.
+  if (options.fresh || campaign.controller.external) {
     remove_results(folder, shard);
   }
   if (options.slurm > 0) {
@@ -287,10 +317,16 @@ void add_campaign(CLI::App& app, int& exit_code) {
   verb->add_option("campaign", options->campaign,
                    "name of a campaign of fixtures/campaigns, or a path")
       ->capture_default_str();
-  verb->add_option("--out", options->out,
-                   "folder of results and matrix.md; what is there already is not run again")
-      ->check(folder_to_write())
-      ->capture_default_str();
+  verb->add_option(
+          "--out", options->out,
+          "folder of results and matrix.md; what is there already is not run again, but of "
+          "a program of your own [runs/campaign; with --controller "
+          "runs/campaign-of-controller]")
+      ->check(folder_to_write());
+  verb->add_option(
+      "--controller", options->controller,
+      "instead of BBMC: process:\"COMMAND {address}\", a program that the bench starts "
+      "for every case; firmware:IMAGE.elf, an image on the virtual AM335x");
   verb->add_option("--shard", options->shard, "i/n: every n-th case, from the i-th on")
       ->capture_default_str();
   verb->add_option("--workers", options->workers, "processes; as many as cores when 0")

@@ -25,7 +25,7 @@ void read_by_kind(const std::filesystem::path& path) {
   const auto& table = file.table();
   const auto folder = path.parent_path().filename();
   if (folder == "campaigns") {
-    (void)load_campaign(path, 0);
+    (void)read_campaign(path);
   } else if (folder == "devices") {
     (void)load_linux_devices(path);
   } else if (table.contains("rig") || table.contains("console") || table.contains("budget")) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "emulator/rig_parameters.h"
+#include "harness/external/reference_message.h"
 #include "protocol/carriers/local_socket.h"
 
 namespace towbench::harness {
@@ -28,13 +29,18 @@ double duty_of(const protocol::PwmDuty& duty) {
 }  // namespace
 
 ExternalBench::ExternalBench(const ExperimentFixture& fixture, const ExternalPlant& plant,
-                             protocol::TurnLink& link, FirmwareRecorder& recorder, CaseRecord* rows)
+                             protocol::TurnLink& link, const std::vector<LinkFault>& faults,
+                             FirmwareRecorder& recorder, CaseRecord* rows)
     : fixture_(fixture),
       plant_(plant),
       link_(link),
       recorder_(recorder),
       rows_(rows),
-      schedule_(fixture.experiment.reference) {
+      schedule_(fixture.experiment.reference),
+      to_plant_(*this, faults),
+      to_controller_(*this, faults) {
+  to_plant_.disturber.connect(plant_.node);
+  to_controller_.disturber.connect(link_.peer());
   plant_.node.connect(to_controller_);
 }
 
@@ -100,12 +106,16 @@ void ExternalBench::note(const protocol::PwmDuty& duty) noexcept {
 }
 
 // Ends the messages of a moment.
-void ExternalBench::note(const protocol::Advance& advance) noexcept {
-  const auto now_ns = plant_.node.now_ns();
-  if (advance.until_ns > now_ns && now_ns > row_ns_) {
-    write_row(now_ns);
-    row_ns_ = now_ns;
+void ExternalBench::ToPlant::handle(const protocol::Advance& advance) noexcept {
+  bench.plant_.heard.on(advance);
+  const auto now_ns = bench.plant_.node.now_ns();
+  if (advance.until_ns > now_ns && now_ns > bench.row_ns_) {
+    bench.write_row(now_ns);
+    bench.row_ns_ = now_ns;
   }
+  disturber.end_turn(now_ns);
+  bench.until_ns_ = advance.until_ns;
+  bench.plant_.node.on(advance);
 }
 
 void ExternalBench::write_row(Nanoseconds time_ns) noexcept {
@@ -141,13 +151,7 @@ void ExternalBench::write_row(Nanoseconds time_ns) noexcept {
 void ExternalBench::send_reference(Nanoseconds time_ns) noexcept {
   for (const auto which : core::kAxes) {
     if (fixture_.rig.parameters.axes[which].exists) {
-      const auto point = schedule_.at(which, time_ns);
-      link_.peer().on(protocol::Reference{
-          .axis = which,
-          .time_ns = time_ns,
-          .position_m = static_cast<float>(point.position_m),
-          .velocity_m_per_s = static_cast<float>(point.velocity_m_per_s),
-          .acceleration_m_per_s2 = static_cast<float>(point.acceleration_m_per_s2)});
+      to_controller_.disturber.pass(reference_message(schedule_, which, time_ns), time_ns);
     }
   }
 }
@@ -181,6 +185,7 @@ void ExternalBench::ToController::handle(const protocol::Advanced& advanced) noe
   if (bench.wants_reference_) {
     bench.send_reference(advanced.time_ns);
   }
+  disturber.end_turn(advanced.time_ns);
   bench.link_.peer().on(advanced);
 }
 

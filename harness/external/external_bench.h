@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <vector>
 
 #include "bbmc/system/telemetry_row.h"
 #include "emulator/plant_node.h"
@@ -16,6 +17,7 @@
 #include "harness/external/count_watch.h"
 #include "harness/external/standstill_watch.h"
 #include "harness/fault_cases/case_record.h"
+#include "harness/link/link_faults.h"
 #include "harness/lockstep/run_outcome.h"
 #include "harness/lockstep/script_loop.h"
 #include "harness/record/firmware_recorder.h"
@@ -33,9 +35,10 @@ struct ExternalPlant {
 
 class ExternalBench {
  public:
-  // `rows` takes the rows as well; may be null.
+  // `faults` strike what crosses; `rows` takes the rows as well and may be null.
   ExternalBench(const ExperimentFixture& fixture, const ExternalPlant& plant,
-                protocol::TurnLink& link, FirmwareRecorder& recorder, CaseRecord* rows);
+                protocol::TurnLink& link, const std::vector<LinkFault>& faults,
+                FirmwareRecorder& recorder, CaseRecord* rows);
 
   // From the greeting that has come to Bye. A controller that is lost or ends by itself is told in
   // RunOutcome::script_failure: the run is complete, and the drive is off.
@@ -45,26 +48,31 @@ class ExternalBench {
   using HostClock = std::chrono::steady_clock;
 
   struct ToPlant final : protocol::EachMessage<ToPlant> {
-    explicit ToPlant(ExternalBench& owner) noexcept : bench(owner) {}
+    ToPlant(ExternalBench& owner, const std::vector<LinkFault>& faults)
+        : bench(owner), disturber(faults, true) {}
     template <typename Message>
     void handle(const Message& message) noexcept {
       bench.plant_.heard.on(message);
       bench.note(message);
-      bench.plant_.node.on(message);
+      disturber.pass(message, bench.plant_.node.now_ns());
     }
+    void handle(const protocol::Advance& advance) noexcept;
     ExternalBench& bench;
+    LinkDisturber disturber;
   };
   struct ToController final : protocol::EachMessage<ToController> {
-    explicit ToController(ExternalBench& owner) noexcept : bench(owner) {}
+    ToController(ExternalBench& owner, const std::vector<LinkFault>& faults)
+        : bench(owner), disturber(faults, false) {}
     template <typename Message>
     void handle(const Message& message) noexcept {
       bench.counts_.on(message);
-      bench.link_.peer().on(message);
+      disturber.pass(message, bench.until_ns_);
     }
     void handle(const protocol::HelloReply& reply) noexcept;
     void handle(const protocol::Advanced& advanced) noexcept;
     void handle(const protocol::Bye& bye) noexcept;
     ExternalBench& bench;
+    LinkDisturber disturber;
   };
   struct AxisCommand {
     double duty = 0;  // -1 .. 1, 0 without the enable
@@ -74,7 +82,6 @@ class ExternalBench {
   template <typename Message>
   void note(const Message& /*message*/) noexcept {}
   void note(const protocol::PwmDuty& duty) noexcept;
-  void note(const protocol::Advance& advance) noexcept;
   void write_row(core::Nanoseconds time_ns) noexcept;
   void send_reference(core::Nanoseconds time_ns) noexcept;
   [[nodiscard]] bool over(core::Nanoseconds time_ns) noexcept;
@@ -88,13 +95,14 @@ class ExternalBench {
   FirmwareRecorder& recorder_;
   CaseRecord* rows_;
   ReferenceSchedule schedule_;
-  ToPlant to_plant_{*this};
-  ToController to_controller_{*this};
+  ToPlant to_plant_;
+  ToController to_controller_;
   CountWatch counts_;
   core::PerAxis<AxisCommand> commands_;
   bool wants_reference_ = false;
   bool ended_ = false;
   core::ErrorCode refusal_ = core::ErrorCode::kNone;
+  core::Nanoseconds until_ns_ = 0;  // what the plant runs to
   core::Nanoseconds row_ns_ = -1;
   core::Nanoseconds advanced_to_ns_ = 0;
   HostClock::time_point advanced_;

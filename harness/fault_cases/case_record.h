@@ -59,6 +59,9 @@ class CaseRecord final : public BenchRecorder, public emulator::PlantObserver {
   std::vector<ConsoleText>
       typed_lines;  // by the operator, each with the time at which it could be heard
   RunOutcome outcome;
+  // Rows and events of the log are BBMC's own. Of another controller they are the bench's, or there
+  // are none.
+  bool of_bbmc = true;
 
   // The controller's clock may be off: rows and events are kept by the bench's. Null: it is
   // right.

@@ -1,14 +1,16 @@
 #include "harness/fault_cases/machine_faults.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 
 #include <fmt/format.h>
 
 #include "harness/fault_cases/fault_case.h"
+#include "harness/fault_cases/motion_phases.h"
 #include "harness/fixtures/fixture_error.h"
+#include "harness/metrics/csv_table.h"
 #include "harness/record/event_lines.h"
 
 namespace towbench::harness {
@@ -18,13 +20,6 @@ void refuse(const Fault& fault, const char* allowed) {
   throw FixtureError({.file = "fault plan"},
                      fmt::format("\"{}\" with a controller that BBMC is not", describe(fault)),
                      allowed);
-}
-
-// What the controller's own record tells, beyond positions, speeds and lines of the machine.
-bool asks_controller(const FaultTrigger& trigger) {
-  return trigger.kind == FaultTrigger::Kind::kPhase ||
-         (trigger.kind == FaultTrigger::Kind::kEvent &&
-          (trigger.name == "motion" || trigger.name == "motion_end" || trigger.name == "fault"));
 }
 
 void add_events(ExperimentFixture& fixture, const std::vector<emulator::ScheduledEvent>& more) {
@@ -64,24 +59,108 @@ std::size_t contacts_in(const std::filesystem::path& folder) {
   return contacts;
 }
 
+Check fault_fired(const std::filesystem::path& folder, const std::filesystem::path& reference) {
+  double fired_s = -1;
+  for (const char* name : {"truth.csv", "log.csv"}) {
+    const double differs_s = first_difference_s(folder / name, reference / name);
+    fired_s = fired_s < 0 ? differs_s : differs_s < 0 ? fired_s : std::min(fired_s, differs_s);
+  }
+  Check fired;
+  fired.name = "fault_fired";
+  fired.meaning = "the record differs from the same controller's run without the fault";
+  fired.unit = "s";
+  fired.verdict = fired_s >= 0 ? Verdict::kPass : Verdict::kInvalid;
+  if (fired_s >= 0) {
+    fired.value = fired_s;
+  } else {
+    fired.reason = "no fault of the plan took effect";
+  }
+  return fired;
+}
+
+Check no_further_contact(const std::filesystem::path& folder,
+                         const std::filesystem::path& reference) {
+  Check contact;
+  contact.name = "no_hard_end_contact";
+  contact.meaning = "the carriage meets no hard end that it does not meet without the fault";
+  const auto contacts = contacts_in(folder);
+  const auto before = contacts_in(reference);
+  contact.value = static_cast<double>(contacts);
+  contact.max = static_cast<double>(before);
+  contact.verdict = contacts <= before ? Verdict::kPass : Verdict::kFail;
+  contact.reason =
+      contacts <= before ? "" : fmt::format("{} contacts, {} without", contacts, before);
+  return contact;
+}
+
+// The longest time for which an axis is driven with nearly all there is.
+double longest_at_limit_s(const std::filesystem::path& folder) {
+  constexpr double kNearlyAll_pct = 95;
+  const auto log = CsvTable::load(folder / "log.csv");
+  const auto time_s = log.column("time_s");
+  double longest_s = 0;
+  for (const auto axis : core::kAxes) {
+    const auto duty_pct = log.column(fmt::format("{}_duty_pct", core::name_of(axis)));
+    double since_s = -1;
+    for (std::size_t i = 0; i < duty_pct.size(); ++i) {
+      if (std::fabs(duty_pct[i]) < kNearlyAll_pct) {
+        since_s = -1;
+      } else if (since_s < 0) {
+        since_s = time_s[i];
+      }
+      longest_s = std::max(longest_s, since_s < 0 ? 0.0 : time_s[i] - since_s);
+    }
+  }
+  return longest_s;
+}
+
+Check no_longer_at_limit(const std::filesystem::path& folder,
+                         const std::filesystem::path& reference) {
+  constexpr double kLonger_s = 0.3;
+  Check check;
+  check.name = "no_sustained_full_duty";
+  check.meaning = "no axis is driven with 95 % or more for 0.3 s longer than without the fault";
+  check.source = "ANY-8";
+  check.unit = "s";
+  try {
+    check.value = longest_at_limit_s(folder);
+    check.max = longest_at_limit_s(reference) + kLonger_s;
+    const bool longer = *check.value > *check.max;
+    check.verdict = longer ? Verdict::kFail : Verdict::kPass;
+    check.reason = longer ? fmt::format("driven so for {:.3f} s in a row", *check.value) : "";
+  } catch (const CsvError& error) {
+    check.verdict = Verdict::kInvalid;
+    check.reason = error.what();
+  }
+  return check;
+}
+
 }  // namespace
 
-void refuse_faults_beyond_machine(const FaultPlan& faults) {
+bool is_within(const Fault& fault, FaultReach reach) {
+  if (fault.place.part == FaultPart::kLink) {
+    return reach == FaultReach::kMachineAndLink && !may_end_run(fault.kind);
+  }
+  return fault.place.part != FaultPart::kHost;
+}
+
+void refuse_faults_beyond(const FaultPlan& faults, FaultReach reach) {
   for (const Fault& fault : faults) {
-    if (fault.place.part == FaultPart::kLink || fault.place.part == FaultPart::kHost) {
-      refuse(fault,
-             "a fault of the machine: the link and the host of such a controller are its own");
+    if (!is_within(fault, reach)) {
+      refuse(fault, reach == FaultReach::kMachine
+                        ? "a fault of the machine: an image has no link, and its host is its own"
+                        : "a fault of the machine or of what crosses the link: such a "
+                          "controller's host is its own, and without a link there is no run");
     }
   }
 }
 
-PreparedPlan prepare_without_events(const ExperimentFixture& sound, const CaseRecord& reference) {
+PreparedPlan prepare_without_bbmc(const ExperimentFixture& sound, const CaseRecord& reference) {
   for (const Fault& fault : sound.experiment.faults) {
-    if (reference.log.empty() && asks_controller(fault.trigger)) {
-      refuse(
-          fault,
-          "a time, a position, a speed or the edge of a line: this controller tells nobody of its "
-          "motions and faults");
+    const bool asks_controller =
+        fault.trigger.kind == FaultTrigger::Kind::kEvent && fault.trigger.name == "fault";
+    if (asks_controller && !tells_of_itself(reference)) {
+      refuse(fault, "another moment: this controller tells nobody of the faults that it finds");
     }
   }
   return prepare(sound.experiment.faults, sound, reference);
@@ -111,32 +190,8 @@ std::optional<ExperimentFixture> pressed_where_welded(const ExperimentFixture& s
 
 std::vector<Check> judge_beside_reference(const std::filesystem::path& folder,
                                           const std::filesystem::path& reference) {
-  double fired_s = -1;
-  for (const char* name : {"truth.csv", "log.csv"}) {
-    const double differs_s = first_difference_s(folder / name, reference / name);
-    fired_s = fired_s < 0 ? differs_s : differs_s < 0 ? fired_s : std::min(fired_s, differs_s);
-  }
-  Check fired;
-  fired.name = "fault_fired";
-  fired.meaning = "the record differs from the same controller's run without the fault";
-  fired.unit = "s";
-  fired.verdict = fired_s >= 0 ? Verdict::kPass : Verdict::kInvalid;
-  if (fired_s >= 0) {
-    fired.value = fired_s;
-  } else {
-    fired.reason = "no fault of the plan took effect";
-  }
-  Check contact;
-  contact.name = "no_hard_end_contact";
-  contact.meaning = "the carriage meets no hard end that it does not meet without the fault";
-  const auto contacts = contacts_in(folder);
-  const auto before = contacts_in(reference);
-  contact.value = static_cast<double>(contacts);
-  contact.max = static_cast<double>(before);
-  contact.verdict = contacts <= before ? Verdict::kPass : Verdict::kFail;
-  contact.reason =
-      contacts <= before ? "" : fmt::format("{} contacts, {} without", contacts, before);
-  return {fired, contact};
+  return {fault_fired(folder, reference), no_further_contact(folder, reference),
+          no_longer_at_limit(folder, reference)};
 }
 
 }  // namespace towbench::harness

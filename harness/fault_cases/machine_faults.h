@@ -13,13 +13,18 @@
 
 namespace towbench::harness {
 
-// Throws FixtureError for a fault that needs more than the machine: a link, or a host.
-void refuse_faults_beyond_machine(const FaultPlan& faults);
+// What of the bench's a controller meets: an image on the virtual board has no link, a program of
+// its own has one, and the host of both is their own.
+enum class FaultReach : std::uint8_t { kMachine, kMachineAndLink };
+
+// Throws FixtureError for a fault that needs more. A link that ends the run ends the machine too.
+void refuse_faults_beyond(const FaultPlan& faults, FaultReach reach);
+[[nodiscard]] bool is_within(const Fault& fault, FaultReach reach);
 
 // The plan of a sound experiment, with its moments. Throws FixtureError for one that the reference
 // run does not meet, or that only a controller with a record of its own would tell.
-[[nodiscard]] PreparedPlan prepare_without_events(const ExperimentFixture& sound,
-                                                  const CaseRecord& reference);
+[[nodiscard]] PreparedPlan prepare_without_bbmc(const ExperimentFixture& sound,
+                                                const CaseRecord& reference);
 // As events and as built.
 [[nodiscard]] ExperimentFixture with_faults(const ExperimentFixture& sound,
                                             const PreparedPlan& prepared);
@@ -28,8 +33,9 @@ void refuse_faults_beyond_machine(const FaultPlan& faults);
 [[nodiscard]] std::optional<ExperimentFixture> pressed_where_welded(const ExperimentFixture& sound,
                                                                     const PreparedPlan& prepared);
 
-// From the records of both runs: whether anything differs (INVALID when nothing does), and whether
-// the carriage met a hard end that it did not meet without.
+// From the records of both runs: whether anything differs (INVALID when nothing does), whether the
+// carriage met a hard end that it did not meet without, and ANY-8: whether an axis is at its limit
+// for longer. INVALID when a record cannot be read.
 [[nodiscard]] std::vector<Check> judge_beside_reference(const std::filesystem::path& folder,
                                                         const std::filesystem::path& reference);
 

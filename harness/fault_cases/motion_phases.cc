@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "harness/fault_cases/truth_phases.h"
+
 namespace towbench::harness {
 namespace {
 
@@ -67,11 +69,13 @@ std::optional<core::Nanoseconds> event_onset(const std::string& name, const Case
     }
     return std::nullopt;
   };
-  if (name == "motion") {
-    return controller(Kind::kMotionStarted, true);
-  }
-  if (name == "motion_end") {
-    return controller(Kind::kMotionEnded, true);
+  if (name == "motion" || name == "motion_end") {
+    const bool begin = name == "motion";
+    if (tells_of_itself(reference)) {
+      return controller(begin ? Kind::kMotionStarted : Kind::kMotionEnded, true);
+    }
+    const auto travel = travel_of(reference, first_to_travel(reference));
+    return travel ? std::optional(begin ? travel->from_ns : travel->to_ns) : std::nullopt;
   }
   if (name == "fault") {
     return controller(Kind::kFaultLatched, false);
@@ -108,7 +112,14 @@ std::optional<core::Nanoseconds> crossing(const CaseRecord& reference, double le
 
 }  // namespace
 
+bool tells_of_itself(const CaseRecord& run) noexcept {
+  return run.of_bbmc && !run.log.empty();
+}
+
 std::vector<PhaseSpan> phases_of(const CaseRecord& run, core::Axis axis) {
+  if (!tells_of_itself(run)) {
+    return phases_of_truth(run, axis);
+  }
   std::vector<PhaseSpan> spans;
   for (std::size_t i = 0; i < run.log.size(); ++i) {
     const auto phase = phase_at(run, axis, i);
@@ -125,6 +136,9 @@ std::vector<PhaseSpan> phases_of(const CaseRecord& run, core::Axis axis) {
 }
 
 core::Axis moving_axis(const CaseRecord& run) {
+  if (!tells_of_itself(run)) {
+    return first_to_travel(run);
+  }
   for (const auto& event : run.controller_events) {
     if (event.kind == Kind::kMotionStarted && travels(run, event)) {
       return event.axis;

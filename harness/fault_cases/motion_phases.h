@@ -16,7 +16,11 @@ struct PhaseSpan {  // `phase`: one of kPhaseNames
   core::Nanoseconds to_ns = 0;
 };
 
-// Without gaps, in order; by the controller's own reference and mode.
+// Whether the record has motions and faults in the controller's own words. Where it has not, phases
+// and the begin and end of the motion are found in the machine's truth (truth_phases.h).
+[[nodiscard]] bool tells_of_itself(const CaseRecord& run) noexcept;
+
+// Without gaps, in order.
 [[nodiscard]] std::vector<PhaseSpan> phases_of(const CaseRecord& run, core::Axis axis);
 
 // When the trigger's condition is first met; none when it never is.

@@ -8,13 +8,16 @@
 namespace towbench::harness {
 namespace {
 
-// First control tick in which any axis is driven.
+// First control tick in which any axis is driven: by the controller's own state, and by its pins
+// where it tells of none.
 std::optional<double> first_motion_s(const RunData& data) {
   const auto time_s = data.log.column("time_s");
-  const auto state_y = data.log_of(core::Axis::kY, "state");
-  const auto state_x = data.log_of(core::Axis::kX, "state");
-  for (std::size_t i = 0; i < std::min(state_y.size(), state_x.size()); ++i) {
-    if (state_y[i] != 0.0 || state_x[i] != 0.0) {
+  const bool tells = !data.log_of(core::Axis::kY, "state").empty();
+  const char* const what = tells ? "state" : "duty_pct";
+  const auto y = data.log_of(core::Axis::kY, what);
+  const auto x = data.log_of(core::Axis::kX, what);
+  for (std::size_t i = 0; i < std::min(y.size(), x.size()); ++i) {
+    if (y[i] != 0.0 || x[i] != 0.0) {
       return time_s[i];
     }
   }

@@ -56,22 +56,34 @@ std::vector<Activation> activations(const RunData& data, InputLine line) {
   return found;
 }
 
-// The first row from `from_s` up to `to_s` in which the axis is driven that way and moves that way.
+// The first moment from `from_s` up to `to_s` at which the axis is driven that way and moves that
+// way, its motor too: a carriage that swings on its chain moves by itself. Later than some
+// milliseconds it takes as many in a row: a brake pushes with what it measured a tick ago.
 std::optional<double> driven_on(const RunData& data, Axis axis, double direction, double from_s,
                                 double to_s) {
   constexpr double kMoving_m_per_s = 0.05;
+  constexpr double kAtOnce_s = 8e-3;
+  constexpr double kInARow_s = 5e-3;
   const auto time_s = data.log.column("time_s");
   const auto duty_pct = data.log_of(axis, "duty_pct");
   const auto truth_s = data.truth.column("time_s");
   const auto speed_m_per_s = data.truth_of(axis, "carriage_speed_m_per_s");
+  const auto motor_rad_per_s = data.truth_of(axis, "motor_speed_rad_per_s");
+  if (speed_m_per_s.empty() || motor_rad_per_s.empty()) {
+    return std::nullopt;
+  }
   std::size_t at = 0;
-  for (std::size_t i = 0; i < duty_pct.size() && !speed_m_per_s.empty(); ++i) {
+  std::optional<double> since_s;
+  for (std::size_t i = 0; i < duty_pct.size() && time_s[i] < to_s; ++i) {
     while (at + 1 < truth_s.size() && truth_s[at] < time_s[i] - kSameMoment_s) {
       ++at;
     }
-    if (time_s[i] >= from_s - kSameMoment_s && time_s[i] < to_s && duty_pct[i] * direction > 0 &&
-        speed_m_per_s[at] * direction > kMoving_m_per_s) {
-      return time_s[i];
+    const bool outwards = time_s[i] >= from_s - kSameMoment_s && duty_pct[i] * direction > 0 &&
+                          speed_m_per_s[at] * direction > kMoving_m_per_s &&
+                          motor_rad_per_s[at] * direction > 0;
+    since_s = outwards ? std::optional(since_s.value_or(time_s[i])) : std::nullopt;
+    if (outwards && (time_s[i] < from_s + kAtOnce_s || time_s[i] - *since_s >= kInARow_s)) {
+      return since_s;
     }
   }
   return std::nullopt;
@@ -81,43 +93,60 @@ bool drives(double duty_pct) {
   return duty_pct != 0.0;
 }
 
-Check starts_undriven(const RunData& data) {
-  auto check = named("starts_undriven", "the first duty of each axis is zero", "ANY-1");
+Check starts_undriven(const RunData& data, const SafetyScope& scope) {
+  auto check = named("starts_undriven",
+                     "the first duty of each axis is zero, and so before a command", "ANY-1");
+  const auto time_s = data.log.column("time_s");
   for (const auto axis : core::kAxes) {
     const auto duty_pct = data.log_of(axis, "duty_pct");
-    if (!duty_pct.empty() && drives(duty_pct.front())) {
-      fail(check, fmt::format("{} starts with {:.1f} %", core::name_of(axis), duty_pct.front()));
+    for (std::size_t i = 0; i < duty_pct.size() && (i == 0 || time_s[i] < scope.first_typed_s);
+         ++i) {
+      if (drives(duty_pct[i]) && check.verdict == Verdict::kPass) {
+        fail(check, fmt::format("{} is driven with {:.1f} % at {:.4f} s", core::name_of(axis),
+                                duty_pct[i], time_s[i]));
+      }
     }
   }
   return check;
 }
 
-std::optional<Check> kill_removes_duty(const RunData& data) {
+// When the last row of the stretch ends in which an axis is driven; `from_s` when there is none.
+double driven_until_s(const RunData& data, double from_s, double to_s) {
+  const auto time_s = data.log.column("time_s");
+  double until_s = from_s;
+  for (const auto axis : core::kAxes) {
+    const auto duty_pct = data.log_of(axis, "duty_pct");
+    for (std::size_t i = 0; i < duty_pct.size() && time_s[i] < to_s; ++i) {
+      // A row's duty lasts until the next one.
+      const double row_ends_s = i + 1 < time_s.size() ? time_s[i + 1] : time_s[i];
+      if (drives(duty_pct[i]) && row_ends_s >= from_s) {
+        until_s = std::max(until_s, std::min(row_ends_s, to_s));
+      }
+    }
+  }
+  return until_s;
+}
+
+std::optional<Check> kill_removes_duty(const RunData& data, const SafetyScope& scope) {
   const auto pressed = activations(data, InputLine::kKillSwitch);
   if (pressed.empty()) {
     return std::nullopt;
   }
-  auto check =
-      named("kill_to_zero_duty",
-            "2 ms after the kill switch's edge nothing is driven, to the end of the run", "ANY-2");
+  const double edge_s = pressed.front().from_s;
+  const double end_s =
+      scope.operator_may_reset ? pressed.front().to_s : std::numeric_limits<double>::max();
+  if (end_s < edge_s + kReaction_s) {
+    return std::nullopt;  // it bounced, and what follows is the operator's
+  }
+  auto check = named("kill_to_zero_duty",
+                     scope.operator_may_reset
+                         ? "2 ms after the kill switch's edge nothing is driven until its release"
+                         : "2 ms after the kill switch's edge nothing is driven, to the end of "
+                           "the run",
+                     "ANY-2");
   check.unit = "s";
   check.max = kReaction_s;
-  const double edge_s = pressed.front().from_s;
-  double zero_s = edge_s;
-  for (const auto axis : core::kAxes) {
-    const auto duty_pct = data.log_of(axis, "duty_pct");
-    const auto time_s = data.log.column("time_s");
-    for (std::size_t i = 0; i < duty_pct.size(); ++i) {
-      // Driven from this row until the next one.
-      if (time_s[i] >= edge_s && drives(duty_pct[i])) {
-        zero_s = std::max(zero_s, i + 1 < time_s.size() ? time_s[i + 1] : time_s[i]);
-      }
-      if (time_s[i] < edge_s && i + 1 < time_s.size() && time_s[i + 1] >= edge_s &&
-          drives(duty_pct[i])) {
-        zero_s = std::max(zero_s, time_s[i + 1]);
-      }
-    }
-  }
+  const double zero_s = driven_until_s(data, edge_s, end_s);
   check.value = zero_s - edge_s;
   if (*check.value > kReaction_s + kSameMoment_s) {
     fail(check, fmt::format("pressed at {:.4f} s, driven until {:.4f} s", edge_s, zero_s));
@@ -193,11 +222,27 @@ Check no_runaway(const RunData& data) {
   return check;
 }
 
+void blame_who_drives_at_end(const RunData& data, std::vector<Check>& checks) {
+  const bool driven = std::any_of(core::kAxes.begin(), core::kAxes.end(), [&](Axis axis) {
+    const auto duty_pct = data.log_of(axis, "duty_pct");
+    return !duty_pct.empty() && drives(duty_pct.back());
+  });
+  for (auto& check : checks) {
+    if (driven && check.name == "comes_to_rest" && check.verdict == Verdict::kInvalid) {
+      check.reason += ", and is driven";
+      check.verdict = Verdict::kFail;
+    }
+  }
+}
+
 }  // namespace
 
-std::vector<Check> safety_checks(const RunData& data) {
-  std::vector<Check> checks{starts_undriven(data), no_hard_end(data), no_runaway(data)};
-  for (auto& check : {kill_removes_duty(data), end_stop_not_outwards(data)}) {
+std::vector<Check> safety_checks(const RunData& data, const SafetyScope& scope) {
+  std::vector<Check> checks{starts_undriven(data, scope), no_hard_end(data)};
+  if (scope.reference_is_known) {
+    checks.push_back(no_runaway(data));
+  }
+  for (auto& check : {kill_removes_duty(data, scope), end_stop_not_outwards(data)}) {
     if (check) {
       checks.push_back(*check);
     }
@@ -205,16 +250,20 @@ std::vector<Check> safety_checks(const RunData& data) {
   return checks;
 }
 
-std::vector<Check> safety_checks(const std::filesystem::path& folder,
-                                 const core::PerAxis<AxisLimits>& limits) {
+void judge_safety(const std::filesystem::path& folder, const core::PerAxis<AxisLimits>& limits,
+                  const SafetyScope& scope, std::vector<Check>& checks) {
+  std::vector<Check> added;
   try {
-    return safety_checks(load_run_data(folder, limits));
+    const auto data = load_run_data(folder, limits);
+    blame_who_drives_at_end(data, checks);
+    added = safety_checks(data, scope);
   } catch (const std::exception& error) {
     auto check = named("safety", "the record can be judged", "");
     check.verdict = Verdict::kInvalid;
     check.reason = error.what();
-    return {check};
+    added.push_back(std::move(check));
   }
+  checks.insert(checks.begin(), added.begin(), added.end());
 }
 
 }  // namespace towbench::harness

@@ -1,7 +1,5 @@
 // What every controller must keep, judged from the record of the wire and of the machine alone:
 // nothing here is the controller's own word.
-//
-// For rows whose reference_m lies in the machine's frame: those of an external controller.
 #pragma once
 
 #include <filesystem>
@@ -12,18 +10,28 @@
 
 namespace towbench::harness {
 
-//   starts_undriven          the first duty of each axis is zero
+//   starts_undriven          the first duty of each axis is zero, and every one before the operator
+//                            has typed anything
 //   kill_to_zero_duty        2 ms after the kill switch's edge no axis is driven, and none is to
-//   the
-//                            end of the run: nobody has reset anything
+//                            the end of the run, or until the operator may have reset it
 //   end_stop_not_outwards    2 ms after an end-stop's edge the axis is not driven towards it while
-//                            it is active and the axis moves that way, faster than 0.05 m/s
+//                            it is active and the axis moves that way, faster than 0.05 m/s; from
+//                            10 ms on, not for 5 ms in a row
 //   no_hard_end              no axis meets a hard end
 //   no_runaway               a driven axis is never farther than 0.25 m from its reference, as the
-//                            truth has it
+//                            truth has it; not of a controller that keeps its reference to itself
 // A requirement whose occasion did not come is left out. INVALID when the record cannot be read.
-[[nodiscard]] std::vector<Check> safety_checks(const std::filesystem::path& folder,
-                                               const core::PerAxis<AxisLimits>& limits);
-[[nodiscard]] std::vector<Check> safety_checks(const RunData& data);
+struct SafetyScope {
+  bool reference_is_known = true;   // reference_m of the log lies in the machine's frame
+  bool operator_may_reset = false;  // after the kill switch was released
+  double first_typed_s = 0;         // 0: nobody types
+};
+[[nodiscard]] std::vector<Check> safety_checks(const RunData& data, const SafetyScope& scope = {});
+
+// Puts them before the checks of a run that was judged. A machine that still moves when the record
+// ends proves nothing (comes_to_rest, INVALID), unless it is driven to the end: then the controller
+// has failed.
+void judge_safety(const std::filesystem::path& folder, const core::PerAxis<AxisLimits>& limits,
+                  const SafetyScope& scope, std::vector<Check>& checks);
 
 }  // namespace towbench::harness

@@ -13,6 +13,7 @@ struct RunOutcome {
   std::string reason;
   std::string script_failure;  // empty when every console step was carried out
   core::Nanoseconds end_ns = 0;
+  core::Nanoseconds first_typed_ns = 0;  // to an image; 0: nothing was
   core::Nanoseconds exchange_ns = 0;
   core::Nanoseconds control_period_ns = 0;
   double wall_time_s = 0;

@@ -5,6 +5,7 @@
 #include "harness/board_bench/firmware_run.h"
 #include "harness/fault_cases/machine_faults.h"
 #include "harness/fixtures/fixture_error.h"
+#include "harness/judge/safety_checks.h"
 
 namespace towbench::harness {
 namespace {
@@ -19,12 +20,13 @@ BoardRun::BoardRun(const ExperimentFixture& fixture, const RunOptions& options, 
     fixture_.experiment.budgets_apply = false;  // they speak of the script
   }
   if (!fixture.experiment.faults.empty()) {
-    refuse_faults_beyond_machine(fixture.experiment.faults);
+    refuse_faults_beyond(fixture.experiment.faults, FaultReach::kMachine);
     const auto sound = fixture_;
-    reference_ = std::make_unique<ReferenceBoard>(sound, options.firmware, seed);
-    const auto prepared = prepare_without_events(sound, reference_->record());
+    reference_ =
+        options.reference ? options.reference : run_reference_board(sound, options.firmware, seed);
+    const auto prepared = prepare_without_bbmc(sound, reference_->record);
     if (const auto pressed = pressed_where_welded(sound, prepared)) {
-      reference_ = std::make_unique<ReferenceBoard>(*pressed, options.firmware, seed);
+      reference_ = run_reference_board(*pressed, options.firmware, seed);
     }
     fixture_ = with_faults(sound, prepared);
   }
@@ -41,7 +43,8 @@ void BoardRun::keep_reference(const std::filesystem::path& folder) const {
   }
 }
 
-void BoardRun::judge_into(const std::filesystem::path& folder, Judgement& judgement) const {
+void BoardRun::judge_into(const std::filesystem::path& folder, const RunOutcome& outcome,
+                          Judgement& judgement) const {
   auto& checks = judgement.checks;
   const auto drop = [&](std::string_view name) {
     std::erase_if(checks, [&](const Check& check) { return check.name == name; });
@@ -64,6 +67,10 @@ void BoardRun::judge_into(const std::filesystem::path& folder, Judgement& judgem
     const auto beside = judge_beside_reference(folder, folder / kReferenceFolder);
     checks.insert(checks.begin(), beside.begin(), beside.end());
   }
+  const SafetyScope image{.reference_is_known = false,
+                          .operator_may_reset = true,
+                          .first_typed_s = core::seconds(outcome.first_typed_ns)};
+  judge_safety(folder, limits_of(fixture_.rig.parameters), image, checks);
   judgement.verdict = worst_of(checks);
 }
 

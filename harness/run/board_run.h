@@ -27,11 +27,12 @@ class BoardRun {
   // own below.
   void keep_reference(const std::filesystem::path& folder) const;
   // Adds the verdicts on faults and budgets, and drops what speaks of a sound board or machine.
-  void judge_into(const std::filesystem::path& folder, Judgement& judgement) const;
+  void judge_into(const std::filesystem::path& folder, const RunOutcome& outcome,
+                  Judgement& judgement) const;
 
  private:
   const RunOptions& options_;
-  std::unique_ptr<ReferenceBoard> reference_;  // of a machine with faults
+  std::shared_ptr<const ReferenceRun> reference_;  // of a machine with faults
   ExperimentFixture fixture_;
   std::vector<Check> checks_;
 };

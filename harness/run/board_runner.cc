@@ -20,7 +20,7 @@ RunOutcome BoardRunner::play() {
 void BoardRunner::judge_into(RunResult& result, const RunOutcome& outcome) {
   plan().board->keep_reference(plan().folder);
   Runner::judge_into(result, outcome);
-  plan().board->judge_into(plan().folder, result.judgement);
+  plan().board->judge_into(plan().folder, outcome, result.judgement);
 }
 
 }  // namespace towbench::harness

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -10,6 +11,7 @@
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/external/external_controller.h"
 #include "harness/fault_cases/fault_case.h"
+#include "harness/fault_cases/reference_run.h"
 #include "harness/judge/judge.h"
 #include "harness/lockstep/hand.h"
 #include "harness/lockstep/script_loop.h"
@@ -38,8 +40,12 @@ struct RunOptions {
   // An ELF image that runs on the virtual board instead of the experiment's controller; empty:
   // none.
   std::filesystem::path firmware;
+  bool keeps_image = true;  // in the run folder; otherwise its digest alone
   // Instead of the experiment's controller, for an experiment that states its reference itself.
   std::optional<ExternalController> external;
+  // The run without faults that the faults of such a controller are judged beside, made before for
+  // the same experiment, seed and controller; null: it is made here.
+  std::shared_ptr<const ReferenceRun> reference;
   // Its UART is a terminal for a person, by the wall clock, instead of the experiment's console.
   bool person_at_console = false;
   RunClock clock = RunClock::kLockstep;              // kReal needs two processes: not kInProcess

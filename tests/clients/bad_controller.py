@@ -9,6 +9,18 @@ sys.path[:0] = [root + "/clients/python", root + "/clients/python/examples"]
 import pid  # noqa: E402
 import towbench  # noqa: E402
 
+DEAF_TO = {
+    "deaf_to_kill": towbench.KILL_SWITCH,
+    "deaf_to_end_stops": towbench.HALLS,
+    "deaf_to_y_min": towbench.HALL_Y_MIN,
+    "deaf_to_y_max": towbench.HALL_Y_MAX,
+    "deaf_to_x_min": towbench.HALL_X_MIN,
+    "deaf_to_x_max": towbench.HALL_X_MAX,
+}
+# They go on whatever the count says, or their own fault would stop them.
+CREDULOUS = {*DEAF_TO, "forgets_the_kill", "trusts_the_encoder", "sign_reversed", "wraps_at_16_bits"}
+LATE_BY = {"one_tick_late": 1, "a_tenth_of_a_second_late": 100}  # exchanges
+
 if kind == "never_connects":
     sys.exit(0)
 bench = towbench.connect(address)
@@ -18,10 +30,12 @@ if kind == "one_axis":
     bench.greet(axes=("y",))
 if kind == "other_tick":
     bench.greet(tick_ns=50_000)
-bench.greet(reference=True, edges=kind == "takes_edges")
+bench.greet(reference=True, edges=kind == "takes_edges", exchange_ns=2_000_000 if kind == "one_tick_late" else 1_000_000)
+if kind == "waits_for_ever":
+    bench.silence_s = 60.0
 loops = [pid.Pid("y"), pid.Pid("x")]
 bench.enable("y", "x")
-stopped = False
+stopped = ""
 history = []
 
 
@@ -30,36 +44,40 @@ def count_as_seen(axis: str) -> int:
     return (count + 32768) % 65536 - 32768 if kind == "wraps_at_16_bits" else count
 
 
-while True:
-    now_s = bench.now_ns * 1e-9
-    lines = bench.lines
-    if kind == "deaf_to_kill":
-        lines &= ~towbench.KILL_SWITCH
-    if kind == "deaf_to_end_stops":
-        lines &= ~towbench.HALLS
-    if kind == "forgets_the_kill" and not lines & towbench.KILL_SWITCH:
-        stopped = False
-    far = any(abs(loop.error(bench)) > pid.LARGEST_ERROR_M for loop in loops)
-    if kind in ("forgets_the_kill", "deaf_to_kill", "deaf_to_end_stops", "trusts_the_encoder", "sign_reversed", "wraps_at_16_bits"):
-        far = False
-    stopped = stopped or bool(lines & (towbench.KILL_SWITCH | towbench.HALLS)) or far
+def duties_of_good_one() -> dict:
     duties = {}
     for loop in loops:
         true_count = bench.axes[loop.axis].count
         bench.axes[loop.axis].count = count_as_seen(loop.axis)
-        duties[loop.axis] = 0.0 if stopped else loop.duty(bench)
+        brakes = stopped == "end-stop"
+        duties[loop.axis] = loop.braking_duty(bench) if brakes else 0.0 if stopped else loop.duty(bench)
+        loop.count_before = bench.axes[loop.axis].count
         bench.axes[loop.axis].count = true_count
+    return duties
+
+
+while True:
+    now_s = bench.now_ns * 1e-9
+    bench.lines &= ~DEAF_TO.get(kind, 0)
+    if kind == "forgets_the_kill" and not bench.lines & towbench.KILL_SWITCH:
+        stopped = ""
+    if kind == "counts_on_over_gaps":
+        bench.counts.sequence_gaps = 0
+    reason = pid.reason_to_stop(bench, loops)
+    if reason in ("kill switch", "end-stop") or kind not in CREDULOUS:
+        stopped = "kill switch" if reason == "kill switch" else stopped or reason
+    duties = duties_of_good_one()
     if kind == "sign_reversed":
         duties = {axis: -duty for axis, duty in duties.items()}
     if kind == "starts_with_duty" and now_s < 0.05:
         duties["y"] = 0.02
     if kind == "full_duty_only":
         duties = {axis: (duty > 0) - (duty < 0) for axis, duty in duties.items()}
-    if kind == "a_tenth_of_a_second_late":
+    if kind in LATE_BY:
         history.append(duties)
-        duties = history[max(0, len(history) - 100)]
+        duties = history[max(0, len(history) - 1 - LATE_BY[kind])]
     for axis, duty in duties.items():
-        bench.drive(axis, duty, enable=True if kind == "deaf_to_kill" else not stopped)
+        bench.drive(axis, duty, enable=kind in LATE_BY or stopped != "kill switch")
     if now_s > 1.0:
         if kind == "both_channels":
             bench.send(towbench.PWM_DUTY, 0, 1, 100, 100, 1000, bench.axes["y"]._duty_sequence)
@@ -82,3 +100,7 @@ while True:
                 bench.port.send(bench.framing.frame(towbench.encode(towbench.HEARTBEAT, 0, 0)))
     if not bench.turn():
         break
+if kind == "stays_after_bye":
+    time.sleep(5)
+if kind == "ends_with_code_1":
+    sys.exit(1)

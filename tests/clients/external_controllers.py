@@ -85,7 +85,7 @@ def good() -> None:
         for record in ("log.csv", "truth.csv", "events.jsonl"):
             expect(f"{name}: the same {record} twice", filecmp.cmp(one / record, two / record, shallow=False))
     expect_pass("edges instead of the digest", TRAPEZOID, bad("takes_edges"))
-    for fault in ("kill_switch pressed at=1.2s", "encoder.y frozen phase=cruise after=0.1s", "encoder.y dead_a at=1.3s", "kill_switch welded at=1s", "endstop.y_max stuck_closed at=1s"):
+    for fault in ("kill_switch pressed at=1.2s", "encoder.y frozen phase=cruise after=0.1s", "encoder.y dead_a at=1.3s", "kill_switch welded at=1s", "endstop.y_max stuck_closed at=1s", "link.to_controller loss at=1s", "link.to_plant corrupt_byte at=1s"):
         expect_pass(f"with {fault}", TRAPEZOID, C_PID, "--fault", fault)
     replay = subprocess.run([program, "replay", str(one)], capture_output=True, text=True)
     expect("a run of a process replays", replay.returncode == 0, replay.stdout + replay.stderr)
@@ -135,9 +135,11 @@ def bad_input() -> None:
         ("a key of another motion", stray, PYTHON_PID, "a key without effect"),
         ("an empty command", TRAPEZOID, "process:", "process:COMMAND"),
         ("no address", TRAPEZOID, "external:nowhere", "local:PATH"),
-        ("a link fault", TRAPEZOID, PYTHON_PID, "a fault of the machine"),
+        ("a fault of the host", TRAPEZOID, PYTHON_PID, "a fault of the machine"),
+        ("a link that ends", TRAPEZOID, PYTHON_PID, "a fault of the machine"),
     ):
-        options = ["--fault", "link.to_plant loss at=1s"] if what == "a link fault" else []
+        faults = {"a fault of the host": "host missed_ticks at=1s", "a link that ends": "link.to_controller peer_killed at=1s"}
+        options = ["--fault", faults[what]] if what in faults else []
         arguments = [program, "run", file, "--no-report", "--out", str(work / "bad"), *(["--controller", controller] if controller else []), *options]
         done = subprocess.run(arguments, capture_output=True, text=True, timeout=60)
         lines = done.stderr.strip().splitlines()
@@ -145,6 +147,34 @@ def bad_input() -> None:
     expect("nothing is left of what was refused", not list((work / "bad").glob("*")))
 
 
-{"good": good, "deaf": deaf, "broken": broken, "bad_input": bad_input}[group]()
+def conform() -> None:
+    def findings(controller: str, *only: str) -> tuple:
+        done = subprocess.run([program, "conform", "--controller", controller, "--json", *only], capture_output=True, text=True, timeout=120)
+        return done.returncode, {line["name"]: (line["verdict"], line["reason"]) for line in json.loads(done.stdout or "[]")}
+
+    for name, controller in (("C", C_PID), ("Python", PYTHON_PID)):
+        code, found = findings(controller)
+        wrong = {duty: said for duty, said in found.items() if said[0] != "PASS"}
+        expect(f"{name} keeps {len(found)} duties", code == 0 and len(found) == 13, wrong)
+    for kind, duty in (
+        ("other_version", "greets"),
+        ("starts_with_duty", "begins_undriven"),
+        ("counts_on_over_gaps", "notices_loss"),
+        ("waits_for_ever", "stops_when_silent"),
+        ("stays_after_bye", "ends_after_bye"),
+        ("ends_with_code_1", "ends_after_bye"),
+        ("deaf_to_kill", "obeys_kill"),
+    ):
+        code, found = findings(bad(kind), "--only", duty)
+        broken_ones = [name for name, said in found.items() if said[0] == "FAIL"]
+        expect(f"{kind} breaks {duty}", duty in broken_ones and code != 0, (code, found))
+    code, found = findings(bad("never_connects"), "--only", "keeps_turns")
+    expect("one that never comes is INVALID", code == 4 and all(said[0] == "INVALID" for said in found.values()), found)
+    for what, controller in (("an image", "firmware:x.elf"), ("one that comes by itself", "external:local:/tmp/x/y"), ("BBMC", "")):
+        done = subprocess.run([program, "conform", "--controller", controller], capture_output=True, text=True)
+        expect(f"{what} is refused in one line", done.returncode == 2 and len(done.stderr.strip().splitlines()) == 1, done.stderr)
+
+
+{"good": good, "deaf": deaf, "broken": broken, "bad_input": bad_input, "conform": conform}[group]()
 subprocess.run(["rm", "-rf", str(work)], check=False)
 sys.exit(bool(failures))

@@ -1,6 +1,9 @@
 /* A PID position controller for two axes: pid ADDRESS, with ADDRESS = local:PATH. */
+#define _POSIX_C_SOURCE 200809L
 #include <math.h>
+#include <poll.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -14,10 +17,14 @@ static const double kInertia[] = {0.13, 0.06}; /* duty per m/s2: the amplifier s
 static const double kProportional = 4600.0, kIntegral = 20000.0,
                     kDerivative = 120.0; /* m/s2 per m, m s, m/s */
 static const double kFilter = 0.5, kPeriod_s = 1e-3, kLargestError_m = 0.01, kBrake = 20.0;
+/* More than friction takes, and no way made. */
+static const double kStallDuty = 0.04, kStall_s = 0.04;
+static const int64_t kStallCounts = 2;
+static const int kSilence_ms = 1000;
 
 typedef struct {
-  double integral, slope, before;
-  int64_t count_before;
+  double integral, slope, before, stalled_s;
+  int64_t count_before, still_count;
 } pid;
 
 static double error_of(const tb_bench* bench, int axis) {
@@ -33,6 +40,11 @@ static double duty_of(pid* loop, const tb_bench* bench, int axis) {
                                         kProportional * error + kIntegral * loop->integral +
                                         kDerivative * loop->slope);
   if (fabs(duty) < 1.0) loop->integral += error * kPeriod_s; /* no wind-up at the limit */
+  const int64_t count = bench->axis[axis].count;
+  const int stays = llabs(count - loop->still_count) <= kStallCounts;
+  const int stalls = (stays && fabs(duty) > kStallDuty) || fabs(duty) >= 1.0;
+  if (!stays) loop->still_count = count;
+  loop->stalled_s = stalls ? loop->stalled_s + kPeriod_s : 0;
   return duty;
 }
 
@@ -42,13 +54,14 @@ static double braking_duty(const pid* loop, const tb_bench* bench, int axis) {
   return -kInertia[axis] * kBrake * moved_m / kPeriod_s;
 }
 
-static const char* reason_to_stop(const tb_bench* bench) {
+static const char* reason_to_stop(const pid* loops, const tb_bench* bench) {
   const uint16_t halls = TB_HALL_Y_MIN | TB_HALL_Y_MAX | TB_HALL_X_MIN | TB_HALL_X_MAX;
   if (bench->lines & TB_KILL_SWITCH) return "kill switch";
   if (bench->lines & halls) return "end-stop";
   if (bench->counts.sequence_gaps) return "a message was lost";
   for (int i = 0; i < TB_AXES; ++i) {
     if (fabs(error_of(bench, i)) > kLargestError_m) return "tracking error";
+    if (loops[i].stalled_s > kStall_s) return "an axis does not follow its drive";
   }
   return NULL;
 }
@@ -63,8 +76,9 @@ static int exchange(int line, tb_bench* bench) {
     from += tb_feed(bench, bytes + from, to - from);
     if (tb_ended(bench)) return 0;
     if (tb_greeted(bench) || tb_turn_over(bench)) return 1;
-    const ssize_t got = read(line, bytes, sizeof bytes);
-    if (got <= 0) return 0;
+    struct pollfd waiting = {.fd = line, .events = POLLIN};
+    const ssize_t got = poll(&waiting, 1, kSilence_ms) > 0 ? read(line, bytes, sizeof bytes) : 0;
+    if (got <= 0) return 0; /* gone, or silent */
     from = 0;
     to = (size_t)got;
   }
@@ -88,7 +102,7 @@ int main(int argc, char** argv) {
   static tb_bench bench;
   static pid loops[TB_AXES];
   const char* stopped = NULL;
-  int killed = 0;
+  int killed = 0, brakes = 0;
   const int line = argc == 2 ? open_local(argv[1]) : -1;
   if (line < 0) return fprintf(stderr, "usage: pid local:PATH\n"), 2;
   tb_init(&bench, TB_STREAM, 3, 1000000, TB_DIGEST | TB_REFERENCE);
@@ -98,15 +112,17 @@ int main(int argc, char** argv) {
   tb_enable(&bench, 3);
   tb_end_turn(&bench);
   while (exchange(line, &bench)) {
-    const char* reason = stopped == NULL ? reason_to_stop(&bench) : NULL;
+    const char* reason = stopped == NULL ? reason_to_stop(loops, &bench) : NULL;
     if (reason != NULL) {
       stopped = reason;
       printf("%.3f s: %s\n", 1e-9 * (double)bench.now_ns, stopped);
     }
     if (bench.lines & TB_KILL_SWITCH) killed = 1;
+    /* Otherwise the count is not to be believed. */
+    brakes = !killed && stopped != NULL && strcmp(stopped, "end-stop") == 0;
     for (int i = 0; i < TB_AXES; ++i) {
-      const double duty = killed    ? 0
-                          : stopped ? braking_duty(&loops[i], &bench, i)
+      const double duty = brakes    ? braking_duty(&loops[i], &bench, i)
+                          : stopped ? 0
                                     : duty_of(&loops[i], &bench, i);
       tb_drive(&bench, i, duty, !killed);
       loops[i].count_before = bench.axis[i].count;

@@ -9,18 +9,15 @@ import towbench  # noqa: E402
 METRES_PER_COUNT = {"y": 2.24545e-6, "x": 1.34727e-6}
 INERTIA = {"y": 0.13, "x": 0.06}  # duty per m/s2: the amplifier sets the current
 PROPORTIONAL, INTEGRAL, DERIVATIVE = 4600.0, 20000.0, 120.0  # m/s2 per m, per m s, per m/s
-BRAKE = 20.0  # m/s2 per m/s
-LARGEST_ERROR_M = 0.01
-FILTER = 0.5  # share of the newest slope
+BRAKE, FILTER, LARGEST_ERROR_M = 20.0, 0.5, 0.01  # m/s2 per m/s, share of the newest slope, m
+STALL_DUTY, STALL_COUNTS, STALL_S = 0.04, 2, 0.04  # more than friction takes, and no way made
 
 
 class Pid:
     def __init__(self, axis: str) -> None:
         self.axis = axis
-        self.integral = 0.0
-        self.slope = 0.0
-        self.error_before = 0.0
-        self.count_before = 0
+        self.integral = self.slope = self.error_before = self.stalled_s = 0.0
+        self.count_before = self.still_count = 0
 
     def braking_duty(self, bench: towbench.Bench) -> float:
         moved_m = METRES_PER_COUNT[self.axis] * (bench.axes[self.axis].count - self.count_before)
@@ -40,6 +37,10 @@ class Pid:
         wanted = INERTIA[self.axis] * (acceleration + feedback)
         if abs(wanted) < 1.0:  # no wind-up while the duty is at its limit
             self.integral += error * period_s
+        stays = abs(bench.axes[self.axis].count - self.still_count) <= STALL_COUNTS
+        self.still_count = self.still_count if stays else bench.axes[self.axis].count
+        stalls = (stays and abs(wanted) > STALL_DUTY) or abs(wanted) >= 1.0
+        self.stalled_s = self.stalled_s + period_s if stalls else 0.0
         return max(-1.0, min(1.0, wanted))
 
 
@@ -54,9 +55,10 @@ def main() -> None:
             stopped = reason_to_stop(bench, loops)
             if stopped:
                 print(f"{bench.now_ns * 1e-9:.3f} s: {stopped}", flush=True)
+        killed = killed or bool(bench.lines & towbench.KILL_SWITCH)
+        brakes = stopped == "end-stop" and not killed  # otherwise the count is not to be believed
         for loop in loops:
-            killed = killed or bool(bench.lines & towbench.KILL_SWITCH)
-            duty = 0.0 if killed else loop.braking_duty(bench) if stopped else loop.duty(bench)
+            duty = loop.braking_duty(bench) if brakes else 0.0 if stopped else loop.duty(bench)
             bench.drive(loop.axis, duty, enable=not killed)
             loop.count_before = bench.axes[loop.axis].count
         if not bench.turn():
@@ -70,8 +72,8 @@ def reason_to_stop(bench: towbench.Bench, loops: list) -> str:
         return "end-stop"
     if bench.counts.sequence_gaps:
         return "a message was lost"
-    far = [loop.axis for loop in loops if abs(loop.error(bench)) > LARGEST_ERROR_M]
-    return f"tracking error of {far[0]}" if far else ""
+    lost = [p.axis for p in loops if abs(p.error(bench)) > LARGEST_ERROR_M or p.stalled_s > STALL_S]
+    return f"{lost[0]} does not follow" if lost else ""
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 /* A controller that nothing here has been made for: console with a prompt and questions, polled a
- * character at a time; a 1 kHz control interrupt in double precision; a 1 ms tick of priority 0; the
- * motor driven by the difference of both PWM channels, while the direction pins are outputs that
- * nobody sets; waits without WFI. */
+ * character at a time; a 1 kHz control interrupt in double precision; a 1 ms tick of priority 0;
+ * the motor driven by the difference of both PWM channels, while the direction pins are outputs
+ * that nobody sets; waits without WFI. */
 #include <math.h>
 #include <string.h>
 
@@ -20,7 +20,22 @@ static double history[2][131072]; /* as large as a real one's log */
 static volatile int motion_ended;
 static volatile u32 ticks;
 static int iteration, killed;
+static const char* stopped;
 static double target, integral, position_before;
+
+/* What a variant of it does wrong, for the campaign: the CMake file builds one image of each. */
+enum planted {
+  NOTHING,
+  DEAF_TO_KILL,
+  LATE_FOR_KILL,
+  DEAF_TO_END_STOPS,
+  TRUSTS_ENCODER,
+  STARTS_WITH_DUTY,
+  SIGN_REVERSED
+};
+#ifndef PLANTED
+#define PLANTED NOTHING
+#endif
 
 /* ---- console ---- */
 
@@ -103,9 +118,19 @@ static void console_setup(void) {
 
 typedef void (*handler)(void);
 handler handlers[128];
-static const u32 vectors[14] = {0xE59FF018, 0xE59FF018, 0xE59FF018, 0xE59FF018, 0xE59FF014,
-                                0xE24FF008, 0xE59FF010, 0xE59FF010, (u32)entry, (u32)on_abort,
-                                (u32)on_supervisor_call, (u32)on_abort, (u32)on_interrupt,
+static const u32 vectors[14] = {0xE59FF018,
+                                0xE59FF018,
+                                0xE59FF018,
+                                0xE59FF018,
+                                0xE59FF014,
+                                0xE24FF008,
+                                0xE59FF010,
+                                0xE59FF010,
+                                (u32)entry,
+                                (u32)on_abort,
+                                (u32)on_supervisor_call,
+                                (u32)on_abort,
+                                (u32)on_interrupt,
                                 (u32)on_abort};
 
 static void nobody(void) {}
@@ -135,6 +160,22 @@ static void drive(u32 subsystem, double percent) {
   H(subsystem + EPWM + (percent < 0 ? 0x12 : 0x14)) = 0;
   H(subsystem + EPWM + (percent < 0 ? 0x14 : 0x12)) = size;
 }
+/* Why the motor is left alone, or null: an end-stop, a count that does not follow. */
+static const char* reason_to_stop(double error, double duty, u32 count) {
+  static u32 still_count;
+  static int still_ticks;
+  const u32 end_stops = W(GPIO1 + 0x138) & 0xF0000u;
+  const int moved = (int)(count - still_count);
+  if (end_stops && PLANTED != DEAF_TO_END_STOPS) return "end-stop at ";
+  if (PLANTED == TRUSTS_ENCODER || PLANTED == SIGN_REVERSED || PLANTED == DEAF_TO_END_STOPS)
+    return 0;
+  if (error > 2000 || error < -2000) return "lost at ";
+  if (moved > 2 || moved < -2 || (duty < 5 && duty > -5)) {
+    still_count = count;
+    still_ticks = 0;
+  }
+  return ++still_ticks > 40 ? "stalled at " : 0;
+}
 static void control(void) {
   W(TIMER2 + 0x30) = 2;
   W(TIMER2 + 0x28) = 2;
@@ -148,10 +189,12 @@ static void control(void) {
   position_before = position;
   integral += error;
   double duty = 0.008 * error + 2e-6 * integral + 0.005 * (wanted - speed);
-  drive(PWMSS1, killed ? 0 : duty);
+  if (PLANTED == SIGN_REVERSED) duty = -duty;
+  if (!stopped) stopped = reason_to_stop(error, duty, W(PWMSS1 + EQEP));
+  drive(PWMSS1, killed || stopped ? 0 : duty);
   history[0][iteration] = position;
   history[1][iteration] = duty;
-  if (++iteration >= 3000 || killed) {
+  if (++iteration >= 3000 || killed || stopped) {
     drive(PWMSS1, 0);
     motion_ended = 1;
   }
@@ -163,8 +206,14 @@ static void tick(void) {
 }
 static void kill_switch(void) {
   if (W(GPIO1 + 0x30) & 1u << 14) {
-    drive(PWMSS1, 0);
-    killed = 1;
+    if (PLANTED == LATE_FOR_KILL) {
+      for (u32 from = ticks; ticks - from < 10;) { /* the tick nests */
+      }
+    }
+    if (PLANTED != DEAF_TO_KILL) {
+      drive(PWMSS1, 0);
+      killed = 1;
+    }
     W(GPIO1 + 0x30) = 1u << 14;
   }
 }
@@ -246,6 +295,7 @@ static void move(void) {
   integral = 0;
   position_before = START;
   motion_ended = killed = 0;
+  stopped = 0;
   W(CONTROL + 0x664) |= 2;
   H(PWMSS1 + EPWM + 0x12) = 0;
   H(PWMSS1 + EPWM + 0x14) = 0;
@@ -265,7 +315,8 @@ static void move(void) {
   W(TIMER5 + 0x38) &= ~1u;
   W(CONTROL + 0x664) &= ~2u;
   H(PWMSS1 + EPWM) |= 3;
-  text(killed ? "\r\nkilled at " : "\r\nEOR at ");
+  text("\r\n");
+  text(killed ? "killed at " : stopped ? stopped : "EOR at ");
   number((int)W(PWMSS1 + EQEP));
   text(" ticks ");
   number((int)ticks);
@@ -286,6 +337,11 @@ int main(void) {
   interrupt_setup(93, 0, tick);
   interrupt_setup(99, 2, kill_switch);
   device_setup();
+  if (PLANTED == STARTS_WITH_DUTY) {
+    drive(PWMSS1, 3);
+    W(CONTROL + 0x664) |= 2;
+    H(PWMSS1 + EPWM) &= 0xFFFC;
+  }
   for (int i = 0; i < 131072; ++i) history[0][i] = history[1][i] = 0;
   text("\033[2J\033[1;1Hservo is up\r\n");
   for (;;) {

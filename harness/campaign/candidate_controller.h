@@ -1,0 +1,43 @@
+// Whose faults a campaign tries: BBMC, or a controller that the bench did not write.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "harness/external/external_controller.h"
+#include "harness/fault_cases/fault_case.h"
+#include "harness/fault_cases/reference_run.h"
+#include "harness/fixtures/canonical_hash.h"
+#include "harness/run/experiment_run.h"
+
+namespace towbench::harness {
+
+struct CandidateController {
+  std::optional<ExternalController> external{};
+  std::filesystem::path firmware{};
+  std::string text{};  // as --controller takes it; empty: BBMC
+
+  [[nodiscard]] bool is_bbmc() const noexcept { return text.empty(); }
+};
+
+// A run of it, in words that this takes.
+void choose_candidate(const CandidateController& controller, RunOptions& options);
+
+// Its run of a motion without faults; how it ended is in the record's outcome. Throws FixtureError
+// for a motion that it cannot be given. Not for BBMC.
+[[nodiscard]] std::shared_ptr<const ReferenceRun> reference_run_of(
+    const CandidateController& controller, const ExperimentFixture& motion);
+
+// Runs a motion with the faults that it holds, or without any, into a folder that nobody keeps. Not
+// for BBMC. `reference` is its run without them.
+[[nodiscard]] CaseVerdict judge_candidate(const CandidateController& controller,
+                                          const ExperimentFixture& motion,
+                                          const std::shared_ptr<const ReferenceRun>& reference);
+
+// What it is, as far as that can be known: an image's bytes; a command and every file that it
+// names.
+void add_identity(const CandidateController& controller, CanonicalHash& hash);
+
+}  // namespace towbench::harness
