@@ -10,6 +10,7 @@
 #include "board/clock_control.h"
 #include "board/control_module.h"
 #include "board/kept_blocks.h"
+#include "board/kept_registers.h"
 
 namespace towbench::board {
 namespace {
@@ -92,8 +93,10 @@ void Board::make_peripherals() {
         }
       })));
   for (const KeptBlock& kept : kKeptBlocks) {
-    map(kept.address, *own(std::make_unique<PlainBlock>(kept.name, kept.size, bus_)));
+    map(kept.address, *own(std::make_unique<KeptRegisters>(kept.name, kept.size, bus_)));
   }
+  watchdog_ = own(std::make_unique<Watchdog>("watchdog", kWatchdogSize, bus_));
+  map(kWatchdogAddress, *watchdog_);
   for (const auto& block : owned_) {
     if (!block->is_configuration()) {
       moving_.push_back(block.get());
@@ -194,6 +197,10 @@ std::uint32_t Board::load(std::uint32_t address, unsigned bytes) {
     ++signs_of_life_;
   }
   const std::uint32_t value = block->load(offset, bytes);
+  if (!bus_.doubt.empty() && doubt_.empty()) {
+    doubt_ = fmt::format("at {} the image goes by {} (0x{:08x}), which is not modelled",
+                         at(processor_->pc()), bus_.doubt, address);
+  }
   return stuck_.empty() ? value : as_stuck(address, bytes, value);
 }
 
@@ -244,7 +251,7 @@ void Board::skip_to(core::Nanoseconds time_ns) {
 }
 
 void Board::run_until(core::Nanoseconds until_ns) {
-  while (on_ && !verdict_ && bus_.now_ns < until_ns) {
+  while (on_ && !verdict_ && !watchdog_->expired() && bus_.now_ns < until_ns) {
     if (idle_) {
       skip_to(std::min(until_ns, next_event_ns()));
       idle_ = bus_.now_ns < next_event_ns();
@@ -281,6 +288,10 @@ void Board::run_until(core::Nanoseconds until_ns) {
   bus_.now_ns = std::max(bus_.now_ns, until_ns);
   time_ns_ = until_ns;
   advance_all();
+  if (on_ && !verdict_ && watchdog_->expired()) {
+    ++watchdog_resets_;
+    reset();
+  }
   if (on_ && !verdict_ && until_ns >= next_look_ns_) {
     next_look_ns_ = until_ns + kLookEvery_ns;
     idle_ = false;  // the loop goes round once more, and what it polls is seen

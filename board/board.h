@@ -28,6 +28,7 @@
 #include "board/processor.h"
 #include "board/pwm_subsystem.h"
 #include "board/uart.h"
+#include "board/watchdog.h"
 
 namespace towbench::board {
 
@@ -89,6 +90,10 @@ class Board final : private PeripheralBus {
   [[nodiscard]] const ElfImage& image() const noexcept { return image_; }
   [[nodiscard]] const ExecutionProfile& profile() const noexcept { return profile_; }
   [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return bus_.notes; }
+  // Why what the image did proves nothing, in a sentence with address and program counter: it went
+  // by a register that is merely kept. Empty: it has not.
+  [[nodiscard]] const std::string& doubt() const noexcept { return doubt_; }
+  [[nodiscard]] unsigned watchdog_resets() const noexcept { return watchdog_resets_; }
   [[nodiscard]] core::Nanoseconds idle_ns() const noexcept { return idle_ns_; }
 
   // Faults of the board.
@@ -135,6 +140,7 @@ class Board final : private PeripheralBus {
   std::vector<Mapped> mapped_;
   Aintc* aintc_ = nullptr;
   Uart* uart_ = nullptr;
+  Watchdog* watchdog_ = nullptr;
   std::array<Dmtimer*, 8> timers_{};
   std::array<Gpio*, kGpios.size()> gpios_{};
   std::array<PwmSubsystem*, kPwmSubsystems.size()> pwm_{};
@@ -153,6 +159,8 @@ class Board final : private PeripheralBus {
   bool waiting_ = false;  // in WFI
   bool idle_ = false;     // in a loop that goes round until something happens
   std::uint64_t stuck_reads_ = 0;
+  std::string doubt_;
+  unsigned watchdog_resets_ = 0;
   std::uint64_t signs_of_life_ = 0;  // accesses but to registers that are merely kept
   std::uint64_t life_seen_ = 0;
   std::uint32_t polled_ = 0;  // the last of those

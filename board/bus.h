@@ -21,6 +21,8 @@ struct Bus {
   std::uint64_t disturbances = 0;
   // What the image asked for that is kept but not modelled, each thing once.
   std::vector<std::string> notes;
+  // The first register whose value decided something, and is not modelled; empty: none has.
+  std::string doubt;
 
   void disturb() noexcept { ++disturbances; }
 };

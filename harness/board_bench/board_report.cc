@@ -60,7 +60,8 @@ bool write_board_report(const std::filesystem::path& file, const board::Board& b
               {"simulated_time_s", core::seconds(board.now_ns())},
               {"interrupts", interrupts_of(board.profile())},
               {"functions", functions_of(board)},
-              {"not_modelled", board.notes()}};
+              {"not_modelled", board.notes()},
+              {"watchdog_resets", board.watchdog_resets()}};
   if (const auto used = probe.stack_used()) {
     report["stack"] = {{"used_bytes", *used}};
     if (probe.stack_size() > 0) {

@@ -60,6 +60,7 @@ class FirmwareBench {
   // Why the image cannot go on, in a sentence; empty while it can.
   [[nodiscard]] std::string failure() const;
 
+  [[nodiscard]] unsigned watchdog_resets() const noexcept { return board_.watchdog_resets(); }
   [[nodiscard]] DebugProbe& probe() noexcept { return probe_; }
   // Rows of the log of a third-party image are this far apart.
   static constexpr core::Nanoseconds kStartUp_ns = 10 * core::kNanosecondsPerMillisecond;

@@ -113,7 +113,12 @@ class FirmwareLoop {
   }
 
   void act_on_board(core::Nanoseconds now_ns) {
-    if (faults_.act(now_ns)) {
+    const bool by_watchdog = bench_.watchdog_resets() != watchdog_resets_;
+    if (by_watchdog) {
+      watchdog_resets_ = bench_.watchdog_resets();
+      recorder_.wire_event(now_ns, "watchdog_reset");
+    }
+    if (faults_.act(now_ns) || by_watchdog) {
       bench_.restarted();
       if (bench_.probe().has_port()) {
         static_cast<void>(bench_.probe().set_parameters(
@@ -200,10 +205,32 @@ class FirmwareLoop {
   HostClock::time_point start_;
   std::string shown_;
   core::Nanoseconds script_over_ns_ = -1;
+  unsigned watchdog_resets_ = 0;
   ConsoleScript script_;
   core::Nanoseconds limit_ns_;
   RunOutcome outcome_;
 };
+
+// With a fault it may be the right thing to do.
+Check reset_by_watchdog(unsigned resets) {
+  Check check;
+  check.name = "no_watchdog_reset";
+  check.meaning = "the image serves the watchdog that it has started";
+  check.verdict = Verdict::kFail;
+  check.value = resets;
+  check.max = 0;
+  check.reason = fmt::format("the watchdog has reset the board {} times", resets);
+  return check;
+}
+
+Check not_modelled(const std::string& doubt) {
+  Check check;
+  check.name = "registers_modelled";
+  check.meaning = "no register that is merely kept decides what the image does";
+  check.verdict = Verdict::kInvalid;
+  check.reason = doubt;
+  return check;
+}
 
 // As a run of the project's own controller keeps it. An image that is switched off and on starts
 // its clock, and with it its rows, at any time: then every row is kept.
@@ -254,6 +281,13 @@ RunOutcome run_firmware(const ExperimentFixture& fixture, const FirmwareOptions&
   machine.truth.finish();
   outcome.exchange_ns = machine.truth.period_ns();
   checks = faults.checks();
+  const auto& experiment = fixture.experiment;
+  if (board.watchdog_resets() > 0 && experiment.faults.empty() && experiment.board.faults.empty()) {
+    checks.push_back(reset_by_watchdog(board.watchdog_resets()));
+  }
+  if (!board.doubt().empty()) {
+    checks.push_back(not_modelled(board.doubt()));
+  }
   for (Check& check : board_budget_checks(fixture.experiment.board.budgets, board, bench.probe())) {
     checks.push_back(std::move(check));
   }
