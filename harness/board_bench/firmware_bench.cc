@@ -96,7 +96,7 @@ std::string FirmwareBench::failure() const {
 void FirmwareBench::take_records() {
   Decoded now{.time_ns = now_ns_, .edges = {}};
   for (const core::Axis axis : core::kAxes) {
-    now.edges[axis] = board_.encoder(wiring_.axes[axis].subsystem).edges_decoded();
+    now.edges[axis] = board_.encoder(wiring_.axes[axis].encoder).edges_decoded();
   }
   decoded_.push_back(now);
   if (decoded_.size() > kDecodedKept) {
@@ -123,7 +123,7 @@ void FirmwareBench::write_pin_row() {
   row.time_ns = now_ns_;
   for (const core::Axis axis : core::kAxes) {
     const std::uint64_t edges = decoded_.back().edges[axis];
-    row.axes[axis] = {.count = board_.encoder(wiring_.axes[axis].subsystem).steps(),
+    row.axes[axis] = {.count = board_.encoder(wiring_.axes[axis].encoder).steps(),
                       .duty_pct = node_.duty_pct(axis),
                       .edges = static_cast<std::uint32_t>(edges - edges_told_[axis])};
     edges_told_[axis] = edges;

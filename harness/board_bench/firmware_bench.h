@@ -12,9 +12,9 @@
 
 #include "board/board.h"
 #include "harness/board_bench/board_truth.h"
-#include "harness/board_bench/board_wiring.h"
 #include "harness/board_bench/debug_probe.h"
 #include "harness/board_bench/firmware_node.h"
+#include "harness/experiment/board_wiring.h"
 #include "harness/fault_cases/case_record.h"
 #include "harness/link/plant_end.h"
 #include "harness/lockstep/duty_watch.h"

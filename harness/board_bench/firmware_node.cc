@@ -1,6 +1,9 @@
 #include "harness/board_bench/firmware_node.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "bbmc/baremetal/board_pins.h"
 
 namespace towbench::harness {
 namespace {
@@ -8,6 +11,21 @@ namespace {
 using bbmc::Line;
 
 constexpr std::uint32_t kMostTicks = 0xFFFF;
+
+// The bench's own BBMC finds every line where it looks for it, without a wiring file.
+constexpr bool has_pin(const std::optional<BoardPin>& pin, Line line) {
+  return pin && pin->bank == 1 && !pin->active_low &&
+         pin->pin == bbmc::kLinePins[bbmc::index_of(line)];
+}
+constexpr bool suits_bbmc(const BoardWiring& wiring, core::Axis axis) {
+  const auto& wires = wiring.axes[axis];
+  return has_pin(wires.hall_min, bbmc::hall_min_of(axis)) &&
+         has_pin(wires.hall_max, bbmc::hall_max_of(axis)) &&
+         has_pin(wires.ready, bbmc::amplifier_ready_of(axis)) &&
+         has_pin(wires.enable, bbmc::amplifier_enable_of(axis));
+}
+static_assert(suits_bbmc({}, core::Axis::kY) && suits_bbmc({}, core::Axis::kX) &&
+              has_pin(BoardWiring{}.kill_switch, Line::kKillSwitch));
 
 constexpr bool is_set(std::uint32_t bits, std::size_t n) noexcept {
   return (bits >> n & 1U) != 0;
@@ -30,7 +48,7 @@ void FirmwareNode::on(const protocol::HelloReply& reply) noexcept {
 }
 
 void FirmwareNode::on(const protocol::EncoderEdges& message) noexcept {
-  board::Eqep& encoder = board_.encoder(wiring_.axes[message.axis].subsystem);
+  board::Eqep& encoder = board_.encoder(wiring_.axes[message.axis].encoder);
   if (!encoder_known_[message.axis]) {
     encoder_known_[message.axis] = true;
     encoder.set_levels(message.start_levels);
@@ -42,43 +60,52 @@ void FirmwareNode::on(const protocol::EncoderEdges& message) noexcept {
   }
 }
 
-void FirmwareNode::drive_pin(Line line, std::uint16_t lines, core::Nanoseconds time_ns) {
-  const bool high = is_set(lines, bbmc::index_of(line));
-  board_.gpio(wiring_.bank).drive(bbmc::kLinePins[bbmc::index_of(line)], high, time_ns);
+void FirmwareNode::drive_pin(const std::optional<BoardPin>& pin, bool active,
+                             core::Nanoseconds time_ns) {
+  if (pin) {
+    board_.gpio(pin->bank).drive(pin->pin, active != pin->active_low, time_ns);
+  }
 }
 
 void FirmwareNode::on(const protocol::DigitalInputs& inputs) noexcept {
-  static_assert(static_cast<int>(protocol::InputLine::kKillSwitch) ==
-                static_cast<int>(Line::kKillSwitch));
-  for (std::size_t i = 0; i < bbmc::kInputLines; ++i) {
-    drive_pin(static_cast<Line>(i), inputs.lines, inputs.change_ns);
-  }
+  const auto active = [&](Line line) { return is_set(inputs.lines, bbmc::index_of(line)); };
   for (const core::Axis axis : core::kAxes) {
-    const bool either = is_set(inputs.lines, bbmc::index_of(bbmc::hall_min_of(axis))) ||
-                        is_set(inputs.lines, bbmc::index_of(bbmc::hall_max_of(axis)));
-    board_.gpio(wiring_.bank).drive(wiring_.axes[axis].hall_pin, either, inputs.change_ns);
+    const auto& wires = wiring_.axes[axis];
+    const bool low_end = active(bbmc::hall_min_of(axis));
+    const bool high_end = active(bbmc::hall_max_of(axis));
+    drive_pin(wires.hall_min, low_end, inputs.change_ns);
+    drive_pin(wires.hall_max, high_end, inputs.change_ns);
+    drive_pin(wires.ready, active(bbmc::amplifier_ready_of(axis)), inputs.change_ns);
+    drive_pin(wires.hall, low_end || high_end, inputs.change_ns);
   }
+  drive_pin(wiring_.kill_switch, active(Line::kKillSwitch), inputs.change_ns);
+}
+
+bool FirmwareNode::output_of(const BoardPin& pin) const {
+  return board_.gpio(pin.bank).output(pin.pin) != pin.active_low;
 }
 
 FirmwareNode::Drive FirmwareNode::drive_of(core::Axis axis) noexcept {
   const AxisWiring& wires = wiring_.axes[axis];
-  const board::Gpio& pins = board_.gpio(wiring_.bank);
-  const unsigned enable_pin = bbmc::kLinePins[bbmc::index_of(bbmc::amplifier_enable_of(axis))];
   Drive drive;
   if (!board_.is_on()) {
     return drive;
   }
   // An enable line that nobody drives is pulled up.
-  drive.enable = !pins.drives(enable_pin) || pins.output(enable_pin);
-  board::PwmShare a = board_.pwm(wires.subsystem).output(board::Ehrpwm::Output::kA);
-  board::PwmShare b = board_.pwm(wires.subsystem).output(board::Ehrpwm::Output::kB);
+  const auto& enable = wires.enable;
+  drive.enable = !enable || !board_.gpio(enable->bank).drives(enable->pin) || output_of(*enable);
+  board::PwmShare a = board_.pwm(wires.pwm).output(board::Ehrpwm::Output::kA);
+  board::PwmShare b = board_.pwm(wires.pwm).output(board::Ehrpwm::Output::kB);
   std::uint32_t period = a.period_ticks;
   for (; period > kMostTicks; period /= 2) {
     a.high_ticks /= 2;
     b.high_ticks /= 2;
   }
-  if (pins.has_chosen(wires.direction_pin)) {
-    const bool to_max = pins.output(wires.direction_pin) == wiring_.direction_high_is_max;
+  if (wires.channels_swapped) {
+    std::swap(a, b);
+  }
+  if (wires.direction && board_.gpio(wires.direction->bank).has_chosen(wires.direction->pin)) {
+    const bool to_max = output_of(*wires.direction);
     const std::uint32_t size = a.high_ticks != 0 ? a.high_ticks : b.high_ticks;
     a.high_ticks = to_max ? size : 0;
     b.high_ticks = to_max ? 0 : size;

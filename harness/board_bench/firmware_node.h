@@ -6,7 +6,7 @@
 
 #include "board/board.h"
 #include "core/result.h"
-#include "harness/board_bench/board_wiring.h"
+#include "harness/experiment/board_wiring.h"
 #include "protocol/message_sink.h"
 
 namespace towbench::harness {
@@ -49,7 +49,8 @@ class FirmwareNode final : public protocol::MessageSink {
 
   [[nodiscard]] Drive drive_of(core::Axis axis) noexcept;
   void send(core::Axis axis, const Drive& drive) noexcept;
-  void drive_pin(bbmc::Line line, std::uint16_t lines, core::Nanoseconds time_ns);
+  void drive_pin(const std::optional<BoardPin>& pin, bool active, core::Nanoseconds time_ns);
+  [[nodiscard]] bool output_of(const BoardPin& pin) const;
 
   board::Board& board_;
   const BoardWiring& wiring_;

@@ -264,10 +264,9 @@ RunOutcome run_firmware(const ExperimentFixture& fixture, const FirmwareOptions&
   }
   using Log = FirmwareRecorder::Log;
   FirmwareRecorder recorder(folder, probe.has_port() ? Log::kTelemetry : Log::kPins);
-  const BoardWiring wiring;
   machine.truth.keep_every(truth_period_ns(fixture, probe.has_port()));
-  FirmwareBench bench(board, wiring, axes_of(fixture.rig.parameters), fixture.rig.hash, machine,
-                      recorder);
+  FirmwareBench bench(board, fixture.experiment.board.wiring, axes_of(fixture.rig.parameters),
+                      fixture.rig.hash, machine, recorder);
   BoardFaults faults(fixture.experiment.board.faults, board);
   std::optional<FirmwareTerminal> person;
   if (options.person_at_console) {

@@ -137,6 +137,14 @@ void write_machine(const Campaign& campaign, const CampaignMotion& motion,
     text = with_line(text, "controller",
                      fmt::format("\"{}\"", path_from(plain.controller_file, folder)), plain.file);
   }
+  const auto file = FixtureFile::load(plain.file);
+  TableReader motion_reader(file, file.table());
+  if (motion_reader.has("wiring")) {
+    std::string wiring;
+    motion_reader.text("wiring", wiring, "path of the wiring file");
+    const auto path = file.resolve(wiring, motion_reader.place_of("wiring"));
+    text = with_line(text, "wiring", fmt::format("\"{}\"", path_from(path, folder)), plain.file);
+  }
   text = with_line(text, "seed", std::to_string(plain.experiment.seed + machine), plain.file);
   write_once(folder / (plain.experiment.name + ".toml"), text);
 }

@@ -10,6 +10,7 @@
 #include "harness/campaign/campaign.h"
 #include "harness/checks/check.h"
 #include "harness/commands/command.h"
+#include "harness/experiment/board_wiring_text.h"
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/fixture_paths.h"
@@ -26,6 +27,8 @@ void read_by_kind(const std::filesystem::path& path) {
   const auto folder = path.parent_path().filename();
   if (folder == "campaigns") {
     (void)read_campaign(path);
+  } else if (folder == "wirings") {
+    (void)read_board_wiring(file);
   } else if (folder == "devices") {
     (void)load_linux_devices(path);
   } else if (table.contains("rig") || table.contains("console") || table.contains("budget")) {
@@ -50,7 +53,7 @@ int execute_validate(const std::vector<std::string>& named) {
   }
   if (paths.empty()) {
     for (const char* kind : {"plants", "rigs", "controllers", "devices", "experiments", "motions",
-                             "any-controller", "faults", "campaigns"}) {
+                             "any-controller", "wirings", "faults", "campaigns"}) {
       for (auto& path : toml_files_in(fixtures_directory() / kind)) {
         paths.push_back(std::move(path));
       }

@@ -1,11 +1,13 @@
-// What an experiment says of the virtual board alone: how the board itself fails, and what the
-// image on it may spend. Both need --controller firmware:IMAGE.
+// What an experiment says of the virtual board alone: how it is wired, how it fails, and what the
+// image on it may spend. All need --controller firmware:IMAGE.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "harness/experiment/board_wiring.h"
 
 namespace towbench::harness {
 
@@ -36,8 +38,12 @@ struct BoardBudget {
 struct BoardPlan {
   std::vector<BoardFault> faults;
   std::vector<BoardBudget> budgets;
+  BoardWiring wiring{};
+  bool names_wiring = false;  // the experiment has a file of its own for it
 
-  [[nodiscard]] bool empty() const noexcept { return faults.empty() && budgets.empty(); }
+  [[nodiscard]] bool empty() const noexcept {
+    return faults.empty() && budgets.empty() && !names_wiring;
+  }
 };
 
 // As on the command line: "board lost_interrupt at=2s interrupt=68 count=3".

@@ -4,6 +4,7 @@
 
 #include "core/time.h"
 #include "harness/experiment/board_plan_text.h"
+#include "harness/experiment/board_wiring_text.h"
 #include "harness/experiment/reference_text.h"
 #include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/canonical_hash.h"
@@ -248,7 +249,7 @@ void check_name(const TableReader& reader, const std::string& name) {
 Experiment read_experiment(const FixtureFile& file) {
   TableReader reader(file, file.table());
   auto experiment = read_script(reader);
-  for (const char* key : {"rig", "controller", "start"}) {
+  for (const char* key : {"rig", "controller", "start", "wiring"}) {
     reader.permit(key);
   }
   for (const char* key : {"name", "rig", "duration_limit_s"}) {
@@ -280,6 +281,14 @@ ExperimentFixture load_experiment(const std::filesystem::path& path) {
   fixture.rig_file = file.resolve(rig, reader.place_of("rig"));
   fixture.rig = load_rig(fixture.rig_file, fixture.sources);
   place_carriage(reader, fixture.rig);
+  if (reader.has("wiring")) {
+    std::string wiring;
+    reader.text("wiring", wiring, "path of the wiring file");
+    const auto wiring_file = FixtureFile::load(file.resolve(wiring, reader.place_of("wiring")));
+    remember(fixture.sources, wiring_file);
+    fixture.experiment.board.wiring = read_board_wiring(wiring_file);
+    fixture.experiment.board.names_wiring = true;
+  }
   if (fixture.experiment.reference.empty()) {
     fixture.controller_file = file.resolve(controller, reader.place_of("controller"));
     fixture.controller = load_controller(fixture.controller_file, fixture.sources);

@@ -83,13 +83,15 @@ void append(std::string& text, const Parts& parts, Write write) {
 }  // namespace
 
 std::string to_toml(const ExperimentFixture& fixture, const std::string& rig,
-                    const std::string& controller) {
+                    const std::string& controller, const std::string& wiring) {
   const auto& experiment = fixture.experiment;
   auto text = fmt::format(
       "schema = 1\nname = {}\ntitle = {}\ndescription = {}\nrig = {}\n{}"
       "duration_limit_s = {}\nseed = {}\n",
       quoted(experiment.name), quoted(experiment.title), quoted(experiment.description),
-      quoted(rig), controller.empty() ? "" : "controller = " + quoted(controller) + '\n',
+      quoted(rig),
+      (controller.empty() ? "" : "controller = " + quoted(controller) + '\n') +
+          (wiring.empty() ? "" : "wiring = " + quoted(wiring) + '\n'),
       toml_number(experiment.duration_limit_s), experiment.seed);
   text += start_toml(fixture.rig.parameters);
   append(text, experiment.console, console_toml);
@@ -110,8 +112,10 @@ std::string to_toml(const ExperimentFixture& fixture) {
   std::string rig;
   std::string controller;
   reader.text("rig", rig, "path of the rig file");
+  std::string wiring;
   reader.text("controller", controller, "path of the controller file");
-  return to_toml(fixture, rig, controller);
+  reader.text("wiring", wiring, "path of the wiring file");
+  return to_toml(fixture, rig, controller, wiring);
 }
 
 }  // namespace towbench::harness

@@ -9,7 +9,7 @@ namespace towbench::harness {
 
 // `rig` and `controller` are the paths that the text names.
 [[nodiscard]] std::string to_toml(const ExperimentFixture& fixture, const std::string& rig,
-                                  const std::string& controller);
+                                  const std::string& controller, const std::string& wiring = {});
 
 // The text of the fixture's first source with the paths that it names already.
 [[nodiscard]] std::string to_toml(const ExperimentFixture& fixture);

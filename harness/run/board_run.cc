@@ -76,7 +76,7 @@ void BoardRun::judge_into(const std::filesystem::path& folder, const RunOutcome&
 
 void refuse_board_plan(const ExperimentFixture& fixture) {
   if (!fixture.experiment.board.empty()) {
-    throw FixtureError({.file = "experiment"}, "a [[board_fault]] or [[board_budget]]",
+    throw FixtureError({.file = "experiment"}, "a [[board_fault]], [[board_budget]] or wiring",
                        "an image on the virtual board: --controller firmware:IMAGE.elf");
   }
 }

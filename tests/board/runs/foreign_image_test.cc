@@ -126,6 +126,54 @@ budget = [{ metric = "y_hard_end_contacts", max = 0.0 }]
             std::string::npos);
 }
 
+// What the image does is right, and its pins are not where it looks for them.
+TEST(ForeignImage, AWiringFileSaysWhichPinsMeetTheMachine) {
+  TemporaryFixtures files;
+  std::filesystem::create_directory_symlink(std::filesystem::absolute("fixtures"),
+                                            files.folder() / "fixtures");
+  const auto wired = [&](const std::string& wiring, const std::string& event) {
+    (void)files.write("wiring.toml", "schema = 1\n" + wiring);
+    const auto file = files.write("wired.toml", R"(
+schema = 1
+name = "wired"
+rig = "fixtures/rigs/macs-nominal.toml"
+controller = "fixtures/controllers/bbmc-default.toml"
+wiring = "wiring.toml"
+duration_limit_s = 10.0
+console = [
+  { expect = "servo:~$ ", timeout_s = 5.0 },
+  { send = "move", expect = "[Y/n]", timeout_s = 1.0 },
+  { send = "Y", expect = "at ", timeout_s = 8.0 },
+]
+budget = [{ metric = "y_carriage_travel_m", max = 0.105 }]
+)" + event);
+    RunOptions options;
+    options.out = files.folder() / "runs";
+    options.firmware = kImages / "servo.elf";
+    return run_experiment(load_experiment(file), options);
+  };
+  const auto has = [](const RunResult& run, const char* words) {
+    return contents_of(run.folder / "console.txt").find(words) != std::string::npos;
+  };
+  const std::string pressed = "event = [{ at_s = 1.8, do = \"press_kill_switch\" }]\n";
+  EXPECT_TRUE(has(wired("", pressed), "killed at"));
+  const auto deaf = wired("kill_switch = \"gpio2.14\"\n", pressed);
+  ASSERT_NE(check_named(deaf, "kill_to_zero_duty"), nullptr) << complaints_of(deaf);
+  EXPECT_EQ(check_named(deaf, "kill_to_zero_duty")->verdict, Verdict::kFail);
+  EXPECT_TRUE(has(wired("[axis.y]\nhall_max = \"!gpio1.17\"\n", ""), "end-stop at"));
+  EXPECT_TRUE(has(wired("[axis.y]\nchannels = \"b_towards_max\"\n", ""), "lost at"))
+      << "it drives the other way";
+  EXPECT_TRUE(has(wired("[axis.y]\nencoder = \"eqep0\"\n", ""), "stalled at"))
+      << "its count stands";
+  const auto kept = wired("[axis.x]\nencoder = \"eqep0\"\n", "");
+  EXPECT_TRUE(std::filesystem::exists(kept.folder / "inputs" / "wiring.toml"));
+  RunOptions without;
+  without.out = files.folder() / "runs";
+  EXPECT_THROW((void)run_experiment(load_experiment(files.folder() / "wired.toml"), without),
+               FixtureError)
+      << "BBMC on the bench has no pins";
+}
+
 // The same motion and the same faults for the image and for six of it with something wrong.
 class ImageCampaign {
  public:
