@@ -78,6 +78,9 @@ def bad(kind: str, only: str = "") -> None:
 if group == "guard":
     good("C", C_PID, 8, "any-trapezoid-y/kill_switch")
     bad("deaf_to_kill", "any-trapezoid-y/kill_switch.pressed")
+    code, results, said, took_s = campaign("process:/nonexistent {address}")
+    invalid = [line["verdict"] for line in results] == ["INVALID"] * len(results)
+    expect(f"one that never comes: {len(results)} cases, all INVALID", code == 4 and results and invalid, (code, said[-400:]))
 else:
     good("C", C_PID, 350)
     good("Python", PYTHON_PID, 350)
