@@ -14,14 +14,14 @@ group, root, program, c_pid = sys.argv[1], Path(sys.argv[2]), sys.argv[3], sys.a
 work = tempfile.TemporaryDirectory(prefix="towbench-campaign-")
 C_PID = f"process:'{c_pid}' {{address}}"
 PYTHON_PID = f"process:python3 '{root}/clients/python/examples/pid.py' {{address}}"
-# What each is caught by.
+# What each is caught by. X comes to its lower end at 30 mm/s, too slowly for end_stop_not_outwards.
 BAD = {
     "deaf_to_kill": "kill_to_zero_duty",
     "forgets_the_kill": "kill_to_zero_duty",
     "deaf_to_y_max": "end_stop_not_outwards",
     "deaf_to_y_min": "end_stop_not_outwards",
     "deaf_to_x_max": "end_stop_not_outwards",
-    "deaf_to_x_min": "end_stop_not_outwards",
+    "deaf_to_x_min": "no_hard_end",
     "trusts_the_encoder": "no_runaway",
     "starts_with_duty": "starts_undriven",
     "wraps_at_16_bits": "y_tracking_error_peak_m",
