@@ -56,16 +56,4 @@ class RegisterBlock {
   std::vector<std::uint32_t> words_;
 };
 
-// Registers that are kept and nothing else: pin multiplexing, the EMIF's settings and the like.
-class PlainBlock final : public RegisterBlock {
- public:
-  using RegisterBlock::RegisterBlock;
-  [[nodiscard]] bool is_configuration() const noexcept override { return true; }
-
- protected:
-  void write_word(std::uint32_t offset, std::uint32_t value, std::uint32_t lanes) override {
-    keep(offset, value, lanes);
-  }
-};
-
 }  // namespace towbench::board

@@ -223,15 +223,6 @@ Check reset_by_watchdog(unsigned resets) {
   return check;
 }
 
-Check not_modelled(const std::string& doubt) {
-  Check check;
-  check.name = "registers_modelled";
-  check.meaning = "no register that is merely kept decides what the image does";
-  check.verdict = Verdict::kInvalid;
-  check.reason = doubt;
-  return check;
-}
-
 // As a run of the project's own controller keeps it. An image that is switched off and on starts
 // its clock, and with it its rows, at any time: then every row is kept.
 core::Nanoseconds truth_period_ns(const ExperimentFixture& fixture, bool has_port) {
@@ -285,7 +276,9 @@ RunOutcome run_firmware(const ExperimentFixture& fixture, const FirmwareOptions&
     checks.push_back(reset_by_watchdog(board.watchdog_resets()));
   }
   if (!board.doubt().empty()) {
-    checks.push_back(not_modelled(board.doubt()));
+    checks.push_back(invalid_check("registers_modelled",
+                                   "no register that is merely kept decides what the image does",
+                                   board.doubt()));
   }
   for (Check& check : board_budget_checks(fixture.experiment.board.budgets, board, bench.probe())) {
     checks.push_back(std::move(check));

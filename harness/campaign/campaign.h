@@ -58,8 +58,8 @@ struct Campaign {
   std::uint64_t seeds = 1;
   std::uint64_t machines = 0;  // drawn ones, besides the nominal one
   double spread = 0.1;         // they differ from it by up to so much, relative
-  // Of a campaign whose motions any controller can be given, which one that comes by itself takes
-  // instead of this.
+  // The campaign that a controller program gets instead of this one, because its motions state
+  // their reference. Empty: there is none.
   std::filesystem::path for_any_controller;
   bool without_fault = false;  // every motion is judged by its budgets too
   CandidateController controller;

@@ -43,13 +43,8 @@ CaseVerdict verdict_on_record(const Campaign& campaign, const CampaignMotion& mo
   if (run.faults) {
     return std::move(*run.faults);
   }
-  Check check;
-  check.name = "run_complete";
-  check.meaning = "the run came to its end";
-  check.verdict = Verdict::kInvalid;
-  check.reason = run.reason;
   CaseVerdict nothing;
-  nothing.checks.push_back(std::move(check));
+  nothing.checks.push_back(run_not_complete(run.reason));
   return nothing;
 }
 

@@ -14,15 +14,6 @@
 namespace towbench::harness {
 namespace {
 
-Check not_complete(const std::string& reason) {
-  Check check;
-  check.name = "run_complete";
-  check.meaning = "the run came to its end";
-  check.verdict = Verdict::kInvalid;
-  check.reason = reason;
-  return check;
-}
-
 // When the log shows an axis driven for the last time.
 double last_drive_s(const std::filesystem::path& folder) {
   const auto log = CsvTable::load(folder / "log.csv");
@@ -92,7 +83,7 @@ CaseVerdict judge_candidate(const CandidateController& controller, const Experim
   CaseVerdict verdict;
   verdict.checks = run.judgement.checks;
   if (!run.complete) {
-    verdict.checks.push_back(not_complete(run.reason));
+    verdict.checks.push_back(run_not_complete(run.reason));
     return verdict;
   }
   verdict.fired = true;

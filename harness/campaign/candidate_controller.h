@@ -22,7 +22,7 @@ struct CandidateController {
   [[nodiscard]] bool is_bbmc() const noexcept { return text.empty(); }
 };
 
-// A run of it, in words that this takes.
+// The controller of the runs that these options are for.
 void choose_candidate(const CandidateController& controller, RunOptions& options);
 
 // Its run of a motion without faults; how it ended is in the record's outcome. Throws FixtureError
@@ -30,11 +30,16 @@ void choose_candidate(const CandidateController& controller, RunOptions& options
 [[nodiscard]] std::shared_ptr<const ReferenceRun> reference_run_of(
     const CandidateController& controller, const ExperimentFixture& motion);
 
-// Runs a motion with the faults that it holds, or without any, into a folder that nobody keeps. Not
-// for BBMC. `reference` is its run without them.
+// Runs a motion with the faults that it holds, or without any, into a temporary folder, and judges
+// it. Not for BBMC. `reference` is its run without them.
 [[nodiscard]] CaseVerdict judge_candidate(const CandidateController& controller,
                                           const ExperimentFixture& motion,
                                           const std::shared_ptr<const ReferenceRun>& reference);
+
+// What a case shows whose run did not come to its end.
+[[nodiscard]] inline Check run_not_complete(const std::string& reason) {
+  return invalid_check("run_complete", "the run came to its end", reason);
+}
 
 // What it is, as far as that can be known: an image's bytes; a command and every file that it
 // names.

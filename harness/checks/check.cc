@@ -1,8 +1,18 @@
 #include "harness/checks/check.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace towbench::harness {
+
+Check invalid_check(std::string name, std::string meaning, std::string reason) {
+  Check check;
+  check.name = std::move(name);
+  check.meaning = std::move(meaning);
+  check.verdict = Verdict::kInvalid;
+  check.reason = std::move(reason);
+  return check;
+}
 
 Verdict worst_of(std::span<const Check> checks) noexcept {
   if (checks.empty()) {

@@ -40,6 +40,9 @@ struct Check {
   std::string source;
 };
 
+// Of something that makes a run prove nothing.
+[[nodiscard]] Check invalid_check(std::string name, std::string meaning, std::string reason);
+
 // No check at all is no evidence: INVALID.
 [[nodiscard]] Verdict worst_of(std::span<const Check> checks) noexcept;
 

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
-#include <set>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -19,6 +18,7 @@
 #include "harness/campaign/shell_words.h"
 #include "harness/campaign/slurm_array.h"
 #include "harness/campaign/worker_pool.h"
+#include "harness/commands/campaign_shard.h"
 #include "harness/commands/command.h"
 #include "harness/commands/exit_codes.h"
 #include "harness/commands/experiment_options.h"
@@ -50,47 +50,10 @@ const char* default_folder(const CampaignOptions& options) {
   return options.controller.empty() ? "runs/campaign" : "runs/campaign-of-controller";
 }
 
-struct Shard {
-  std::size_t index = 1;
-  std::size_t of = 1;
-};
-
-Shard parse_shard(const std::string& text) {
-  Shard shard;
-  char end = 0;
-  const bool read = std::sscanf(text.c_str(), "%zu/%zu%c", &shard.index, &shard.of, &end) == 2;
-  if (!read || shard.index < 1 || shard.index > shard.of) {
-    throw FixtureError({"--shard"}, '"' + text + '"', "i/n with 1 <= i <= n");
-  }
-  return shard;
-}
-
 std::filesystem::path find_campaign(const std::string& named) {
   const bool is_path = named.find('/') != std::string::npos || named.ends_with(".toml");
   return is_path ? std::filesystem::path(named)
                  : fixtures_directory() / "campaigns" / (named + ".toml");
-}
-
-// This shard's cases that have no result yet.
-std::vector<CampaignCase> left_over(const std::vector<CampaignCase>& all,
-                                    const CampaignOptions& options, const Shard& shard,
-                                    const std::vector<nlohmann::json>& results) {
-  std::set<std::string> done;
-  for (const auto& line : results) {
-    done.insert(line.value("case", ""));
-  }
-  std::vector<CampaignCase> left;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const bool mine = i % shard.of == shard.index - 1;
-    const bool wanted = options.only.empty() || all[i].id.find(options.only) != std::string::npos;
-    if (mine && wanted && !done.contains(all[i].id)) {
-      left.push_back(all[i]);
-    }
-  }
-  // A worker keeps one machine at a time.
-  std::stable_sort(left.begin(), left.end(),
-                   [](const auto& a, const auto& b) { return a.machine < b.machine; });
-  return left;
 }
 
 class Progress {
@@ -123,11 +86,6 @@ class Progress {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-std::string results_file(const Shard& shard) {
-  return shard.of == 1 ? std::string("results.jsonl")
-                       : fmt::format("results-{}-of-{}.jsonl", shard.index, shard.of);
-}
-
 // Runs what is left of this shard here.
 void run_here(const CampaignOptions& options, const Campaign& campaign,
               const std::vector<CampaignCase>& cases, const Shard& shard) {
@@ -156,7 +114,7 @@ std::vector<std::size_t> unfinished(const CampaignOptions& options, const Campai
   const auto results = load_results(options.out, campaign.fingerprint);
   std::vector<std::size_t> shards;
   for (std::size_t index = 1; index <= options.slurm; ++index) {
-    if (!left_over(all, options, {index, options.slurm}, results).empty()) {
+    if (!left_over(all, options.only, {index, options.slurm}, results).empty()) {
       shards.push_back(index);
     }
   }
@@ -242,7 +200,7 @@ int report_all(const CampaignOptions& options, const Campaign& campaign,
   report.title = campaign.title;
   report.controller = options.controller;
   report.refused = campaign.refused;
-  sum.missing = left_over(all, options, shard, results).size();
+  sum.missing = left_over(all, options.only, shard, results).size();
   report.sum = sum;
   report.again = [&](const nlohmann::json& line) { return command_of(campaign, line, folder); };
   report.keep_command = keep_command(options);
@@ -304,7 +262,7 @@ int execute_campaign(CampaignOptions& options) {
     run_on_slurm(options, campaign, all);
   } else {
     const auto results = load_results(folder, campaign.fingerprint);
-    run_here(options, campaign, left_over(all, options, shard, results), shard);
+    run_here(options, campaign, left_over(all, options.only, shard, results), shard);
   }
   return report_all(options, campaign, all, shard);
 }

@@ -28,18 +28,18 @@ class ConformSession {
   // Waits for its greeting and answers it, with a refusal where one is given. Empty, or why there
   // is no controller.
   [[nodiscard]] std::string greet(core::ErrorCode refusal = core::ErrorCode::kNone);
-  // Turns until the machine is there. False when the controller has left, or the bench's own
+  // Runs turns until that time. False when the controller has left, or the bench's own
   // handshake refused it.
   [[nodiscard]] bool run_to(double time_s);
   // One turn. False as above.
   [[nodiscard]] bool turn();
 
   void press_kill_switch();
-  // The next count of Y does not arrive.
+  // The next encoder message of Y is dropped.
   void lose_a_count() { to_controller_.loses_count = true; }
-  // Between two messages.
+  // Bytes that go out between two messages.
   void send_raw(std::span<const std::byte> bytes) { (void)socket_->write(bytes); }
-  // The bench dies without a word.
+  // Closes the connection without Bye.
   void hang_up() { connection_.reset(); }
   void say_bye();
   // How the process ended, in words, empty for code 0; none when it has not within two seconds.

@@ -13,11 +13,11 @@
 
 namespace towbench::harness {
 
-// What of the bench's a controller meets: an image on the virtual board has no link, a program of
-// its own has one, and the host of both is their own.
+// Which faults the bench can make for a controller that is not BBMC: those of the machine for an
+// image on the virtual board, and those of the link as well for a program in its own process.
 enum class FaultReach : std::uint8_t { kMachine, kMachineAndLink };
 
-// Throws FixtureError for a fault that needs more. A link that ends the run ends the machine too.
+// Throws FixtureError for another fault, such as one of the host, or one that ends the link.
 void refuse_faults_beyond(const FaultPlan& faults, FaultReach reach);
 [[nodiscard]] bool is_within(const Fault& fault, FaultReach reach);
 

@@ -10,7 +10,7 @@
 namespace towbench::harness {
 
 struct ReferenceRun {
-  TemporaryFolder files;  // for those who judge and those who read
+  TemporaryFolder files;  // as in a run folder
   CaseRecord record;      // truth and events of the plant, and what is known of the controller
 
   void copy_to(const std::filesystem::path& folder) const {

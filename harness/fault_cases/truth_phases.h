@@ -1,6 +1,6 @@
 // Phases of an axis' motion from the machine's truth and the drive's command alone: for controllers
-// that tell nobody of their motions. Rest, hold, accelerate, cruise, decelerate and reverse; what
-// an open loop or a brake is, only a controller knows.
+// that do not report their motions. Rest, hold, accelerate, cruise, decelerate and reverse; the
+// phases open_loop and brake are states of a controller, and are not found here.
 //
 // Speed and its change are means over some hundredths of a second, so that a phase's edge is known
 // to about 50 ms.

@@ -33,33 +33,17 @@ Check script_check(const RunOutcome& outcome) {
   return check;
 }
 
-Check unreadable(const char* why) {
-  Check check;
-  check.name = "record_readable";
-  check.meaning = "the run's files can be read back";
-  check.verdict = Verdict::kInvalid;
-  check.reason = why;
-  return check;
-}
-
 // An experiment that demands nothing shows nothing.
 Check no_budget() {
-  Check check;
-  check.name = "budgets";
-  check.meaning = "the experiment states what must come out";
-  check.verdict = Verdict::kInvalid;
-  check.reason = "the experiment has no [[budget]]";
-  return check;
+  return invalid_check("budgets", "the experiment states what must come out",
+                       "the experiment has no [[budget]]");
 }
 
 // What a person typed besides the script makes budgets of the script say nothing.
 Check driven_by_hand() {
-  Check check;
-  check.name = "driven_by_hand";
-  check.meaning = "the experiment is the one that its budgets speak of";
-  check.verdict = Verdict::kInvalid;
-  check.reason = "typed or changed by hand; the run is recorded and replays, but proves nothing";
-  return check;
+  return invalid_check(
+      "driven_by_hand", "the experiment is the one that its budgets speak of",
+      "typed or changed by hand; the run is recorded and replays, but proves nothing");
 }
 
 }  // namespace
@@ -106,7 +90,8 @@ Judgement judge(const std::filesystem::path& folder, const ExperimentFixture& fi
     checks.push_back(check_comes_to_rest(data));
     checks.push_back(check_events_fired(data, expected));
   } catch (const std::exception& error) {
-    checks.push_back(unreadable(error.what()));
+    checks.push_back(
+        invalid_check("record_readable", "the run's files can be read back", error.what()));
   }
   judgement.verdict = worst_of(checks);
   return judgement;

@@ -258,10 +258,7 @@ void judge_safety(const std::filesystem::path& folder, const core::PerAxis<AxisL
     blame_who_drives_at_end(data, checks);
     added = safety_checks(data, scope);
   } catch (const std::exception& error) {
-    auto check = named("safety", "the record can be judged", "");
-    check.verdict = Verdict::kInvalid;
-    check.reason = error.what();
-    added.push_back(std::move(check));
+    added.push_back(invalid_check("safety", "the record can be judged", error.what()));
   }
   checks.insert(checks.begin(), added.begin(), added.end());
 }

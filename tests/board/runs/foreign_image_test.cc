@@ -1,5 +1,6 @@
 // Images that nothing of the project has been made for (tests/board/foreign) against the machine,
 // as a user runs his own.
+#include <cstdio>
 #include <map>
 #include <set>
 
@@ -71,6 +72,36 @@ TEST(ForeignImage, TwoRunsAreTheSameToTheLastByte) {
     EXPECT_EQ(contents_of(first.folder / file), contents_of(second.folder / file))
         << file << ": symbols change nothing";
   }
+}
+
+// What a shell's command prints, without its last line's end.
+std::string printed_by(const std::string& command) {
+  std::string text;
+  FILE* const pipe = popen(command.c_str(), "r");
+  for (int letter = pipe == nullptr ? EOF : fgetc(pipe); letter != EOF; letter = fgetc(pipe)) {
+    text += static_cast<char>(letter);
+  }
+  text += pipe != nullptr && pclose(pipe) == 0 ? "" : "(failed)";
+  return text;
+}
+
+TEST(ForeignImage, LiesInItsRunFolderAndReplaysFromThere) {
+  Bench bench;
+  const auto run = bench.run("traced", kServo, "servo.elf");
+  const auto result = nlohmann::json::parse(contents_of(run.folder / "result.json"));
+  const auto image = result.value("image", nlohmann::json::object());
+  EXPECT_EQ(image.value("file", ""), "inputs/servo.elf");
+  EXPECT_EQ(image.value("bytes", std::uintmax_t{0}),
+            std::filesystem::file_size(kImages / "servo.elf"));
+  EXPECT_EQ(image.value("sha256", "").substr(0, 64) + ' ',
+            printed_by("sha256sum '" + (kImages / "servo.elf").string() + "'").substr(0, 65));
+  const auto replay = std::string(TOWBENCH_PROGRAM) + " replay '" + run.folder.string() + "' 2>&1";
+  EXPECT_NE(printed_by(replay).find("log.csv       identical"), std::string::npos)
+      << printed_by(replay);
+  std::filesystem::copy_file(kImages / "mapped.elf", run.folder / "inputs" / "servo.elf",
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_NE(printed_by(replay).find("servo.elf"), std::string::npos)
+      << "another image is no replay";
 }
 
 TEST(ForeignImage, TheKillSwitchReachesItThroughItsOwnInterrupt) {
