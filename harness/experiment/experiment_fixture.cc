@@ -1,10 +1,10 @@
-#include "harness/experiment/experiment_fixture.h"
-
 #include <algorithm>
 
 #include "core/time.h"
 #include "harness/experiment/board_plan_text.h"
 #include "harness/experiment/board_wiring_text.h"
+#include "harness/experiment/experiment_fixture.h"
+#include "harness/experiment/reference_table.h"
 #include "harness/experiment/reference_text.h"
 #include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/canonical_hash.h"
@@ -233,6 +233,21 @@ void check_axes_move(const ExperimentFixture& fixture) {
   }
 }
 
+// Tables are long, and what stands in their middle is easily overlooked.
+void check_tables_fit(const ExperimentFixture& fixture) {
+  for (const auto axis : core::kAxes) {
+    const auto& rig = fixture.rig.parameters.axes[axis];
+    double start_m = rig.start_m;
+    for (const auto& motion : fixture.experiment.reference) {
+      if (motion.table && motion.axis == axis) {
+        motion.table->require_within(rig.plant.hard_ends.min_m - start_m,
+                                     rig.plant.hard_ends.max_m - start_m);
+      }
+      start_m += motion.moves(axis) ? motion.at(axis, motion.duration_s()).position_m : 0;
+    }
+  }
+}
+
 void check_name(const TableReader& reader, const std::string& name) {
   const bool plain =
       !name.empty() && name.size() <= 60 && std::all_of(name.begin(), name.end(), [](char c) {
@@ -294,7 +309,9 @@ ExperimentFixture load_experiment(const std::filesystem::path& path) {
     fixture.controller = load_controller(fixture.controller_file, fixture.sources);
     check_axes_agree(fixture);
   } else {
+    read_reference_tables(reader, fixture.experiment.reference, fixture.sources);
     check_axes_move(fixture);
+    check_tables_fit(fixture);
   }
   CanonicalHash hash;
   hash.add(file.text());

@@ -1,32 +1,22 @@
-#include "harness/experiment/experiment_toml.h"
-
 #include <limits>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "harness/experiment/board_plan_text.h"
+#include "harness/experiment/experiment_toml.h"
 #include "harness/experiment/reference_text.h"
 #include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/toml_number.h"
+#include "harness/fixtures/toml_string.h"
 
 namespace towbench::harness {
 namespace {
 
-// A basic string of TOML: JSON escapes the same letters in the same way, but for one.
-std::string quoted(const std::string& text) {
-  auto made = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  for (auto at = made.find('\x7f'); at != std::string::npos; at = made.find('\x7f')) {
-    made.replace(at, 1, "\\u007F");
-  }
-  return made;
-}
-
 std::string console_toml(const ConsoleStep& step) {
   std::string text = "\n[[console]]\n";
   text += step.at_s ? "at_s = " + toml_number(*step.at_s) + '\n' : "";
-  text += step.send.empty() ? "" : "send = " + quoted(step.send) + '\n';
-  text += step.expect.empty() ? "" : "expect = " + quoted(step.expect) + '\n';
+  text += step.send.empty() ? "" : "send = " + toml_string(step.send) + '\n';
+  text += step.expect.empty() ? "" : "expect = " + toml_string(step.expect) + '\n';
   text += step.wait_idle ? "wait = \"idle\"\n" : "";
   text += step.wait_s > 0 ? "wait_s = " + toml_number(step.wait_s) + '\n' : "";
   return text + "timeout_s = " + toml_number(step.timeout_s) + '\n';
@@ -45,22 +35,22 @@ std::string event_toml(const emulator::ScheduledEvent& event) {
 
 std::string hand_toml(const HandAct& act) {
   return fmt::format("\n[[hand]]\nat_ns = {}\ndid = \"{}\"\ntext = {}\n", act.time_ns,
-                     name_of(act.kind), quoted(act.text));
+                     name_of(act.kind), toml_string(act.text));
 }
 
 std::string window_toml(const EvaluationWindow& window) {
   const bool run = window.origin == EvaluationWindow::Origin::kRun;
   return fmt::format("\n[[window]]\nname = {}\nrelative_to = \"{}\"\nfrom_s = {}\nto_s = {}\n",
-                     quoted(window.name), run ? "run" : "motion", toml_number(window.from_s),
+                     toml_string(window.name), run ? "run" : "motion", toml_number(window.from_s),
                      toml_number(window.to_s));
 }
 
 std::string budget_toml(const Budget& budget) {
-  auto text = fmt::format("\n[[budget]]\nmetric = {}\nwindow = {}\n", quoted(budget.metric),
-                          quoted(budget.window));
+  auto text = fmt::format("\n[[budget]]\nmetric = {}\nwindow = {}\n", toml_string(budget.metric),
+                          toml_string(budget.window));
   text += budget.min ? "min = " + toml_number(*budget.min) + '\n' : "";
   text += budget.max ? "max = " + toml_number(*budget.max) + '\n' : "";
-  return text + (budget.source.empty() ? "" : "source = " + quoted(budget.source) + '\n');
+  return text + (budget.source.empty() ? "" : "source = " + toml_string(budget.source) + '\n');
 }
 
 std::string start_toml(const emulator::RigParameters& rig) {
@@ -88,10 +78,10 @@ std::string to_toml(const ExperimentFixture& fixture, const std::string& rig,
   auto text = fmt::format(
       "schema = 1\nname = {}\ntitle = {}\ndescription = {}\nrig = {}\n{}"
       "duration_limit_s = {}\nseed = {}\n",
-      quoted(experiment.name), quoted(experiment.title), quoted(experiment.description),
-      quoted(rig),
-      (controller.empty() ? "" : "controller = " + quoted(controller) + '\n') +
-          (wiring.empty() ? "" : "wiring = " + quoted(wiring) + '\n'),
+      toml_string(experiment.name), toml_string(experiment.title),
+      toml_string(experiment.description), toml_string(rig),
+      (controller.empty() ? "" : "controller = " + toml_string(controller) + '\n') +
+          (wiring.empty() ? "" : "wiring = " + toml_string(wiring) + '\n'),
       toml_number(experiment.duration_limit_s), experiment.seed);
   text += start_toml(fixture.rig.parameters);
   append(text, experiment.console, console_toml);

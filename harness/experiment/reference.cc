@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "harness/experiment/reference_table.h"
+
 namespace towbench::harness {
 namespace {
 
@@ -79,6 +81,12 @@ ReferencePoint on_circle(double radius, const ReferencePoint& angle, bool sine) 
               : ReferencePoint{c - radius, -s * rate, -s * change - c * rate * rate};
 }
 
+// One that has just ended counts, whatever the last bit of a difference of times says.
+double whole_periods(double time_s, double period_s) {
+  constexpr double kOfALastBit = 1e-9;
+  return std::floor(time_s / period_s + kOfALastBit);
+}
+
 }  // namespace
 
 double ReferenceMotion::duration_s() const noexcept {
@@ -89,6 +97,12 @@ double ReferenceMotion::duration_s() const noexcept {
     case ReferenceKind::kSine:
     case ReferenceKind::kCircle:
       return angle_of(*this).duration_s();
+    case ReferenceKind::kSteps:
+      return turns * period_s;
+    case ReferenceKind::kHold:
+      return period_s;
+    case ReferenceKind::kTable:
+      return table ? table->duration_s() : 0;
     case ReferenceKind::kStep:
       break;
   }
@@ -103,6 +117,12 @@ ReferencePoint ReferenceMotion::at(core::Axis which, double time_s) const noexce
       return on_circle(distance_m, angle_of(*this).at(time_s), which == core::Axis::kX);
     case ReferenceKind::kStep:
       return {.position_m = distance_m};
+    case ReferenceKind::kSteps:
+      return {.position_m = distance_m * std::min(turns, 1 + whole_periods(time_s, period_s))};
+    case ReferenceKind::kHold:
+      return {};
+    case ReferenceKind::kTable:
+      return table ? table->at(time_s) : ReferencePoint{};
     case ReferenceKind::kTrapezoid:
     case ReferenceKind::kSCurve:
       break;

@@ -6,6 +6,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "core/axis.h"
@@ -19,12 +21,17 @@ struct ReferencePoint {
   double acceleration_m_per_s2 = 0;
 };
 
+class ReferenceTable;  // reference_table.h
+
 enum class ReferenceKind : std::uint8_t {
   kTrapezoid,  // constant acceleration to the speed, and back to rest
   kSCurve,     // the same with an acceleration that rises and falls as half a sine
   kStep,       // at once
   kSine,       // distance_m sin(angle)
   kCircle,     // of both axes: y = radius (cos(angle) - 1), x = radius sin(angle)
+  kSteps,      // a staircase: distance_m at once, `turns` times, period_s apart
+  kHold,       // stays for period_s
+  kTable,      // what a file says
 };
 
 // A day of virtual time: longer is a slip of the pen.
@@ -37,8 +44,10 @@ struct ReferenceMotion {
   double distance_m = 0;  // signed; of kSine the amplitude, of kCircle the radius
   double speed_m_per_s = 0;
   double acceleration_m_per_s2 = 0;  // the largest
-  double period_s = 0;               // of kSine and kCircle
+  double period_s = 0;               // of kSine and kCircle, of each step, of kHold
   double turns = 1;
+  std::string file{};                             // of kTable, as the experiment names it
+  std::shared_ptr<const ReferenceTable> table{};  // null until it has been read
 
   [[nodiscard]] double duration_s() const noexcept;
   [[nodiscard]] bool moves(core::Axis which) const noexcept {

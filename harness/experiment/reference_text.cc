@@ -6,13 +6,15 @@
 
 #include <fmt/format.h>
 
+#include "harness/experiment/reference_table.h"
 #include "harness/fixtures/toml_number.h"
+#include "harness/fixtures/toml_string.h"
 
 namespace towbench::harness {
 namespace {
 
-constexpr std::array<std::string_view, 5> kKindNames{"trapezoid", "s_curve", "step", "sine",
-                                                     "circle"};
+constexpr std::array<std::string_view, 8> kKindNames{"trapezoid", "s_curve", "step", "sine",
+                                                     "circle",    "steps",   "hold", "table"};
 constexpr double kLongestWay_m = 1000.0;
 
 struct Key {
@@ -29,10 +31,10 @@ constexpr unsigned bit(ReferenceKind kind) {
 constexpr unsigned kWays = bit(ReferenceKind::kTrapezoid) | bit(ReferenceKind::kSCurve);
 constexpr unsigned kTurning = bit(ReferenceKind::kSine) | bit(ReferenceKind::kCircle);
 
-const std::array<Key, 7>& keys() {
-  static const std::array<Key, 7> kKeys{{
+const std::array<Key, 10>& keys() {
+  static const std::array<Key, 10> kKeys{{
       {"distance_m", &ReferenceMotion::distance_m, core::between(-kLongestWay_m, kLongestWay_m),
-       "way, positive towards max", kWays | bit(ReferenceKind::kStep)},
+       "way, positive towards max", kWays | bit(ReferenceKind::kStep) | bit(ReferenceKind::kSteps)},
       {"speed_m_per_s", &ReferenceMotion::speed_m_per_s, core::between(1e-6, 100), "largest speed",
        kWays},
       {"acceleration_m_per_s2", &ReferenceMotion::acceleration_m_per_s2, core::between(1e-6, 1e4),
@@ -44,6 +46,12 @@ const std::array<Key, 7>& keys() {
       {"period_s", &ReferenceMotion::period_s, core::between(1e-3, kLongestRun_s), "of one turn",
        kTurning},
       {"turns", &ReferenceMotion::turns, core::between(1, 1e6), "whole turns", kTurning},
+      {"count", &ReferenceMotion::turns, core::between(1, 1e6), "whole number of steps",
+       bit(ReferenceKind::kSteps)},
+      {"every_s", &ReferenceMotion::period_s, core::between(1e-3, kLongestRun_s),
+       "from step to step", bit(ReferenceKind::kSteps)},
+      {"duration_s", &ReferenceMotion::period_s, core::between(1e-3, kLongestRun_s),
+       "how long it stays", bit(ReferenceKind::kHold)},
   }};
   return kKeys;
 }
@@ -69,7 +77,7 @@ ReferenceMotion read_motion(TableReader& reader) {
   for (const Key& key : keys()) {
     if ((key.kinds & bit(motion.kind)) != 0) {
       reader.value(key.name, motion.*key.field, key.range, key.meaning);
-      if (key.field != &ReferenceMotion::turns) {
+      if (key.name != std::string_view("turns")) {
         reader.require(key.name);
       }
     } else if (reader.has(key.name)) {
@@ -77,12 +85,20 @@ ReferenceMotion read_motion(TableReader& reader) {
                          fmt::format("no {} with move = \"{}\"", key.name, kKindNames[kind]));
     }
   }
+  reader.text("file", motion.file, "path of a CSV file, relative to this one");
+  if (motion.kind == ReferenceKind::kTable) {
+    reader.require("file");
+  } else if (reader.has("file")) {
+    throw FixtureError(reader.place_of("file"), "a key without effect",
+                       "only with move = \"table\"");
+  }
   reader.finish();
-  if (motion.distance_m == 0) {
+  if (motion.distance_m == 0 && reader.has("distance_m")) {
     throw FixtureError(reader.place_of("distance_m"), "0", "a way");
   }
   if (motion.turns != std::floor(motion.turns)) {
-    throw FixtureError(reader.place_of("turns"), toml_number(motion.turns), "whole turns");
+    const char* const key = motion.kind == ReferenceKind::kSteps ? "count" : "turns";
+    throw FixtureError(reader.place_of(key), toml_number(motion.turns), "a whole number");
   }
   return motion;
 }
@@ -94,22 +110,46 @@ bool overlap(const ReferenceMotion& one, const ReferenceMotion& next) {
   return share && one.at_s + one.duration_s() > next.at_s;
 }
 
-}  // namespace
-
-std::vector<ReferenceMotion> read_reference(TableReader& experiment) {
-  std::vector<ReferenceMotion> motions;
-  for (auto& reader : experiment.tables("reference")) {
-    const auto motion = read_motion(reader);
-    for (const auto& before : motions) {
-      if (before.at_s > motion.at_s || overlap(before, motion)) {
-        throw FixtureError(reader.place_of("at_s"), toml_number(motion.at_s),
+// Each begins when the one before it on its axis has ended; a table that is not read yet has no
+// duration.
+void check_order(const std::vector<TableReader>& readers,
+                 const std::vector<ReferenceMotion>& motions) {
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto& before = motions[j];
+      if (before.at_s > motions[i].at_s || overlap(before, motions[i])) {
+        throw FixtureError(readers[i].place_of("at_s"), toml_number(motions[i].at_s),
                            fmt::format("a time from {} on, when the motion before it has ended",
                                        toml_number(before.at_s + before.duration_s())));
       }
     }
-    motions.push_back(motion);
   }
+}
+
+}  // namespace
+
+std::vector<ReferenceMotion> read_reference(TableReader& experiment) {
+  std::vector<ReferenceMotion> motions;
+  auto readers = experiment.tables("reference");
+  for (auto& reader : readers) {
+    motions.push_back(read_motion(reader));
+  }
+  check_order(readers, motions);
   return motions;
+}
+
+void read_reference_tables(TableReader& experiment, std::vector<ReferenceMotion>& motions,
+                           SourceFiles& sources) {
+  const auto readers = experiment.tables("reference");
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    auto& motion = motions[i];
+    if (motion.kind == ReferenceKind::kTable) {
+      const auto place = readers[i].place_of("file");
+      motion.table =
+          ReferenceTable::load(experiment.file().resolve(motion.file, place), place, sources);
+    }
+  }
+  check_order(readers, motions);
 }
 
 std::string to_toml(const ReferenceMotion& motion) {
@@ -118,6 +158,9 @@ std::string to_toml(const ReferenceMotion& motion) {
                   kKindNames[static_cast<std::size_t>(motion.kind)], toml_number(motion.at_s));
   if (motion.kind != ReferenceKind::kCircle) {
     text += fmt::format("axis = \"{}\"\n", core::name_of(motion.axis));
+  }
+  if (motion.kind == ReferenceKind::kTable) {
+    text += "file = " + toml_string(motion.file) + '\n';
   }
   for (const Key& key : keys()) {
     if ((key.kinds & bit(motion.kind)) != 0) {

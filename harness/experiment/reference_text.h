@@ -10,8 +10,11 @@
 namespace towbench::harness {
 
 // Every [[reference]], in order of time. Throws FixtureError for one that lacks what its kind
-// needs, and where two motions of an axis overlap.
+// needs, and where two motions of an axis overlap. Tables are left unread.
 [[nodiscard]] std::vector<ReferenceMotion> read_reference(TableReader& experiment);
+// The files of its tables, each added to `sources`. Throws FixtureError.
+void read_reference_tables(TableReader& experiment, std::vector<ReferenceMotion>& motions,
+                           SourceFiles& sources);
 [[nodiscard]] std::string to_toml(const ReferenceMotion& motion);
 
 }  // namespace towbench::harness

@@ -49,7 +49,10 @@ bool parse_row(std::string_view line, std::span<std::vector<double>* const> colu
 }  // namespace
 
 CsvTable CsvTable::load(const std::filesystem::path& path) {
-  const std::string text = read_table(path);
+  return parse(read_table(path), path);
+}
+
+CsvTable CsvTable::parse(std::string_view text, const std::filesystem::path& path) {
   CsvTable table;
   table.torn_ = text.empty() || text.back() != '\n';
   std::size_t start = text.find('\n');
@@ -57,7 +60,7 @@ CsvTable CsvTable::load(const std::filesystem::path& path) {
     throw CsvError(fmt::format("{}: no header row", path.string()));
   }
   std::vector<std::vector<double>*> columns;
-  for (const auto& name : split_header(std::string_view(text).substr(0, start))) {
+  for (const auto& name : split_header(text.substr(0, start))) {
     const auto [position, is_new] = table.columns_.try_emplace(name);
     if (!is_new) {
       throw CsvError(fmt::format("{}:1: column {} appears twice", path.string(), name));
@@ -67,7 +70,7 @@ CsvTable CsvTable::load(const std::filesystem::path& path) {
   ++start;
   for (std::size_t end = text.find('\n', start); end != std::string::npos;
        start = end + 1, end = text.find('\n', start)) {
-    if (!parse_row(std::string_view(text).substr(start, end - start), columns)) {
+    if (!parse_row(text.substr(start, end - start), columns)) {
       throw CsvError(
           fmt::format("{}:{}: not {} numbers", path.string(), table.rows_ + 2, columns.size()));
     }

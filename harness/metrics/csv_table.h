@@ -21,6 +21,8 @@ class CsvTable {
   // A last line without its end was torn by a kill and is left out. Throws CsvError naming file and
   // line when a row has another number of fields than the header or holds something not a number.
   [[nodiscard]] static CsvTable load(const std::filesystem::path& path);
+  // The same of a text that is there already; `path` names it.
+  [[nodiscard]] static CsvTable parse(std::string_view text, const std::filesystem::path& path);
 
   [[nodiscard]] std::size_t rows() const noexcept { return rows_; }
   [[nodiscard]] bool has(std::string_view column) const;

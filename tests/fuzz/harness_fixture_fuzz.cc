@@ -1,10 +1,12 @@
-// Any text as a fixture: it is read or refused on one line, and nothing else happens.
+// Any text as a fixture and as a table: it is read or refused on one line, and nothing else
+// happens.
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
 
 #include "harness/experiment/experiment_fixture.h"
+#include "harness/experiment/reference_table.h"
 
 namespace {
 
@@ -31,5 +33,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     read_or_refuse([&] { (void)read_controller(file); });
     read_or_refuse([&] { (void)read_experiment(file); });
   });
+  read_or_refuse([&] { (void)ReferenceTable::parse(text, "fuzz.csv"); });
   return 0;
 }

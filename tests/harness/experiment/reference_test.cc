@@ -92,6 +92,28 @@ TEST(Reference, ACircleIsRoundAndClosesWhereItBegan) {
   }
 }
 
+TEST(Reference, StepsClimbOneAfterTheOtherAndAHoldStays) {
+  const ReferenceSchedule schedule(
+      {{.kind = ReferenceKind::kHold, .axis = Axis::kY, .at_s = 0.5, .period_s = 1},
+       {.kind = ReferenceKind::kSteps,
+        .axis = Axis::kY,
+        .at_s = 2,
+        .distance_m = -0.1,
+        .period_s = 0.7,
+        .turns = 3}});
+  const auto at = [&](double time_s) {
+    return schedule.at(Axis::kY, core::nanoseconds(time_s)).position_m;
+  };
+  EXPECT_TRUE(schedule.begun(Axis::kY, core::nanoseconds(0.6)));
+  EXPECT_EQ(at(1.999), 0);
+  EXPECT_DOUBLE_EQ(at(2.0), -0.1);
+  EXPECT_DOUBLE_EQ(at(2.699), -0.1);
+  EXPECT_DOUBLE_EQ(at(2.7), -0.2);
+  EXPECT_DOUBLE_EQ(at(3.4), -0.3);
+  EXPECT_DOUBLE_EQ(at(9.0), -0.3);
+  EXPECT_EQ(schedule.end_ns(), core::nanoseconds(4.1));
+}
+
 TEST(Reference, MotionsFollowEachOtherAndArePlacedWhereTheLastEnded) {
   auto back = way(ReferenceKind::kTrapezoid, -0.2, 0.4);
   back.at_s = 5;
