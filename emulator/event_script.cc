@@ -59,6 +59,8 @@ namespace {
     case ScheduledEventKind::kTurnDisc:
     case ScheduledEventKind::kSkipChain:
       return fail_axis(rig, event);
+    case ScheduledEventKind::kReset:
+      return true;  // the machine takes no part in it
   }
   return true;
 }
@@ -73,20 +75,25 @@ void EventScript::add(const ScheduledEvent& event) {
       event);
 }
 
-void EventScript::fire_due(Rig& rig, PlantObserver& observer) noexcept {
+std::optional<core::Nanoseconds> EventScript::fire_due(Rig& rig, PlantObserver& observer) noexcept {
+  std::optional<core::Nanoseconds> reset_ns;
   const core::Nanoseconds start_ns = rig.now_ns();
   const core::Nanoseconds end_ns = start_ns + core::kPlantTick_ns;
   for (; next_ < events_.size() && events_[next_].time_ns < end_ns; ++next_) {
     const ScheduledEvent& event = events_[next_];
     const core::Nanoseconds time_ns = std::max(event.time_ns, start_ns);
     if (!fire(rig, event, time_ns)) {
-      return;
+      break;
+    }
+    if (event.kind == ScheduledEventKind::kReset) {
+      reset_ns = time_ns;
     }
     observer.on_event({.time_ns = time_ns,
                        .kind = PlantEventKind::kScheduledEventFired,
                        .axis = event.axis,
                        .value = static_cast<double>(next_)});
   }
+  return reset_ns;
 }
 
 }  // namespace towbench::emulator

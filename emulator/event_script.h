@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,8 +22,10 @@ class EventScript {
   // One that nobody had planned, behind those of the same time. Not from real-time code.
   void add(const ScheduledEvent& event);
 
-  // Before a tick of the rig: fires what falls into it.
-  TOWBENCH_REALTIME void fire_due(Rig& rig, PlantObserver& observer) noexcept;
+  // Before a tick of the rig: fires what falls into it. When the operator's reset did, the last one
+  // of them, or none.
+  TOWBENCH_REALTIME std::optional<core::Nanoseconds> fire_due(Rig& rig,
+                                                              PlantObserver& observer) noexcept;
 
  private:
   std::vector<ScheduledEvent> events_;

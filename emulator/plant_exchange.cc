@@ -30,7 +30,8 @@ protocol::Hello PlantExchange::own_hello(const protocol::Hello& theirs) const no
           .axes_mask = rig_.axes_mask(),
           .tick_ns = static_cast<std::uint32_t>(core::kPlantTick_ns),
           .exchange_ns = theirs.exchange_ns,
-          .capabilities = protocol::kCapabilityEdges | protocol::kCapabilityDigest,
+          .capabilities =
+              protocol::kCapabilityEdges | protocol::kCapabilityDigest | protocol::kCapabilityReset,
           .fixture_hash = fixture_hash_};
 }
 
@@ -53,6 +54,7 @@ void PlantExchange::greet(const protocol::Hello& hello) noexcept {
   // Edges are the finer class; the digest is for a controller that asks for nothing else.
   sends_edges_ = (hello.capabilities & protocol::kCapabilityEdges) != 0;
   sends_digest_ = !sends_edges_;
+  takes_reset_ = (hello.capabilities & protocol::kCapabilityReset) != 0;
   sink_->on(reply);
   if (greeted_) {
     sent_lines_ = rig_.lines();
@@ -153,13 +155,19 @@ void PlantExchange::advance(const protocol::Advance& advance) noexcept {
       tick();
     }
     send_outputs();
+    if (reset_ns_) {
+      pass_reset(*reset_ns_);
+      reset_ns_.reset();
+    }
     observer_->on_truth(rig_.truth());
   }
   sink_->on(protocol::Advanced{.time_ns = now_ns()});
 }
 
 void PlantExchange::tick() noexcept {
-  script_.fire_due(rig_, *observer_);
+  if (const auto reset_ns = script_.fire_due(rig_, *observer_)) {
+    reset_ns_ = reset_ns;
+  }
   const core::Nanoseconds start_ns = now_ns();
   rig_.step();
   for (const Axis which : core::kAxes) {
@@ -207,6 +215,15 @@ void PlantExchange::send_lines() noexcept {
     sink_->on(inputs);
   }
   pending_lines_.clear();
+}
+
+void PlantExchange::pass_reset(core::Nanoseconds time_ns) noexcept {
+  if (takes_reset_) {
+    sink_->on(protocol::Reset{time_ns});
+  }
+  observer_->on_event({.time_ns = time_ns,
+                       .kind = PlantEventKind::kOperatorReset,
+                       .value = takes_reset_ ? 1.0 : 0.0});
 }
 
 void PlantExchange::collect_lines() noexcept {

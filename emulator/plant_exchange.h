@@ -3,9 +3,9 @@
 //
 // An exchange, at Advance{T + dt} (docs/decisions/0001-walls.md): step the rig from T to T + dt,
 // sending CurrentSample and ForceSample as they are taken, then EncoderEdges (or EncoderReport) of
-// each axis in the order Y, X, then DigitalInputs of each change in the order of time, then
-// Advanced. Whatever a controller sends that makes no sense is counted, answered by a Fault, and
-// changes nothing.
+// each axis in the order Y, X, then DigitalInputs of each change in the order of time, then the
+// operator's Reset, then Advanced. Whatever a controller sends that makes no sense is counted,
+// answered by a Fault, and changes nothing.
 #pragma once
 
 #include <cstdint>
@@ -68,6 +68,7 @@ class PlantExchange {
   void send_samples() noexcept;
   void send_outputs() noexcept;
   void send_lines() noexcept;
+  void pass_reset(core::Nanoseconds time_ns) noexcept;
   void report(core::ErrorCode code, core::Axis axis, std::uint32_t detail) noexcept {
     faults_.report(now_ns(), code, axis, detail);
   }
@@ -81,6 +82,8 @@ class PlantExchange {
   protocol::MessageSink* sink_ = nullptr;
   core::PerAxis<std::optional<AxisOutputs>> outputs_;
 
+  std::optional<core::Nanoseconds> reset_ns_;  // the operator's, in this exchange
+
   // DigitalInputs of this exchange, sent behind the edges.
   core::BoundedVector<protocol::DigitalInputs, 64> pending_lines_;
   std::uint16_t sent_lines_ = 0;
@@ -91,6 +94,7 @@ class PlantExchange {
   bool greeted_ = false;
   bool sends_edges_ = false;
   bool sends_digest_ = false;
+  bool takes_reset_ = false;
   bool finished_ = false;
 };
 

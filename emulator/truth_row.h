@@ -39,6 +39,7 @@ enum class PlantEventKind : std::uint8_t {
   kPeerLost,
   kDriveRemoved,
   kFinished,
+  kOperatorReset,
 };
 
 struct PlantEvent {
@@ -47,7 +48,7 @@ struct PlantEvent {
   core::Axis axis = core::Axis::kY;
   core::ErrorCode code = core::ErrorCode::kNone;
   std::uint16_t lines = 0;
-  double value = 0;  // contact: speed in m/s; scheduled event: its index
+  double value = 0;  // contact: speed in m/s; scheduled event: its index; reset: 1 when told
   double energy_J = 0;
 };
 

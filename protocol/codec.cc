@@ -123,6 +123,8 @@ template <>
 struct IdOf<Bye> : std::integral_constant<MessageId, MessageId::kBye> {};
 template <>
 struct IdOf<Reference> : std::integral_constant<MessageId, MessageId::kReference> {};
+template <>
+struct IdOf<Reset> : std::integral_constant<MessageId, MessageId::kReset> {};
 
 template <typename Message>
 std::size_t payload_size() noexcept {
@@ -181,6 +183,7 @@ std::size_t encoded_size(const Heartbeat& /*m*/) noexcept { return payload_size<
 std::size_t encoded_size(const Fault& /*m*/) noexcept { return payload_size<Fault>(); }
 std::size_t encoded_size(const Bye& /*m*/) noexcept { return payload_size<Bye>(); }
 std::size_t encoded_size(const Reference& /*m*/) noexcept { return payload_size<Reference>(); }
+std::size_t encoded_size(const Reset& /*m*/) noexcept { return payload_size<Reset>(); }
 
 std::size_t encode(const Hello& m, std::span<std::byte> into) noexcept { return encode_fixed(m, into); }
 std::size_t encode(const HelloReply& m, std::span<std::byte> into) noexcept { return encode_fixed(m, into); }
@@ -196,6 +199,7 @@ std::size_t encode(const Heartbeat& m, std::span<std::byte> into) noexcept { ret
 std::size_t encode(const Fault& m, std::span<std::byte> into) noexcept { return encode_fixed(m, into); }
 std::size_t encode(const Bye& m, std::span<std::byte> into) noexcept { return encode_fixed(m, into); }
 std::size_t encode(const Reference& m, std::span<std::byte> into) noexcept { return encode_fixed(m, into); }
+std::size_t encode(const Reset& m, std::span<std::byte> into) noexcept { return encode_fixed(m, into); }
 // clang-format on
 
 std::size_t encoded_size(const EncoderEdges& message) noexcept {
@@ -291,6 +295,8 @@ core::Status Decoder::decode(std::span<const std::byte> payload, MessageSink& si
       return decode_fixed<Bye>(payload, sink);
     case MessageId::kReference:
       return decode_fixed<Reference>(payload, sink);
+    case MessageId::kReset:
+      return decode_fixed<Reset>(payload, sink);
   }
   return core::failure(core::ErrorCode::kMessageUnknown);
 }
@@ -328,6 +334,8 @@ bool is_plausible(std::byte id, std::size_t size) noexcept {
       return size == payload_size<Bye>();
     case MessageId::kReference:
       return size == payload_size<Reference>();
+    case MessageId::kReset:
+      return size == payload_size<Reset>();
   }
   return false;
 }

@@ -23,6 +23,7 @@ class EachMessage : public MessageSink {
   void on(const Fault& m) noexcept override { self().handle(m); }
   void on(const Bye& m) noexcept override { self().handle(m); }
   void on(const Reference& m) noexcept override { self().handle(m); }
+  void on(const Reset& m) noexcept override { self().handle(m); }
 
  private:
   friend Derived;

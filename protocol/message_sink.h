@@ -35,6 +35,7 @@ class MessageSink {
   virtual void on(const Fault&) noexcept {}
   virtual void on(const Bye&) noexcept {}
   virtual void on(const Reference&) noexcept {}
+  virtual void on(const Reset&) noexcept {}
 };
 
 }  // namespace towbench::protocol

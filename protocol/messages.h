@@ -24,6 +24,7 @@ enum class Role : std::uint8_t { kController = 0, kPlant = 1, kObserver = 2 };
 inline constexpr std::uint32_t kCapabilityEdges = 1U << 0U;      // EncoderEdges
 inline constexpr std::uint32_t kCapabilityDigest = 1U << 1U;     // EncoderReport
 inline constexpr std::uint32_t kCapabilityReference = 1U << 2U;  // Reference: wanted, or given
+inline constexpr std::uint32_t kCapabilityReset = 1U << 3U;      // Reset: taken, or given
 
 // First message of each side. A mismatch is refused with both sides named (handshake.h).
 struct Hello {
@@ -169,6 +170,11 @@ struct Reference {
   float position_m = 0;
   float velocity_m_per_s = 0;
   float acceleration_m_per_s2 = 0;
+};
+
+// The operator asks a controller to leave its safe state, one that takes it (kCapabilityReset).
+struct Reset {
+  core::Nanoseconds time_ns = 0;
 };
 
 // Lockstep, controller to plant: "all my outputs up to now are sent; run until this time."

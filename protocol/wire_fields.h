@@ -153,6 +153,11 @@ void wire_fields(Io& io, typename Io::template Field<Reference>& m) noexcept {
   io.checked(m.acceleration_m_per_s2, legal::finite);
 }
 
+template <typename Io>
+void wire_fields(Io& io, typename Io::template Field<Reset>& m) noexcept {
+  io.checked(m.time_ns, legal::time);
+}
+
 // What no single field shows.
 template <typename Message>
 [[nodiscard]] constexpr bool is_consistent(const Message& /*message*/) noexcept {

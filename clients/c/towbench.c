@@ -162,6 +162,7 @@ int tb_end_turn(tb_bench* bench) {
   /* The first one is of no length: it brings the inputs of time 0. */
   const int64_t step_ns = bench->heard == TB_HELLO_REPLY ? 0 : (int64_t)bench->exchange_ns;
   bench->heard = 0;
+  bench->reset = 0;
   return send_time(bench, TB_ADVANCE, bench->now_ns + step_ns);
 }
 
@@ -185,7 +186,7 @@ int tb_ended(const tb_bench* bench) {
 
 /* Bytes of a payload without edges; 0 for an unknown id. */
 static size_t shortest(uint8_t id) {
-  static const uint8_t sizes[] = {0, 25, 27, 13, 25, 39, 15, 15, 33, 14, 9, 9, 13, 15, 9, 22};
+  static const uint8_t sizes[] = {0, 25, 27, 13, 25, 39, 15, 15, 33, 14, 9, 9, 13, 15, 9, 22, 9};
   return id < sizeof sizes ? sizes[id] : 0;
 }
 
@@ -341,6 +342,9 @@ int tb_take(tb_bench* bench, const uint8_t* p, size_t size) {
       break;
     case TB_ADVANCED:
       bench->now_ns = load_time(p + 1);
+      break;
+    case TB_RESET:
+      bench->reset = 1;
       break;
     case TB_FAULT:
       bench->fault = load16(p + 1);

@@ -24,7 +24,7 @@ enum { TB_VERSION = 1, TB_TICK_NS = 100000 };
 enum { TB_Y = 0, TB_X = 1, TB_AXES = 2 };
 /* Capabilities. Encoders as edges or, for a controller that cannot take so many bytes, as a digest.
  */
-enum { TB_EDGES = 1, TB_DIGEST = 2, TB_REFERENCE = 4 };
+enum { TB_EDGES = 1, TB_DIGEST = 2, TB_REFERENCE = 4, TB_RESETS = 8 };
 enum {
   TB_HALL_Y_MIN = 1,
   TB_HALL_Y_MAX = 2,
@@ -49,7 +49,8 @@ enum {
   TB_HEARTBEAT,
   TB_FAULT,
   TB_BYE,
-  TB_REFERENCE_POINT
+  TB_REFERENCE_POINT,
+  TB_RESET
 };
 
 /* The longest payload that is taken; a longer one is skipped and counted. A controller that asks
@@ -92,6 +93,7 @@ typedef struct {
   uint16_t lines;        /* TB_KILL_SWITCH and the like */
   uint16_t refusal;      /* of the greeting: an error number, 0 = agreed */
   uint32_t capabilities; /* of the bench */
+  uint8_t reset;         /* in this turn the operator asked to leave the safe state */
   uint16_t fault;        /* the last thing that the bench refused, and how many there were */
   uint32_t faults;
   tb_counts counts;

@@ -22,7 +22,7 @@ from typing import Callable, Iterator, NamedTuple
 
 VERSION = 1
 CONTROLLER, PLANT, OBSERVER = 0, 1, 2
-EDGES, DIGEST, REFERENCE = 1, 2, 4  # capabilities
+EDGES, DIGEST, REFERENCE, RESETS = 1, 2, 4, 8  # capabilities
 AXES = ("y", "x")
 HALL_Y_MIN, HALL_Y_MAX, HALL_X_MIN, HALL_X_MAX, KILL_SWITCH, READY_Y, READY_X = (1 << n for n in range(7))
 HALLS = HALL_Y_MIN | HALL_Y_MAX | HALL_X_MIN | HALL_X_MAX
@@ -64,7 +64,7 @@ def _finite(values: tuple) -> bool:
 
 
 HELLO, HELLO_REPLY, PWM_DUTY, ENCODER_EDGES, ENCODER_REPORT, DIGITAL_INPUTS, DIGITAL_OUTPUTS = range(1, 8)
-FORCE_SAMPLE, CURRENT_SAMPLE, ADVANCE, ADVANCED, HEARTBEAT, FAULT, BYE, REFERENCE_POINT = range(8, 16)
+FORCE_SAMPLE, CURRENT_SAMPLE, ADVANCE, ADVANCED, HEARTBEAT, FAULT, BYE, REFERENCE_POINT, RESET = range(8, 17)
 
 LAYOUTS: dict[int, Layout] = {
     HELLO: Layout("Hello", struct.Struct("<HBBIIIQ"), _hello),
@@ -95,6 +95,7 @@ LAYOUTS: dict[int, Layout] = {
     REFERENCE_POINT: Layout(
         "Reference", struct.Struct("<Bq3f"), lambda m: _axis(m[0]) and m[1] >= 0 and _finite(m[2:])
     ),
+    RESET: Layout("Reset", struct.Struct("<q"), lambda m: m[0] >= 0),
 }
 
 
@@ -369,6 +370,7 @@ class Bench:
     axes: dict[str, Axis] = field(default_factory=lambda: {name: Axis() for name in AXES})
     faults: list[tuple[int, int, int]] = field(default_factory=list)  # number, time, detail: what the bench refused
     gives_reference: bool = False
+    reset: bool = False  # in this turn the operator asked to leave the safe state
     _out: bytearray = field(default_factory=bytearray)
     _outputs_sequence: int = 0
     _ended: int = 0  # the message that ended the last wait
@@ -386,12 +388,13 @@ class Bench:
         tick_ns: int = 100_000,
         reference: bool = False,
         edges: bool = False,
+        resets: bool = False,
         version: int = VERSION,
     ) -> None:
         """Agrees with the bench and hears the first inputs. BenchError says why it was refused."""
         self.exchange_ns = exchange_ns
         mask = sum(1 << AXES.index(name) for name in axes)
-        wanted = (EDGES if edges else DIGEST) | (REFERENCE if reference else 0)
+        wanted = (EDGES if edges else DIGEST) | REFERENCE * reference | RESETS * resets
         self.send(HELLO, version, CONTROLLER, mask, tick_ns, exchange_ns, wanted, 0)
         self._wait(HELLO_REPLY)
         assert self._reply is not None
@@ -423,6 +426,7 @@ class Bench:
         False when the bench has ended the run; BenchError when it is gone.
         """
         self.send(ADVANCE, self.now_ns + self.exchange_ns)
+        self.reset = False
         self._wait(ADVANCED)
         if self._ended != BYE:
             return True
@@ -479,6 +483,8 @@ class Bench:
             self._count_edges(self.axes[AXES[fields[0]]], fields, edges)
         elif kind == DIGITAL_INPUTS:
             self.lines = fields[0]
+        elif kind == RESET:
+            self.reset = True
         elif kind == FAULT:
             self.faults.append(fields)
         elif kind == CURRENT_SAMPLE:

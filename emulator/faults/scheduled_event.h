@@ -37,6 +37,8 @@ enum class ScheduledEventKind : std::uint8_t {
   kTurnDisc,  // jumps by `value` counts
   // Chain on its sprocket.
   kSkipChain,  // jumps: the motor has turned `value` m of chain further without moving the carriage
+  // The operator, to the controller.
+  kReset,  // leave the safe state
 };
 
 struct ScheduledEvent {

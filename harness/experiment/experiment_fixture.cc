@@ -1,9 +1,11 @@
+#include "harness/experiment/experiment_fixture.h"
+
 #include <algorithm>
 
 #include "core/time.h"
 #include "harness/experiment/board_plan_text.h"
 #include "harness/experiment/board_wiring_text.h"
-#include "harness/experiment/experiment_fixture.h"
+#include "harness/experiment/event_text.h"
 #include "harness/experiment/reference_table.h"
 #include "harness/experiment/reference_text.h"
 #include "harness/fault_plan/fault_text.h"
@@ -35,32 +37,6 @@ ConsoleStep read_console_step(TableReader& reader) {
                "longest time for expect and wait");
   reader.finish();
   return step;
-}
-
-emulator::ScheduledEvent read_event(TableReader& reader) {
-  using EventKind = emulator::ScheduledEventKind;
-  double at_s = 0;
-  reader.value("at_s", at_s, core::between(0, kLongestRun_s), "when it happens");
-  std::size_t kind = 0;
-  reader.choice("do", kind, {"press_kill_switch", "release_kill_switch", "push_carriage"});
-  std::size_t axis = 0;
-  reader.choice("axis", axis, {"y", "x"});
-  emulator::ScheduledEvent event;
-  reader.value("force_N", event.value, core::between(-1000, 1000), "push from then on");
-  reader.require("at_s");
-  reader.require("do");
-  event.kind = static_cast<EventKind>(kind);
-  if (event.kind == EventKind::kPushCarriage) {
-    reader.require("axis");
-    reader.require("force_N");
-  } else if (reader.has("axis") || reader.has("force_N")) {
-    const char* const key = reader.has("axis") ? "axis" : "force_N";
-    throw FixtureError(reader.place_of(key), "a key without effect", "only with push_carriage");
-  }
-  reader.finish();
-  event.time_ns = core::nanoseconds(at_s);
-  event.axis = static_cast<core::Axis>(axis);
-  return event;
 }
 
 HandAct read_hand_act(TableReader& reader) {
@@ -158,11 +134,7 @@ Experiment read_script(TableReader& reader) {
     throw FixtureError(reader.place_of("reference"), "beside [[console]]",
                        "one of them: BBMC's console, or a reference for any controller");
   }
-  for (auto& event : reader.tables("event")) {
-    experiment.events.push_back(read_event(event));
-  }
-  std::stable_sort(experiment.events.begin(), experiment.events.end(),
-                   [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; });
+  experiment.events = read_events(reader, !experiment.reference.empty());
   for (auto& fault : reader.tables("fault")) {
     experiment.faults.push_back(read_fault(fault));
   }

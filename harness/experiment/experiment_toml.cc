@@ -1,9 +1,11 @@
+#include "harness/experiment/experiment_toml.h"
+
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "harness/experiment/board_plan_text.h"
-#include "harness/experiment/experiment_toml.h"
+#include "harness/experiment/event_text.h"
 #include "harness/experiment/reference_text.h"
 #include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/toml_number.h"
@@ -20,17 +22,6 @@ std::string console_toml(const ConsoleStep& step) {
   text += step.wait_idle ? "wait = \"idle\"\n" : "";
   text += step.wait_s > 0 ? "wait_s = " + toml_number(step.wait_s) + '\n' : "";
   return text + "timeout_s = " + toml_number(step.timeout_s) + '\n';
-}
-
-std::string event_toml(const emulator::ScheduledEvent& event) {
-  using EventKind = emulator::ScheduledEventKind;
-  auto text = fmt::format("\n[[event]]\nat_s = {}\n", toml_number(core::seconds(event.time_ns)));
-  if (event.kind == EventKind::kPushCarriage) {
-    return text + fmt::format("do = \"push_carriage\"\naxis = \"{}\"\nforce_N = {}\n",
-                              core::name_of(event.axis), toml_number(event.value));
-  }
-  const bool press = event.kind == EventKind::kPressKillSwitch;
-  return text + fmt::format("do = \"{}_kill_switch\"\n", press ? "press" : "release");
 }
 
 std::string hand_toml(const HandAct& act) {
@@ -86,7 +77,8 @@ std::string to_toml(const ExperimentFixture& fixture, const std::string& rig,
   text += start_toml(fixture.rig.parameters);
   append(text, experiment.console, console_toml);
   append(text, experiment.reference, [](const ReferenceMotion& motion) { return to_toml(motion); });
-  append(text, experiment.events, event_toml);
+  append(text, experiment.events,
+         [](const emulator::ScheduledEvent& event) { return to_toml(event); });
   append(text, experiment.faults, [](const Fault& fault) { return to_toml(fault); });
   append(text, experiment.board.faults, [](const BoardFault& fault) { return to_toml(fault); });
   append(text, experiment.board.budgets, [](const BoardBudget& budget) { return to_toml(budget); });

@@ -127,31 +127,60 @@ double driven_until_s(const RunData& data, double from_s, double to_s) {
   return until_s;
 }
 
+constexpr double kNever_s = std::numeric_limits<double>::max();
+
+// When the controller may drive again: at the operator's first reset after the switch's release; of
+// an operator who is not heard, at the release.
+double free_again_s(const RunData& data, const SafetyScope& scope, const Activation& pressed) {
+  if (scope.operator_may_reset) {
+    return pressed.to_s;
+  }
+  for (const auto& event : data.events) {
+    if (event.kind == "operator_reset" && event.time_s >= pressed.to_s) {
+      return event.time_s;
+    }
+  }
+  return kNever_s;
+}
+
 std::optional<Check> kill_removes_duty(const RunData& data, const SafetyScope& scope) {
-  const auto pressed = activations(data, InputLine::kKillSwitch);
-  if (pressed.empty()) {
-    return std::nullopt;
-  }
-  const double edge_s = pressed.front().from_s;
-  const double end_s =
-      scope.operator_may_reset ? pressed.front().to_s : std::numeric_limits<double>::max();
-  if (end_s < edge_s + kReaction_s) {
-    return std::nullopt;  // it bounced, and what follows is the operator's
-  }
   auto check = named("kill_to_zero_duty",
                      scope.operator_may_reset
                          ? "2 ms after the kill switch's edge nothing is driven until its release"
-                         : "2 ms after the kill switch's edge nothing is driven, to the end of "
-                           "the run",
+                         : "2 ms after the kill switch's edge nothing is driven, until a reset "
+                           "behind its release",
                      "ANY-2");
   check.unit = "s";
   check.max = kReaction_s;
-  const double zero_s = driven_until_s(data, edge_s, end_s);
-  check.value = zero_s - edge_s;
-  if (*check.value > kReaction_s + kSameMoment_s) {
-    fail(check, fmt::format("pressed at {:.4f} s, driven until {:.4f} s", edge_s, zero_s));
+  double judged_to_s = -1;
+  for (const auto& pressed : activations(data, InputLine::kKillSwitch)) {
+    const double edge_s = pressed.from_s;
+    const double end_s = free_again_s(data, scope, pressed);
+    if (edge_s < judged_to_s) {
+      continue;  // pressed again before a reset
+    }
+    if (end_s < edge_s + kReaction_s) {
+      break;  // it bounced, and what follows is the operator's
+    }
+    judged_to_s = scope.operator_may_reset ? kNever_s : end_s;
+    const double zero_s = driven_until_s(data, edge_s, end_s);
+    check.value = std::max(check.value.value_or(0), zero_s - edge_s);
+    if (zero_s - edge_s > kReaction_s + kSameMoment_s && check.verdict == Verdict::kPass) {
+      fail(check, fmt::format("pressed at {:.4f} s, driven until {:.4f} s", edge_s, zero_s));
+    }
   }
-  return check;
+  return check.value ? std::optional(check) : std::nullopt;
+}
+
+std::optional<Check> reset_told(const RunData& data) {
+  for (const auto& event : data.events) {
+    if (event.kind == "operator_reset" && event.value == 0) {
+      return invalid_check(
+          "reset_told", "the controller hears the operator's reset",
+          fmt::format("at {:.4f} s: its Hello does not have the bit for it", event.time_s));
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<Check> end_stop_not_outwards(const RunData& data) {
@@ -242,7 +271,8 @@ std::vector<Check> safety_checks(const RunData& data, const SafetyScope& scope) 
   if (scope.reference_is_known) {
     checks.push_back(no_runaway(data));
   }
-  for (auto& check : {kill_removes_duty(data, scope), end_stop_not_outwards(data)}) {
+  for (auto& check :
+       {kill_removes_duty(data, scope), end_stop_not_outwards(data), reset_told(data)}) {
     if (check) {
       checks.push_back(*check);
     }

@@ -12,9 +12,11 @@ namespace towbench::harness {
 
 //   starts_undriven          the first duty of each axis is zero, and every one before the operator
 //                            has typed anything
-//   kill_to_zero_duty        2 ms after the kill switch's edge no axis is driven, and none is to
-//                            the end of the run, or until the operator may have reset it
-//   end_stop_not_outwards    2 ms after an end-stop's edge the axis is not driven towards it while
+//   kill_to_zero_duty        2 ms after the kill switch's edge no axis is driven, and none is until
+//                            the switch is released and the operator has reset, or may have
+//   reset_told               INVALID where the controller takes no reset, and the experiment has
+//   one end_stop_not_outwards    2 ms after an end-stop's edge the axis is not driven towards it
+//   while
 //                            it is active and the axis moves that way, faster than 0.05 m/s; from
 //                            10 ms on, not for 5 ms in a row
 //   no_hard_end              no axis meets a hard end

@@ -40,8 +40,8 @@ struct LinkFault {
 using LinkMessage =
     std::variant<protocol::PwmDuty, protocol::DigitalOutputs, protocol::EncoderEdges,
                  protocol::EncoderReport, protocol::DigitalInputs, protocol::ForceSample,
-                 protocol::CurrentSample, protocol::Heartbeat, protocol::Fault,
-                 protocol::Reference>;
+                 protocol::CurrentSample, protocol::Heartbeat, protocol::Fault, protocol::Reference,
+                 protocol::Reset>;
 
 class LinkDisturber {
  public:

@@ -15,9 +15,10 @@ namespace towbench::harness {
 namespace {
 
 std::string_view name_of(emulator::PlantEventKind kind) {
-  constexpr std::array<std::string_view, 8> kNames{
+  constexpr std::array<std::string_view, 9> kNames{
       "input_line_changed",    "hard_end_contact", "index_pulse",   "fault",
-      "scheduled_event_fired", "peer_lost",        "drive_removed", "finished"};
+      "scheduled_event_fired", "peer_lost",        "drive_removed", "finished",
+      "operator_reset"};
   return kNames.at(static_cast<std::size_t>(kind));
 }
 

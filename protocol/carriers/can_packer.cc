@@ -134,5 +134,6 @@ template void CanPacker::handle(const Heartbeat&) noexcept;
 template void CanPacker::handle(const Fault&) noexcept;
 template void CanPacker::handle(const Bye&) noexcept;
 template void CanPacker::handle(const Reference&) noexcept;
+template void CanPacker::handle(const Reset&) noexcept;
 
 }  // namespace towbench::protocol

@@ -34,6 +34,30 @@ TEST(PlantNodeExchange, SendsEdgesOfEveryAxisThenLinesThenAdvanced) {
   EXPECT_EQ(c.peer.truth[0].time_ns, 2'000'000);
 }
 
+TEST(PlantNodeExchange, TheOperatorsResetComesBehindTheLinesToAControllerThatTakesIt) {
+  const std::vector<ScheduledEvent> acts{
+      {.time_ns = 1'000'001, .kind = ScheduledEventKind::kReleaseKillSwitch},
+      {.time_ns = 1'234'567, .kind = ScheduledEventKind::kPressKillSwitch},
+      {.time_ns = 1'700'000, .kind = ScheduledEventKind::kReset}};
+  for (const bool takes : {true, false}) {
+    auto c = greeted(rig_starting_at(1.0, 0.3), acts);
+    auto hello = ScriptedController::hello();
+    hello.capabilities |= takes ? protocol::kCapabilityReset : 0;
+    c.greet(hello);
+    c.advance_by(1'000'000);
+    c.peer.forget();
+    c.advance_by(1'000'000);
+    EXPECT_EQ(c.peer.order(),
+              takes ? "EdgesY EdgesX Inputs Reset Advanced" : "EdgesY EdgesX Inputs Advanced");
+    const auto told = c.peer.all(PlantEventKind::kOperatorReset);
+    ASSERT_EQ(told.size(), 1U);
+    EXPECT_EQ(told[0].time_ns, 1'700'000);
+    EXPECT_EQ(told[0].value, takes ? 1.0 : 0.0);
+    c.advance_by(1'000'000);
+    EXPECT_EQ(c.peer.all<protocol::Reset>().size(), takes ? 1U : 0U);
+  }
+}
+
 TEST(PlantNodeExchange, TheEdgesAddUpToTheTrueCountWithoutGapOrOverlap) {
   auto c = greeted(rig_starting_at(1.0, 0.2));
   c.greet();

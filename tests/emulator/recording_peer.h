@@ -22,9 +22,10 @@ struct EdgeInterval {
 
 class RecordingPeer : public protocol::MessageSink, public PlantObserver {
  public:
-  using Message = std::variant<protocol::HelloReply, EdgeInterval, protocol::EncoderReport,
-                               protocol::DigitalInputs, protocol::Advanced, protocol::Fault,
-                               protocol::Bye, protocol::ForceSample, protocol::CurrentSample>;
+  using Message =
+      std::variant<protocol::HelloReply, EdgeInterval, protocol::EncoderReport,
+                   protocol::DigitalInputs, protocol::Advanced, protocol::Fault, protocol::Bye,
+                   protocol::ForceSample, protocol::CurrentSample, protocol::Reset>;
 
   using MessageSink::on;
   void on(const protocol::HelloReply& m) noexcept override { add("HelloReply", m); }
@@ -46,6 +47,7 @@ class RecordingPeer : public protocol::MessageSink, public PlantObserver {
   void on(const protocol::Advanced& m) noexcept override { add("Advanced", m); }
   void on(const protocol::Fault& m) noexcept override { add("Fault", m); }
   void on(const protocol::Bye& m) noexcept override { add("Bye", m); }
+  void on(const protocol::Reset& m) noexcept override { add("Reset", m); }
 
   void on_truth(const TruthRow& row) noexcept override { truth.push_back(row); }
   void on_event(const PlantEvent& event) noexcept override { events.push_back(event); }

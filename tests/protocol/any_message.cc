@@ -82,8 +82,10 @@ void AnyMessage::send_to(MessageSink& sink, unsigned kind) noexcept {
       return sink.on(Fault{core::ErrorCode::kBothChannelsActive, time(), any<std::uint32_t>()});
     case 13:
       return sink.on(Bye{time()});
-    default:
+    case 14:
       return sink.on(Reference{axis(), time(), real(), real(), real()});
+    default:
+      return sink.on(Reset{time()});
   }
 }
 

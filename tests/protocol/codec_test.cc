@@ -66,7 +66,7 @@ ErrorCode decode_error_with(const std::string& name, std::size_t offset, const s
 }
 
 TEST(Codec, WritesTheExactBytesOfEveryMessage) {
-  EXPECT_EQ(golden_messages().size(), 15U);
+  EXPECT_EQ(golden_messages().size(), 16U);
   for (const Golden& golden : golden_messages()) {
     const auto expected = bytes_of(golden.payload_hex);
     const auto actual = encoded(golden.send);
@@ -142,7 +142,7 @@ TEST(Codec, RefusesEveryOtherLength) {
 }
 
 TEST(Codec, RefusesUnknownMessages) {
-  for (const unsigned id : {0U, 16U, 17U, 127U, 255U}) {
+  for (const unsigned id : {0U, 17U, 18U, 127U, 255U}) {
     std::array<std::byte, 32> payload{static_cast<std::byte>(id)};
     EXPECT_EQ(decode_error(payload), ErrorCode::kMessageUnknown) << id;
     EXPECT_FALSE(is_plausible(payload[0], payload.size()));
@@ -179,7 +179,7 @@ TEST(Codec, RefusesEveryFieldOutOfItsRange) {
   EXPECT_EQ(decode_error_with("Fault", 1, "ffff"), bad) << "error number 65535";
   EXPECT_EQ(decode_error_with("Reference", 1, "02"), bad) << "axis 2";
   EXPECT_EQ(decode_error_with("Reference", 10, "0000c07f"), bad) << "NaN";
-  for (const char* name : {"Advance", "Advanced", "Heartbeat", "Bye"}) {
+  for (const char* name : {"Advance", "Advanced", "Heartbeat", "Bye", "Reset"}) {
     EXPECT_EQ(decode_error_with(name, 1, "0000000000000080"), bad) << name << ": negative time";
   }
 }

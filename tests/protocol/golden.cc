@@ -104,6 +104,7 @@ const std::vector<Golden>& golden_messages() {
        [](MessageSink& s) {
          s.on(Reference{core::Axis::kX, kTime_ns, 1.0F, -2.0F, 0.5F});
        }},
+      {"Reset", "10 0807060504030201", [](MessageSink& s) { s.on(Reset{kTime_ns}); }},
   };
   return messages;
 }

@@ -89,6 +89,9 @@ inline std::string text_of(const Reference& m) {
       << m.position_m << ' ' << m.velocity_m_per_s << ' ' << m.acceleration_m_per_s2;
   return out.str();
 }
+inline std::string text_of(const Reset& m) {
+  return "Reset " + std::to_string(m.time_ns);
+}
 
 class RecordingSink final : public EachMessage<RecordingSink> {
  public:

@@ -105,13 +105,18 @@ int main(int argc, char** argv) {
   int killed = 0, brakes = 0;
   const int line = argc == 2 ? open_local(argv[1]) : -1;
   if (line < 0) return fprintf(stderr, "usage: pid local:PATH\n"), 2;
-  tb_init(&bench, TB_STREAM, 3, 1000000, TB_DIGEST | TB_REFERENCE);
+  tb_init(&bench, TB_STREAM, 3, 1000000, TB_DIGEST | TB_REFERENCE | TB_RESETS);
   tb_greet(&bench);
   if (!exchange(line, &bench) || bench.refusal != 0)
     return fprintf(stderr, "refused: %u\n", bench.refusal), 1;
   tb_enable(&bench, 3);
   tb_end_turn(&bench);
   while (exchange(line, &bench)) {
+    if (bench.reset && !(bench.lines & TB_KILL_SWITCH)) { /* the operator asks to go on */
+      memset(loops, 0, sizeof loops);
+      stopped = NULL;
+      killed = 0;
+    }
     const char* reason = stopped == NULL ? reason_to_stop(loops, &bench) : NULL;
     if (reason != NULL) {
       stopped = reason;

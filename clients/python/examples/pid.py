@@ -33,8 +33,7 @@ class Pid:
         self.slope += FILTER * ((error - self.error_before) / period_s - self.slope)
         self.error_before = error
         feedback = PROPORTIONAL * error + INTEGRAL * self.integral + DERIVATIVE * self.slope
-        acceleration = bench.axes[self.axis].reference.acceleration_m_per_s2
-        wanted = INERTIA[self.axis] * (acceleration + feedback)
+        wanted = INERTIA[self.axis] * (bench.axes[self.axis].reference.acceleration_m_per_s2 + feedback)
         if abs(wanted) < 1.0:  # no wind-up while the duty is at its limit
             self.integral += error * period_s
         stays = abs(bench.axes[self.axis].count - self.still_count) <= STALL_COUNTS
@@ -46,11 +45,12 @@ class Pid:
 
 def main() -> None:
     bench = towbench.connect(sys.argv[1])
-    bench.greet(reference=True)
-    loops = [Pid("y"), Pid("x")]
+    bench.greet(reference=True, resets=True)
     bench.enable("y", "x")
-    stopped, killed = "", False
+    loops, stopped, killed = [Pid("y"), Pid("x")], "", False
     while True:
+        if bench.reset and not bench.lines & towbench.KILL_SWITCH:  # the operator asks to go on
+            loops, stopped, killed = [Pid("y"), Pid("x")], "", False
         if not stopped:
             stopped = reason_to_stop(bench, loops)
             if stopped:
