@@ -46,8 +46,12 @@ void choose_clock(const std::string& clock, RunOptions& options) {
   if (clock != "real") {
     return;
   }
+  if (!options.firmware.empty()) {
+    throw FixtureError({"command line", 0, "--clock"}, "real, with an image on the virtual board",
+                       "lockstep, or --console pty: instructions are counted, not timed");
+  }
   options.clock = RunClock::kReal;
-  if (options.carrier == Carrier::kInProcess) {
+  if (options.carrier == Carrier::kInProcess && !options.external) {
     options.carrier = Carrier::kLocal;
   }
 }
@@ -77,16 +81,14 @@ void choose_controller(const std::string& text, RunOptions& options) {
   constexpr std::string_view kScheme = "firmware:";
   constexpr std::string_view kProcess = "process:";
   constexpr std::string_view kExternal = "external:";
-  const bool alone = options.carrier == Carrier::kInProcess && options.lines.controller.empty() &&
-                     options.encoder_lines.controller.empty() &&
-                     options.clock == RunClock::kLockstep;
+  const bool alone = options.carrier == Carrier::kInProcess;
   const bool is_process = text.starts_with(kProcess) && text.size() > kProcess.size();
   const bool is_external = text.starts_with(kExternal) && text.size() > kExternal.size();
   const bool is_firmware = text.starts_with(kScheme) && text.size() > kScheme.size();
   if (!(is_firmware || is_process || is_external) || !alone) {
     throw FixtureError({"command line", 0, "--controller"}, '"' + text + '"',
-                       "firmware:IMAGE.elf, process:COMMAND or external:ADDRESS, in lockstep and "
-                       "without another carrier");
+                       "firmware:IMAGE.elf, process:COMMAND or external:ADDRESS, without another "
+                       "carrier");
   }
   if (is_process) {
     options.external = ExternalController{.command = text.substr(kProcess.size())};
@@ -116,6 +118,14 @@ void check_load(const ExperimentFixture& fixture, const RunOptions& options) {
   }
 }
 
+// Another controller brings its lines itself: they are messages.
+void refuse_lines_of_others(const ExperimentOptions& options) {
+  if (!options.controller.empty() && !(options.lines.empty() && options.encoder_lines.empty())) {
+    throw FixtureError({"command line", 0, options.lines.empty() ? "--encoder-lines" : "--lines"},
+                       "beside --controller", "neither of them with another controller");
+  }
+}
+
 // The record of a run is read back by its report: what does not agree is no result.
 int tell_of_trouble(const ReportResult& written) {
   if (!written) {
@@ -135,11 +145,12 @@ RunResult run_with_options(const ExperimentFixture& fixture, const ExperimentOpt
   run_options.out = options.out;
   run_options.seed = options.seed;
   choose_carrier(options.carrier, run_options);
+  choose_controller(options.controller, run_options);
   choose_clock(options.clock, run_options);
   check_load(fixture, run_options);
+  refuse_lines_of_others(options);
   choose_lines(options.lines, run_options);
   choose_encoder_lines(options.encoder_lines, run_options);
-  choose_controller(options.controller, run_options);
   check_encoder_lines(fixture, run_options);
   if (!options.console.empty() && run_options.firmware.empty()) {
     throw FixtureError({"command line", 0, "--console"}, options.console,

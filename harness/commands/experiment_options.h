@@ -39,8 +39,8 @@ inline constexpr const char* kLinesHelp =
     "CHIP[+FIRST][~MILLISECONDS],[sim:]CHIP[+FIRST]";
 
 // "firmware:IMAGE.elf" (the virtual board), "process:COMMAND", "external:ADDRESS". Throws
-// FixtureError for another word, for a file that is no such image, and beside another carrier,
-// clock or lines.
+// FixtureError for another word, for a file that is no such image, and beside another carrier or
+// lines; an image beside another clock. Before choose_clock().
 void choose_controller(const std::string& text, RunOptions& options);
 
 inline constexpr const char* kControllerHelp =

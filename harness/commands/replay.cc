@@ -212,6 +212,12 @@ void choose_recorded_controller(const std::filesystem::path& folder, const Recor
                                 RunOptions& options) {
   constexpr std::string_view kProcess = "process:";
   const auto& carrier = recorded.carrier;
+  if (recorded.by_wall_clock &&
+      (carrier.starts_with(kProcess) || carrier.starts_with("external:"))) {
+    throw FixtureError({(folder / "result.json").string(), 0, "clock"}, "\"real\"",
+                       "a run in lockstep: another controller does not do the same twice by the "
+                       "wall clock");
+  }
   if (carrier.starts_with(kProcess)) {
     options.external = ExternalController{.command = carrier.substr(kProcess.size())};
   } else if (carrier == "virtual board" && !recorded.image.empty()) {

@@ -31,6 +31,7 @@ class Arrival {
   [[nodiscard]] std::string await();
 
   // Of a controller that has greeted.
+  [[nodiscard]] protocol::Connection& connection() { return *connection_; }
   [[nodiscard]] protocol::TurnLink& link() { return connection_->link(); }
   [[nodiscard]] const protocol::Hello& hello() const { return hello_; }
   // What the process did at its end that it should not; empty when there is none.

@@ -1,11 +1,13 @@
 #include "harness/external/external_bench.h"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "emulator/rig_parameters.h"
 #include "harness/external/reference_message.h"
+#include "harness/record/event_lines.h"
 #include "protocol/carriers/local_socket.h"
 
 namespace towbench::harness {
@@ -16,6 +18,8 @@ using core::Nanoseconds;
 // The last position is held so long at the least.
 constexpr Nanoseconds kHold_ns = core::kNanosecondsPerSecond / 2;
 constexpr Nanoseconds kStandstill_ns = core::kNanosecondsPerSecond / 5;
+// More than any exchange needs by far.
+constexpr std::uint32_t kMostMessages = 1000;
 
 std::string told(core::ErrorCode code) {
   return fmt::format("{} ({})", core::describe(code), core::number_of(code));
@@ -30,12 +34,12 @@ double duty_of(const protocol::PwmDuty& duty) {
 
 ExternalBench::ExternalBench(const ExperimentFixture& fixture, const ExternalPlant& plant,
                              protocol::TurnLink& link, const std::vector<LinkFault>& faults,
-                             FirmwareRecorder& recorder, CaseRecord* rows)
+                             const ExternalRecord& record, Hand* hand)
     : fixture_(fixture),
       plant_(plant),
       link_(link),
-      recorder_(recorder),
-      rows_(rows),
+      record_(record),
+      hand_(hand),
       schedule_(fixture.experiment.reference),
       to_plant_(*this, faults),
       to_controller_(*this, faults) {
@@ -44,45 +48,79 @@ ExternalBench::ExternalBench(const ExperimentFixture& fixture, const ExternalPla
   plant_.node.connect(to_controller_);
 }
 
-RunOutcome ExternalBench::run(const protocol::Hello& hello, const LoopWatchers& watchers) {
-  const auto start = HostClock::now();
-  advanced_ = start;
+bool ExternalBench::greet(const protocol::Hello& hello) {
   wants_reference_ = (hello.capabilities & protocol::kCapabilityReference) != 0;
   outcome_.exchange_ns = hello.exchange_ns;
   outcome_.control_period_ns = hello.exchange_ns;
   to_plant_.on(hello);
-  if (refusal_ != core::ErrorCode::kNone) {
-    outcome_.reason = "handshake refused: " + told(refusal_);
-  } else {
-    outcome_.complete = true;
+  outcome_.complete = refusal_ == core::ErrorCode::kNone;
+  outcome_.reason = outcome_.complete ? "" : "handshake refused: " + told(refusal_);
+  return outcome_.complete;
+}
+
+RunOutcome ExternalBench::run(const protocol::Hello& hello, const LoopWatchers& watchers) {
+  const auto start = HostClock::now();
+  advanced_ = start;
+  if (greet(hello)) {
     exchange_until_over(watchers);
   }
+  return ended(start);
+}
+
+RunOutcome ExternalBench::ended(HostClock::time_point start) {
   outcome_.end_ns = plant_.node.now_ns();
   outcome_.wall_time_s = std::chrono::duration<double>(HostClock::now() - start).count();
   return outcome_;
 }
 
+void ExternalBench::lose(core::ErrorCode why, const std::string& words) {
+  outcome_.script_failure = fmt::format(
+      "the controller {} at {} s{}", why == core::ErrorCode::kNone ? "ended the run" : "was lost",
+      core::seconds(plant_.node.now_ns()), words);
+  plant_.node.peer_lost(why == core::ErrorCode::kNone ? core::ErrorCode::kPeerClosed : why);
+}
+
+bool ExternalBench::said_too_much() {
+  if (messages_ <= kMostMessages && !has_flooded_) {
+    return false;
+  }
+  lose(core::ErrorCode::kTransportFailed,
+       fmt::format(": it sent more than {} messages in one exchange", kMostMessages));
+  link_.peer().on(protocol::Bye{plant_.node.now_ns()});
+  return true;
+}
+
+void ExternalBench::interrupt_if_asked(const LoopWatchers& watchers) {
+  if (watchers.stop != nullptr && watchers.stop->load(std::memory_order_relaxed)) {
+    outcome_.complete = false;
+    outcome_.reason = "interrupted";
+    link_.peer().on(protocol::Bye{plant_.node.now_ns()});
+    ended_ = true;
+  }
+}
+
 void ExternalBench::exchange_until_over(const LoopWatchers& watchers) {
   constexpr std::uint32_t kTurnsBetween = 4096;
+  auto host = advanced_;
   for (std::uint32_t turns = 1; !ended_; ++turns) {
     const auto turn = link_.wait(to_plant_);
     const auto lost = !turn           ? turn.error()
                       : time_stands() ? core::ErrorCode::kPeerSilent
                                       : core::ErrorCode::kNone;
     if (lost != core::ErrorCode::kNone || *turn == protocol::Turn::kBye) {
-      const double now_s = core::seconds(plant_.node.now_ns());
-      const bool ends = lost == core::ErrorCode::kNone;
-      outcome_.script_failure =
-          ends ? fmt::format("the controller ended the run at {} s", now_s)
-               : fmt::format("the controller was lost at {} s: {}", now_s, told(lost));
-      plant_.node.peer_lost(ends ? core::ErrorCode::kPeerClosed : lost);
+      lose(lost, lost == core::ErrorCode::kNone ? "" : ": " + told(lost));
       return;
     }
-    if (watchers.stop != nullptr && watchers.stop->load(std::memory_order_relaxed)) {
-      outcome_.complete = false;
-      outcome_.reason = "interrupted";
-      link_.peer().on(protocol::Bye{plant_.node.now_ns()});
-      ended_ = true;
+    if (said_too_much()) {
+      return;
+    }
+    interrupt_if_asked(watchers);
+    if (record_.tap != nullptr) {
+      const auto before = std::exchange(host, HostClock::now());
+      record_.tap->exchange(std::chrono::nanoseconds(host - before).count());
+    }
+    if (hand_ != nullptr && !ended_) {
+      take_hand(plant_.node.now_ns());
     }
     if (watchers.progress && turns % kTurnsBetween == 0) {
       watchers.progress(plant_.node.now_ns());
@@ -90,6 +128,40 @@ void ExternalBench::exchange_until_over(const LoopWatchers& watchers) {
   }
   // Its own Bye, where it sends one.
   (void)link_.wait(to_plant_);
+}
+
+void ExternalBench::take_hand(Nanoseconds now_ns) {
+  for (const auto& act : hand_->at(now_ns, *this)) {
+    record_.recorder.hand(act);
+    if (record_.tap != nullptr) {
+      record_.tap->event(hand_line(act));
+    }
+    finished_ = finished_ || act.kind == HandAct::Kind::kFinished;
+    disturbed_ = disturbed_ || act.disturbs();
+    if (act.kind == HandAct::Kind::kTyped) {  // all that an operator has to say here
+      plant_.node.add_event({.time_ns = now_ns, .kind = emulator::ScheduledEventKind::kReset});
+    }
+  }
+  advanced_ = HostClock::now();  // a hand may have held the run
+}
+
+bool ExternalBench::inject(const Injection& injection) {
+  const auto& host = injection.host;
+  if (!host.stalls.empty() || !host.steps.empty()) {
+    return false;
+  }
+  for (const auto& event : injection.events) {
+    plant_.node.add_event(event);
+  }
+  for (const auto& fault : injection.link) {
+    to_plant_.disturber.add(fault);
+    to_controller_.disturber.add(fault);
+  }
+  return true;
+}
+
+void ExternalBench::wait_a_little() noexcept {
+  link_.peer().on(protocol::Heartbeat{plant_.node.now_ns(), heartbeats_++});
 }
 
 bool ExternalBench::time_stands() {
@@ -101,6 +173,18 @@ bool ExternalBench::time_stands() {
   return host - advanced_ > std::chrono::nanoseconds(protocol::kDefaultSilence_ns);
 }
 
+void ExternalBench::note_one() noexcept {
+  ++messages_;
+  if (answers_ != nullptr) {
+    answers_->heard(plant_.node.now_ns());
+  }
+}
+
+void ExternalBench::end_exchange() noexcept {
+  has_flooded_ = has_flooded_ || messages_ > kMostMessages;
+  messages_ = 0;
+}
+
 void ExternalBench::note(const protocol::PwmDuty& duty) noexcept {
   commands_[duty.axis].duty = duty_of(duty);
 }
@@ -109,6 +193,13 @@ void ExternalBench::note(const protocol::PwmDuty& duty) noexcept {
 void ExternalBench::ToPlant::handle(const protocol::Advance& advance) noexcept {
   bench.plant_.heard.on(advance);
   const auto now_ns = bench.plant_.node.now_ns();
+  if (advance.until_ns > now_ns) {
+    bench.end_exchange();
+  }
+  if (bench.answers_ != nullptr) {  // the plant keeps its own time
+    bench.answers_->answered(advance.until_ns, now_ns);
+    return;
+  }
   if (advance.until_ns > now_ns && now_ns > bench.row_ns_) {
     bench.write_row(now_ns);
     bench.row_ns_ = now_ns;
@@ -142,9 +233,12 @@ void ExternalBench::write_row(Nanoseconds time_ns) noexcept {
     commands_[which].edges_told = counter.edges;
     axis.mode = schedule_.begun(which, time_ns) ? bbmc::AxisMode::kPosition : bbmc::AxisMode::kIdle;
   }
-  recorder_.row(row);
-  if (rows_ != nullptr) {
-    rows_->log.push_back(row);
+  record_.recorder.row(row);
+  if (record_.rows != nullptr) {
+    record_.rows->log.push_back(row);
+  }
+  if (record_.tap != nullptr) {
+    record_.tap->row(row, {});
   }
 }
 
@@ -157,15 +251,18 @@ void ExternalBench::send_reference(Nanoseconds time_ns) noexcept {
 }
 
 bool ExternalBench::over(Nanoseconds time_ns) noexcept {
-  if (time_ns >= core::nanoseconds(fixture_.experiment.duration_limit_s)) {
-    if (time_ns < schedule_.end_ns()) {
-      outcome_.script_failure = "the time limit came before the reference's end";
+  const bool stands = plant_.standstill.stands_for_ns() >= kStandstill_ns;
+  const bool ends_late = time_ns >= core::nanoseconds(fixture_.experiment.duration_limit_s);
+  if (ends_late || (finished_ && stands)) {
+    if (time_ns < schedule_.end_ns() && !disturbed_) {
+      outcome_.script_failure = ends_late ? "the time limit came before the reference's end"
+                                          : "finished by hand before the reference's end";
     }
     return true;
   }
   const auto after_ns = time_ns - schedule_.end_ns();
-  return after_ns >= kLongestSettling_ns ||
-         (after_ns >= kHold_ns && plant_.standstill.stands_for_ns() >= kStandstill_ns);
+  const bool held = hand_ != nullptr && hand_->holds() && !finished_;
+  return !held && (after_ns >= kLongestSettling_ns || (after_ns >= kHold_ns && stands));
 }
 
 void ExternalBench::ToController::handle(const protocol::HelloReply& reply) noexcept {

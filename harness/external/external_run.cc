@@ -1,8 +1,11 @@
 #include "harness/external/external_run.h"
 
 #include <algorithm>
+#include <thread>
+#include <utility>
 
 #include <fmt/format.h>
+#include <sys/mman.h>
 
 #include "harness/external/arrival.h"
 #include "harness/external/external_bench.h"
@@ -10,6 +13,8 @@
 #include "harness/fixtures/fixture_error.h"
 #include "harness/judge/safety_checks.h"
 #include "harness/link/refusals.h"
+#include "harness/realtime/realtime_plant.h"
+#include "harness/realtime/wall_clock_carrier.h"
 #include "harness/record/plant_recorder.h"
 #include "harness/record/two_observers.h"
 
@@ -41,36 +46,74 @@ Check makes_sense(const std::vector<std::string>& refused) {
   return check;
 }
 
-// What is played.
+// By the wall clock a wire that cannot bear the worst case is refused before the clock begins.
+std::string why_not_by_the_clock(const ExternalController& controller,
+                                 const protocol::Hello& hello) {
+  if (!controller.address) {
+    return {};
+  }
+  const auto bears = bears_the_wall_clock(*controller.address, hello.exchange_ns);
+  if (!bears) {
+    return bears.error().message;
+  }
+  const bool wants_edges = (hello.capabilities & protocol::kCapabilityEdges) != 0;
+  return wants_edges && !bears_every_tick(controller.address->scheme)
+             ? controller.address->text() + " bears no edges by the wall clock: ask for the digest"
+             : std::string{};
+}
+
+// What is played, into which files.
 struct Play {
   const ExperimentFixture& fixture;
   const std::vector<LinkFault>& link_faults;
-  const ExternalController& controller;
-  std::uint64_t seed = 0;
-  const LoopWatchers& watchers;
+  const ExternalPlay& how;
+  CaseRecord* record = nullptr;
+  std::vector<std::string>& refused;
+  std::unique_ptr<ExternalTiming>& timing;
 };
 
-// Files of both sides in the folder; `record` may be null.
-RunOutcome play_external(const Play& what, const std::filesystem::path& folder, CaseRecord* record,
-                         std::vector<std::string>& refused) {
+// Rights are of a thread of its own and end with it: no process inherits them.
+RunOutcome run_by_the_clock(ExternalBench& bench, Arrival& arrival, const Play& what) {
+  RunOutcome outcome;
+  outcome.reason = why_not_by_the_clock(what.how.controller, arrival.hello());
+  if (!outcome.reason.empty()) {
+    return outcome;
+  }
+  std::thread([&] {
+    go_by_the_wall_clock(arrival.connection());
+    what.timing = std::make_unique<ExternalTiming>(arrival.hello().exchange_ns);
+    outcome = bench.run_by_the_wall_clock(arrival.hello(), what.timing->loop(),
+                                          what.timing->answers(), what.how.watchers);
+  }).join();
+  (void)munlockall();
+  return outcome;
+}
+
+// Files of both sides in the folder.
+RunOutcome play_external(const Play& what, const std::filesystem::path& folder) {
   const auto& fixture = what.fixture;
-  Arrival arrival(what.controller, folder / kPrinted, what.watchers);
-  PlantRecorder files(folder, nullptr);
-  TwoObservers both(files, record);
-  StandstillWatch standstill(both);
-  Refusals refusals(standstill, [&](const std::string& line) { refused.push_back(line); });
-  emulator::PlantNode node(fixture.rig.parameters, what.seed, fixture.experiment.events, refusals);
+  const auto& how = what.how;
+  Arrival arrival(how.controller, folder / kPrinted, how.watchers);
+  PlantRecorder files(folder, how.tap);
   FirmwareRecorder recorder(folder, FirmwareRecorder::Log::kTelemetry);
+  TwoObservers both(files, what.record);
   RunOutcome outcome;
   outcome.reason = arrival.await();
   if (!outcome.reason.empty()) {
     return outcome;
   }
+  ThinnedTruth thinned(both, how.by_wall_clock ? arrival.hello().exchange_ns : 0);
+  StandstillWatch standstill(thinned);
+  Refusals refusals(standstill, [&](const std::string& line) { what.refused.push_back(line); });
+  emulator::PlantNode node(fixture.rig.parameters, how.seed, fixture.experiment.events, refusals);
+  RepeatedHand repeated(fixture.experiment.hand);
+  Hand* const hand = how.hand == nullptr && !fixture.experiment.hand.empty() ? &repeated : how.hand;
   ExternalBench bench(fixture, {node, standstill, refusals.heard()}, arrival.link(),
-                      what.link_faults, recorder, record);
-  outcome = bench.run(arrival.hello(), what.watchers);
+                      what.link_faults, {recorder, what.record, how.tap}, hand);
+  outcome = how.by_wall_clock ? run_by_the_clock(bench, arrival, what)
+                              : bench.run(arrival.hello(), how.watchers);
   if (const auto dropped = Refusals::dropped(arrival.link().counts()); !dropped.empty()) {
-    refused.push_back("dropped: " + dropped);
+    what.refused.push_back("dropped: " + dropped);
   }
   if (const auto trouble = arrival.join(); !trouble.empty() && outcome.script_failure.empty()) {
     outcome.script_failure = trouble;
@@ -108,42 +151,52 @@ std::shared_ptr<const ReferenceRun> run_external_reference(const ExperimentFixtu
   auto run = std::make_shared<ReferenceRun>();
   run->record.of_bbmc = false;
   std::vector<std::string> unused;
-  run->record.outcome = play_external({sound, {}, controller, seed, watchers}, run->files.path(),
-                                      &run->record, unused);
+  std::unique_ptr<ExternalTiming> none;
+  const ExternalPlay how{.controller = controller, .seed = seed, .watchers = watchers};
+  run->record.outcome =
+      play_external({sound, {}, how, &run->record, unused, none}, run->files.path());
   return run;
 }
 
-ExternalRun::ExternalRun(const ExperimentFixture& fixture, const ExternalController& controller,
-                         std::uint64_t seed, const LoopWatchers& watchers,
+ExternalRun::ExternalRun(const ExperimentFixture& fixture, const ExternalPlay& how,
                          std::shared_ptr<const ReferenceRun> reference)
-    : controller_(controller),
-      seed_(seed),
-      watchers_(watchers),
-      fixture_(fixture),
-      reference_(std::move(reference)) {
+    : how_(how), fixture_(fixture), reference_(std::move(reference)) {
   require_reference(fixture);
-  if (fixture.experiment.faults.empty()) {
+  prepare_faults();
+}
+
+void ExternalRun::prepare_faults() {
+  if (fixture_.experiment.faults.empty()) {
     reference_.reset();
     return;
   }
-  refuse_faults_beyond(fixture.experiment.faults, FaultReach::kMachineAndLink);
-  const auto sound = fixture_;
+  refuse_faults_beyond(fixture_.experiment.faults, FaultReach::kMachineAndLink);
+  auto sound = fixture_;
   if (!reference_) {
-    reference_ = run_external_reference(sound, controller_, seed_, watchers_);
+    reference_ = run_external_reference(sound, how_.controller, how_.seed, how_.watchers);
   }
   require_good_end(reference_->record.outcome);
   const auto prepared = prepare_without_bbmc(sound, reference_->record);
   if (const auto pressed = pressed_where_welded(sound, prepared)) {
-    reference_ = run_external_reference(*pressed, controller_, seed_, watchers_);
+    reference_ = run_external_reference(*pressed, how_.controller, how_.seed, how_.watchers);
     require_good_end(reference_->record.outcome);
   }
   fixture_ = with_faults(sound, prepared);
   link_faults_ = prepared.injection.link;
 }
 
+void ExternalRun::take_over(const ExperimentFixture& driven) {
+  fixture_ = driven;
+  prepare_faults();
+}
+
 RunOutcome ExternalRun::play(const std::filesystem::path& folder) {
-  return play_external({fixture_, link_faults_, controller_, seed_, watchers_}, folder, nullptr,
-                       refused_);
+  return play_external({fixture_, link_faults_, how_, nullptr, refused_, timing_}, folder);
+}
+
+std::string ExternalRun::judge_timing_into(const std::filesystem::path& folder,
+                                           Judgement& judgement) const {
+  return timing_ ? timing_->judge_into(folder, judgement) : std::string{};
 }
 
 void ExternalRun::keep_reference(const std::filesystem::path& folder) const {

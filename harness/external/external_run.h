@@ -5,25 +5,38 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "harness/checks/check.h"
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/external/external_controller.h"
+#include "harness/external/external_timing.h"
 #include "harness/fault_cases/reference_run.h"
 #include "harness/judge/judge.h"
 #include "harness/link/link_faults.h"
+#include "harness/lockstep/hand.h"
 #include "harness/lockstep/script_loop.h"
+#include "harness/record/run_tap.h"
 
 namespace towbench::harness {
+
+// How an experiment is played.
+struct ExternalPlay {
+  ExternalController controller;
+  std::uint64_t seed = 0;
+  const LoopWatchers& watchers;  // outlives the run
+  bool by_wall_clock = false;    // not with faults
+  RunTap* tap = nullptr;         // may be null, as may the hand; both outlive the run
+  Hand* hand = nullptr;
+};
 
 class ExternalRun {
  public:
   // With faults in the experiment the controller runs once without them, here
-  // unless `reference` is that run. `watchers` outlives this. Throws FixtureError for a fault that
+  // unless `reference` is that run. Throws FixtureError for a fault that
   // cannot be here, or where the run without faults does not end well.
-  ExternalRun(const ExperimentFixture& fixture, const ExternalController& controller,
-              std::uint64_t seed, const LoopWatchers& watchers,
+  ExternalRun(const ExperimentFixture& fixture, const ExternalPlay& how,
               std::shared_ptr<const ReferenceRun> reference = nullptr);
 
   // What is to be run: with the faults as events and as built.
@@ -35,15 +48,21 @@ class ExternalRun {
   // Adds what every external controller must keep, and drops what speaks of BBMC.
   void judge_into(const std::filesystem::path& folder, const RunOutcome& outcome,
                   Judgement& judgement) const;
+  // How punctual a run by the wall clock was, in words; adds to the verdict.
+  [[nodiscard]] std::string judge_timing_into(const std::filesystem::path& folder,
+                                              Judgement& judgement) const;
+  // Faults that were made by hand are judged beside a run without them too.
+  void take_over(const ExperimentFixture& driven);
 
  private:
-  ExternalController controller_;
-  std::uint64_t seed_;
-  const LoopWatchers& watchers_;
+  void prepare_faults();
+
+  ExternalPlay how_;
   ExperimentFixture fixture_;
   std::shared_ptr<const ReferenceRun> reference_;
   std::vector<LinkFault> link_faults_;
   std::vector<std::string> refused_;  // of the run's messages, in words
+  std::unique_ptr<ExternalTiming> timing_;
 };
 
 // Of an experiment without faults. How it ended is in its record's outcome. Throws FixtureError for

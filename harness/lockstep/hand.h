@@ -10,10 +10,9 @@
 #include "core/time.h"
 #include "harness/experiment/hand_act.h"
 #include "harness/fault_plan/fault.h"
+#include "harness/lockstep/steered_bench.h"
 
 namespace towbench::harness {
-
-class LockstepBench;
 
 class Hand {
  public:
@@ -25,7 +24,7 @@ class Hand {
   // Asked once an exchange, before the controller is served; may wait, which the run does not see.
   // What is broken has been given to the bench when it returns. The acts live until the next call.
   [[nodiscard]] virtual std::span<const HandAct> at(core::Nanoseconds now_ns,
-                                                    LockstepBench& bench) = 0;
+                                                    SteeredBench& bench) = 0;
   // Whether the run goes on after its script, until it is finished by hand or its time is over.
   [[nodiscard]] virtual bool holds() const = 0;
 };
@@ -45,7 +44,7 @@ class RepeatedHand final : public Hand {
   explicit RepeatedHand(std::vector<HandAct> acts) : acts_(std::move(acts)) {}
 
   [[nodiscard]] std::span<const HandAct> at(core::Nanoseconds now_ns,
-                                            LockstepBench& /*bench*/) override {
+                                            SteeredBench& /*bench*/) override {
     const std::size_t first = next_;
     while (next_ < acts_.size() && acts_[next_].time_ns <= now_ns) {
       ++next_;

@@ -13,11 +13,12 @@
 #include "harness/lockstep/duty_watch.h"
 #include "harness/lockstep/host_schedule.h"
 #include "harness/lockstep/injection.h"
+#include "harness/lockstep/steered_bench.h"
 #include "protocol/tee_sink.h"
 
 namespace towbench::harness {
 
-class LockstepBench {
+class LockstepBench final : public SteeredBench {
  public:
   // Plant and recorder outlive this; without a recorder rows and console are thrown away.
   LockstepBench(const bbmc::Configuration& configuration, std::uint64_t rig_hash, PlantEnd& plant,
@@ -36,13 +37,15 @@ class LockstepBench {
   // then been told and has removed its drive.
   [[nodiscard]] core::Status advance() noexcept;
 
-  // What nobody had planned, from the next exchange on. False when it cannot be done here.
-  [[nodiscard]] bool inject(const Injection& injection);
+  [[nodiscard]] bool inject(const Injection& injection) override;
 
   // Orderly end: drive off, Bye both ways.
   void finish() noexcept;
 
-  [[nodiscard]] core::Nanoseconds now_ns() const noexcept { return now_ns_; }
+  [[nodiscard]] core::Nanoseconds now_ns() const noexcept override { return now_ns_; }
+  [[nodiscard]] core::Nanoseconds exchange_ns() const noexcept override {
+    return controller_.exchange_ns();
+  }
   // How long the controller has commanded no drive on any axis, as the wire shows it.
   [[nodiscard]] core::Nanoseconds undriven_ns() const noexcept { return duty_watch_.undriven_ns(); }
   [[nodiscard]] bbmc::ControllerNode& controller() noexcept { return controller_; }

@@ -121,7 +121,7 @@ std::string LiveOperator::take_trouble() {
   return std::exchange(trouble_, {});
 }
 
-std::span<const HandAct> LiveOperator::at(core::Nanoseconds now_ns, LockstepBench& bench) {
+std::span<const HandAct> LiveOperator::at(core::Nanoseconds now_ns, SteeredBench& bench) {
   now_ns_.store(now_ns, std::memory_order_relaxed);
   if (!wanted_.load(std::memory_order_acquire) && !stop_.load(std::memory_order_relaxed)) {
     return {};
@@ -176,7 +176,7 @@ void LiveOperator::note(HandAct::Kind kind, std::string text) {
 }
 
 void LiveOperator::carry_out(const Command& command, core::Nanoseconds /*now_ns*/,
-                             LockstepBench& bench) {
+                             SteeredBench& bench) {
   std::string refusal;
   switch (command.kind) {
     case HandAct::Kind::kFault:
@@ -198,14 +198,14 @@ void LiveOperator::carry_out(const Command& command, core::Nanoseconds /*now_ns*
   }
 }
 
-std::string LiveOperator::make_broken(const Fault& fault, LockstepBench& bench) {
+std::string LiveOperator::make_broken(const Fault& fault, SteeredBench& bench) {
   for (const auto& other : broke_) {
     if (is_same_place(other, fault) && !other.duration_s) {
       return fmt::format("{} {} already", name_of(fault.place), fault.row().name);
     }
   }
   Fault now = fault;
-  const auto onset_ns = bench.now_ns() + bench.controller().exchange_ns();
+  const auto onset_ns = bench.now_ns() + bench.exchange_ns();
   now.trigger = {.value = core::seconds(onset_ns)};
   const auto injection = injection_of(now);
   const auto& host = injection.host;
@@ -221,7 +221,7 @@ std::string LiveOperator::make_broken(const Fault& fault, LockstepBench& bench) 
   return {};
 }
 
-std::string LiveOperator::make_cleared(const Fault& fault, LockstepBench& bench) {
+std::string LiveOperator::make_cleared(const Fault& fault, SteeredBench& bench) {
   const auto broken = std::find_if(broke_.begin(), broke_.end(), [&](const Fault& other) {
     return is_same_place(other, fault) && !other.duration_s;
   });
@@ -229,7 +229,7 @@ std::string LiveOperator::make_cleared(const Fault& fault, LockstepBench& bench)
     return fmt::format("{} is not {} by hand", name_of(fault.place), fault.row().name);
   }
   Fault over = *broken;
-  const auto until_ns = bench.now_ns() + bench.controller().exchange_ns();
+  const auto until_ns = bench.now_ns() + bench.exchange_ns();
   over.duration_s = core::seconds(until_ns) - over.trigger.value;
   const auto before = injection_of(*broken);
   auto after = injection_of(over);

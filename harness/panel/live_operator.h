@@ -16,7 +16,6 @@
 
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/lockstep/hand.h"
-#include "harness/lockstep/lockstep_bench.h"
 #include "harness/panel/run_operator.h"
 
 namespace towbench::harness {
@@ -47,8 +46,7 @@ class LiveOperator final : public RunOperator {
   [[nodiscard]] std::string take_trouble() override;
 
   // ---- on the bench's thread ----
-  [[nodiscard]] std::span<const HandAct> at(core::Nanoseconds now_ns,
-                                            LockstepBench& bench) override;
+  [[nodiscard]] std::span<const HandAct> at(core::Nanoseconds now_ns, SteeredBench& bench) override;
   [[nodiscard]] bool holds() const override { return holds_; }
   // Both when the run is over.
   [[nodiscard]] const std::vector<HandAct>& done() const override { return done_; }
@@ -63,9 +61,9 @@ class LiveOperator final : public RunOperator {
   };
 
   void give(Command command);
-  void carry_out(const Command& command, core::Nanoseconds now_ns, LockstepBench& bench);
-  [[nodiscard]] std::string make_broken(const Fault& fault, LockstepBench& bench);
-  [[nodiscard]] std::string make_cleared(const Fault& fault, LockstepBench& bench);
+  void carry_out(const Command& command, core::Nanoseconds now_ns, SteeredBench& bench);
+  [[nodiscard]] std::string make_broken(const Fault& fault, SteeredBench& bench);
+  [[nodiscard]] std::string make_cleared(const Fault& fault, SteeredBench& bench);
   [[nodiscard]] Injection injection_of(const Fault& fault) const;
   void note(HandAct::Kind kind, std::string text);
   // Until when the pace says to wait; none: not at all.

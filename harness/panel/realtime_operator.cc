@@ -38,7 +38,7 @@ void RealtimeOperator::finish() {
   (void)keys_.push(keys);  // full: pressed again
 }
 
-std::span<const HandAct> RealtimeOperator::at(core::Nanoseconds now_ns, LockstepBench& /*bench*/) {
+std::span<const HandAct> RealtimeOperator::at(core::Nanoseconds now_ns, SteeredBench& /*bench*/) {
   Keys keys;
   while (done_.size() < done_.capacity() && keys_.pop(keys)) {
     done_.push_back({.time_ns = now_ns, .kind = keys.kind, .text = std::string(keys.text())});

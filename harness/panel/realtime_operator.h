@@ -35,8 +35,7 @@ class RealtimeOperator final : public RunOperator {
   [[nodiscard]] std::string take_trouble() override { return {}; }
 
   // ---- on the bench's thread ----
-  [[nodiscard]] std::span<const HandAct> at(core::Nanoseconds now_ns,
-                                            LockstepBench& bench) override;
+  [[nodiscard]] std::span<const HandAct> at(core::Nanoseconds now_ns, SteeredBench& bench) override;
   [[nodiscard]] bool holds() const override { return holds_; }
   [[nodiscard]] const std::vector<HandAct>& done() const override { return done_; }
   [[nodiscard]] const FaultPlan& broke() const override { return broke_; }

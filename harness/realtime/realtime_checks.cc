@@ -5,26 +5,6 @@
 namespace towbench::harness {
 namespace {
 
-Check host_on_time(const TickSummary& side) {
-  Check check;
-  check.name = side.side + "_host_on_time";
-  check.meaning = "the host ran every tick, none later than may be caught up";
-  check.value = static_cast<double>(side.most_behind);
-  check.unit = "ticks";
-  check.max = side.max_behind;
-  check.verdict = Verdict::kPass;
-  if (side.ticks == 0) {
-    check.verdict = Verdict::kInvalid;
-    check.reason = "there was no tick";
-  } else if (side.host_was_late) {
-    check.verdict = Verdict::kInvalid;
-    check.reason = fmt::format(
-        "the host was late: tick {} began {} ticks of {} us after it was due", side.worst_tick,
-        side.most_behind, side.period_ns / core::kNanosecondsPerMicrosecond);
-  }
-  return check;
-}
-
 // `worse`: what it is when the budget is exceeded.
 Check jitter(std::string name, std::string meaning, const DurationFigures& figures,
              const TickSummary& side, core::Nanoseconds period_ns, Verdict worse) {
@@ -51,6 +31,26 @@ Check jitter(std::string name, std::string meaning, const DurationFigures& figur
 }
 
 }  // namespace
+
+Check host_on_time(const TickSummary& side) {
+  Check check;
+  check.name = side.side + "_host_on_time";
+  check.meaning = "the host ran every tick, none later than may be caught up";
+  check.value = static_cast<double>(side.most_behind);
+  check.unit = "ticks";
+  check.max = side.max_behind;
+  check.verdict = Verdict::kPass;
+  if (side.ticks == 0) {
+    check.verdict = Verdict::kInvalid;
+    check.reason = "there was no tick";
+  } else if (side.host_was_late) {
+    check.verdict = Verdict::kInvalid;
+    check.reason = fmt::format(
+        "the host was late: tick {} began {} ticks of {} us after it was due", side.worst_tick,
+        side.most_behind, side.period_ns / core::kNanosecondsPerMicrosecond);
+  }
+  return check;
+}
 
 std::vector<Check> realtime_checks(const TickSummary& emulator, const TickSummary& controller,
                                    core::Nanoseconds control_period_ns) {

@@ -17,6 +17,7 @@ inline constexpr double kMaxJitterShare = 0.05;
 //   tick control_lateness       INVALID when the controller's wake-ups jitter more than the budget
 //   control_jitter         FAIL when its execution does
 //   All are INVALID for a side without a tick.
+[[nodiscard]] Check host_on_time(const TickSummary& side);
 [[nodiscard]] std::vector<Check> realtime_checks(const TickSummary& emulator,
                                                  const TickSummary& controller,
                                                  core::Nanoseconds control_period_ns);

@@ -34,13 +34,6 @@ void warn(const char* side, const RealtimeRights& rights) {
   }
 }
 
-json described(const TickSummary& summary, const TickRecord& record) {
-  auto object = to_json(summary);
-  object["lateness_us_ticks"] = bins_of(record.lateness);
-  object["execution_us_ticks"] = bins_of(record.execution);
-  return object;
-}
-
 void write(const std::filesystem::path& path, const json& value) {
   write_atomically(path, value.dump(1) + "\n");
 }
@@ -58,10 +51,13 @@ core::Status EmulatorTiming::serve(emulator::PlantNode& plant, protocol::TurnLin
                                    const protocol::Hello& hello, const PlantSurroundings& around) {
   const auto ended = serve_plant_in_real_time(plant, link, hello, *loop_, around);
   if (!folder_.empty()) {
-    const auto summary = summarise("emulator", rights_.text(), loop_->policy(), loop_->record());
-    write(folder_ / kEmulatorFile, described(summary, loop_->record()));
+    write(folder_ / kEmulatorFile, to_json(summary(), loop_->record()));
   }
   return ended;
+}
+
+TickSummary EmulatorTiming::summary() const {
+  return summarise("emulator", rights_.text(), loop_->policy(), loop_->record());
 }
 
 ControllerTiming::ControllerTiming(std::filesystem::path folder,
@@ -93,7 +89,7 @@ std::string ControllerTiming::judge_into(Judgement& judgement,
   judgement.verdict = worst_of(judgement.checks);
   write(folder_ / "realtime.json", {{"schema", 1},
                                     {"emulator", of_emulator},
-                                    {"controller", described(controller, loop_->record())}});
+                                    {"controller", to_json(controller, loop_->record())}});
   return text_of(emulator) + text_of(controller);
 }
 

@@ -16,6 +16,7 @@
 #include "harness/realtime/realtime_rights.h"
 #include "harness/realtime/tick_clock.h"
 #include "harness/realtime/tick_loop.h"
+#include "harness/realtime/tick_summary.h"
 #include "protocol/carriers/turn_link.h"
 
 namespace towbench::harness {
@@ -31,6 +32,11 @@ class EmulatorTiming {
   // As serve_plant_in_real_time(), and writes the file.
   [[nodiscard]] core::Status serve(emulator::PlantNode& plant, protocol::TurnLink& link,
                                    const protocol::Hello& hello, const PlantSurroundings& around);
+
+  // For who serves the plant himself. Of the loop that has ended: its figures.
+  [[nodiscard]] TickLoop& loop() noexcept { return *loop_; }
+  [[nodiscard]] const TickRecord& record() const noexcept { return loop_->record(); }
+  [[nodiscard]] TickSummary summary() const;
 
  private:
   std::filesystem::path folder_;

@@ -7,12 +7,6 @@ namespace {
 
 using nlohmann::json;
 
-json to_json(const DurationFigures& figures) {
-  return {{"min_ns", figures.min_ns}, {"mean_ns", figures.mean_ns}, {"p50_ns", figures.p50_ns},
-          {"p99_ns", figures.p99_ns}, {"p999_ns", figures.p999_ns}, {"max_ns", figures.max_ns},
-          {"max_at", figures.max_at}};
-}
-
 DurationFigures figures_from(const json& object) {
   DurationFigures figures;
   object.at("min_ns").get_to(figures.min_ns);
@@ -38,6 +32,12 @@ std::string line(const char* what, const DurationFigures& figures) {
 }
 
 }  // namespace
+
+json to_json(const DurationFigures& figures) {
+  return {{"min_ns", figures.min_ns}, {"mean_ns", figures.mean_ns}, {"p50_ns", figures.p50_ns},
+          {"p99_ns", figures.p99_ns}, {"p999_ns", figures.p999_ns}, {"max_ns", figures.max_ns},
+          {"max_at", figures.max_at}};
+}
 
 DurationFigures figures_of(const DurationHistogram& histogram) {
   return {.min_ns = histogram.min_ns(),
@@ -76,6 +76,13 @@ json to_json(const TickSummary& summary) {
           {"host_was_late", summary.host_was_late},
           {"lateness", to_json(summary.lateness)},
           {"execution", to_json(summary.execution)}};
+}
+
+json to_json(const TickSummary& summary, const TickRecord& record) {
+  auto object = to_json(summary);
+  object["lateness_us_ticks"] = bins_of(record.lateness);
+  object["execution_us_ticks"] = bins_of(record.execution);
+  return object;
 }
 
 TickSummary tick_summary_from(const json& object) {

@@ -40,7 +40,10 @@ struct TickSummary {
 [[nodiscard]] TickSummary summarise(std::string side, std::string rights, const TickPolicy& policy,
                                     const TickRecord& record);
 
+[[nodiscard]] nlohmann::json to_json(const DurationFigures& figures);
 [[nodiscard]] nlohmann::json to_json(const TickSummary& summary);
+// With every bin of the histograms.
+[[nodiscard]] nlohmann::json to_json(const TickSummary& summary, const TickRecord& record);
 // Throws nlohmann::json::exception for anything that to_json() did not write.
 [[nodiscard]] TickSummary tick_summary_from(const nlohmann::json& json);
 // Every bin that is not empty, as [microseconds, ticks].

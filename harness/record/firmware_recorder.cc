@@ -19,6 +19,10 @@ void FirmwareRecorder::event(const bbmc::SystemEvent& event) noexcept {
   events_.write(event_line(event));
 }
 
+void FirmwareRecorder::hand(const HandAct& act) noexcept {
+  events_.write(hand_line(act));
+}
+
 void FirmwareRecorder::wire_event(core::Nanoseconds time_ns, std::string_view kind) noexcept {
   events_.write(wire_event_line(time_ns, kind));
 }

@@ -12,6 +12,7 @@ void ExternalRunner::judge_into(RunResult& result, const RunOutcome& outcome) {
   plan().external->keep_reference(plan().folder);
   Runner::judge_into(result, outcome);
   plan().external->judge_into(plan().folder, outcome, result.judgement);
+  result.timing = plan().external->judge_timing_into(plan().folder, result.judgement);
 }
 
 }  // namespace towbench::harness

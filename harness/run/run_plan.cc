@@ -33,8 +33,19 @@ void plan_board(RunPlan& plan) {
 
 void plan_external(RunPlan& plan) {
   plan.kind = RunKind::kExternal;
-  plan.external = std::make_unique<ExternalRun>(plan.given, *plan.options.external, plan.seed,
-                                                plan.options.watchers, plan.options.reference);
+  const auto& options = plan.options;
+  if (!plan.given.experiment.faults.empty()) {
+    refuse_faults_without_reference(options);
+  }
+  plan.external =
+      std::make_unique<ExternalRun>(plan.given,
+                                    ExternalPlay{.controller = *options.external,
+                                                 .seed = plan.seed,
+                                                 .watchers = options.watchers,
+                                                 .by_wall_clock = options.clock == RunClock::kReal,
+                                                 .tap = options.tap,
+                                                 .hand = options.hand},
+                                    options.reference);
   plan.fixture = plan.external->fixture();
 }
 
@@ -128,6 +139,11 @@ void RunPlan::take_over(const FreeHand& hand) {
     return;
   }
   write_atomically(folder / identity.experiment_copy, driven.sources.front().text);
+  if (external) {
+    external->take_over(driven);
+    fixture = external->fixture();
+    return;
+  }
   if (driven.experiment.faults.empty()) {
     fixture = std::move(driven);
     return;
