@@ -18,7 +18,7 @@ DEAF_TO = {
     "deaf_to_x_max": towbench.HALL_X_MAX,
 }
 # They go on whatever the count says, or their own fault would stop them.
-CREDULOUS = {*DEAF_TO, "forgets_the_kill", "trusts_the_encoder", "sign_reversed", "wraps_at_16_bits"}
+CREDULOUS = {*DEAF_TO, "forgets_the_kill", "any_reset_frees", "trusts_the_encoder", "sign_reversed", "wraps_at_16_bits"}
 LATE_BY = {"one_tick_late": 1, "a_tenth_of_a_second_late": 100}  # exchanges
 
 if kind == "never_connects":
@@ -30,7 +30,7 @@ if kind == "one_axis":
     bench.greet(axes=("y",))
 if kind == "other_tick":
     bench.greet(tick_ns=50_000)
-bench.greet(reference=True, edges=kind == "takes_edges", exchange_ns=2_000_000 if kind == "one_tick_late" else 1_000_000)
+bench.greet(reference=True, resets=kind != "takes_no_reset", edges=kind == "takes_edges", exchange_ns=2_000_000 if kind == "one_tick_late" else 1_000_000)
 if kind == "waits_for_ever":
     bench.silence_s = 60.0
 loops = [pid.Pid("y"), pid.Pid("x")]
@@ -56,11 +56,27 @@ def duties_of_good_one() -> dict:
     return duties
 
 
+def turn_by_its_own_clock() -> bool:
+    """Sends, and takes what has come in a millisecond, whether anything has or not."""
+    bench.send(towbench.HEARTBEAT, bench.now_ns, 0)
+    bench.port.send(bytes(bench._out))
+    bench._out.clear()
+    end_s = time.monotonic() + 0.001
+    while (left_s := end_s - time.monotonic()) > 0:
+        for payload in bench.framing.feed(bench.port.receive(left_s)):
+            if bench._take(payload) == towbench.BYE:
+                return False
+    return True
+
+
 while True:
     now_s = bench.now_ns * 1e-9
     bench.lines &= ~DEAF_TO.get(kind, 0)
     if kind == "forgets_the_kill" and not bench.lines & towbench.KILL_SWITCH:
         stopped = ""
+    if kind == "any_reset_frees" and bench.reset:
+        stopped = ""
+        bench.lines &= ~towbench.KILL_SWITCH
     if kind == "counts_on_over_gaps":
         bench.counts.sequence_gaps = 0
     reason = pid.reason_to_stop(bench, loops)
@@ -87,6 +103,13 @@ while True:
             bench.axes["y"]._duty_sequence += 1
         if kind == "illegal_field":
             bench.send(towbench.PWM_DUTY, 0, 1, 2000, 0, 1000, bench.axes["y"]._duty_sequence)
+        if kind == "not_a_number":
+            bench.send(towbench.CURRENT_SAMPLE, 0, bench.now_ns, float("nan"))
+        if kind == "floods":
+            for _ in range(2000):
+                bench.drive("y", 0.0)
+        if kind == "slow" and now_s > 1.2:
+            time.sleep(0.05)
         if kind == "garbage":
             bench._out += os.urandom(64)
         if kind == "dies":
@@ -98,7 +121,7 @@ while True:
         if kind == "babbles":
             while True:
                 bench.port.send(bench.framing.frame(towbench.encode(towbench.HEARTBEAT, 0, 0)))
-    if not bench.turn():
+    if not (turn_by_its_own_clock() if kind == "own_clock" else bench.turn()):
         break
 if kind == "stays_after_bye":
     time.sleep(5)

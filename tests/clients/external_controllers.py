@@ -1,22 +1,26 @@
-"""Whole runs of controllers that the bench did not write: external_controllers.py GROUP ROOT PROGRAM C_PID
+"""Whole runs of controllers that the bench did not write: external_controllers.py GROUP ROOT PROGRAM C_PID BBMC
 
 Each line of the tables is an experiment, a controller, and what the run must say: the verdict, and for a bad
 controller the check that must fail. The good ones pass what the bad ones fail.
 """
 
+import csv
 import filecmp
 import json
+import math
 import subprocess
 import sys
 import tempfile
+import tomllib
 from pathlib import Path
 
-group, root, program, c_pid = sys.argv[1], Path(sys.argv[2]), sys.argv[3], sys.argv[4]
+group, root, program, c_pid, bbmc_process = sys.argv[1], Path(sys.argv[2]), *sys.argv[3:6]
 work = Path(tempfile.mkdtemp(prefix="towbench-external-"))
 PYTHON_PID = f"process:python3 '{root}/clients/python/examples/pid.py' {{address}}"
 C_PID = f"process:'{c_pid}' {{address}}"
 TRAPEZOID = str(root / "fixtures/any-controller/trapezoid-y.toml")
 CIRCLE = str(root / "fixtures/any-controller/circle.toml")
+RESET = str(root / "fixtures/any-controller/kill-and-reset.toml")
 failures = []
 
 
@@ -24,11 +28,15 @@ def bad(kind: str) -> str:
     return f"process:python3 '{root}/tests/clients/bad_controller.py' '{root}' {kind} {{address}}"
 
 
-def experiment(name: str, *parts: str) -> str:
-    """An experiment file beside copies of the rig and the plant that it needs."""
+def rig_beside() -> None:
+    """Copies of the rig and the plant that an experiment of this folder needs."""
     for fixture in ("rigs/macs-nominal.toml", "plants/macs-nominal.toml"):
         (work / fixture).parent.mkdir(exist_ok=True)
         (work / fixture).write_text((root / "fixtures" / fixture).read_text())
+
+
+def experiment(name: str, *parts: str) -> str:
+    rig_beside()
     path = work / f"{name}.toml"
     head = f'schema = 1\nname = "{name}"\nrig = "rigs/macs-nominal.toml"\nduration_limit_s = 12.0\n'
     path.write_text(head + "".join(parts))
@@ -91,6 +99,118 @@ def good() -> None:
     expect("a run of a process replays", replay.returncode == 0, replay.stdout + replay.stderr)
 
 
+def reset() -> None:
+    expect_pass("Python, killed, reset and driven", RESET, PYTHON_PID)
+    expect_pass("C, killed, reset and driven", RESET, C_PID)
+    code, result, error = run(RESET, bad("takes_no_reset"))
+    invalid = [c["name"] for c in result.get("checks", []) if c["verdict"] == "INVALID"]
+    expect("one that takes no reset proves nothing", code == 4 and "reset_told" in invalid, (code, invalid, error))
+    early = '[[event]]\nat_s = 1.2\ndo = "press_kill_switch"\n[[event]]\nat_s = 1.4\ndo = "reset"\n'
+    late = early + '[[event]]\nat_s = 1.6\ndo = "release_kill_switch"\n'
+    file = experiment("reset-while-pressed", trapezoid(0.6), late, TRAVELS)
+    expect_pass("a reset while the switch is pressed frees nothing, and the good one", file, PYTHON_PID)
+    expect_caught("one that any reset frees", "kill_to_zero_duty", file, bad("any_reset_frees"))
+
+
+def table(name: str, position_m, end_s: float, step_s: float = 0.001) -> None:
+    steps = round(end_s / step_s)
+    rows = [f"{i * step_s:.6f},{position_m(i * step_s):.9f}" for i in range(steps + 1)]
+    (work / name).write_text("\n".join(["time_s,position_m", *rows]) + "\n")
+
+
+def tables() -> None:
+    table("way.csv", lambda t: 0.1 * (1 - math.cos(math.pi * t)), 2.0)
+    by_table = '[[reference]]\nmove = "table"\naxis = "y"\nat_s = 0.5\nfile = "way.csv"\n'
+    follows = TRAVELS + '[[budget]]\nmetric = "y_tracking_error_peak_m"\nmax = 2e-3\n'
+    file = experiment("table", by_table, follows)
+    folder = expect_pass("Python by a table", file, PYTHON_PID)
+    expect_pass("C by a table", file, C_PID)
+    expect("the table is in the run folder", (folder / "inputs/way.csv").read_bytes() == (work / "way.csv").read_bytes())
+    replay = subprocess.run([program, "replay", str(folder)], capture_output=True, text=True)
+    expect("a run by a table replays", replay.returncode == 0, replay.stdout + replay.stderr)
+    hold = '[[reference]]\nmove = "hold"\naxis = "x"\nat_s = 0.2\nduration_s = 1.0\n'
+    steps = '[[reference]]\nmove = "steps"\naxis = "y"\nat_s = 0.5\ndistance_m = 0.0005\ncount = 100\nevery_s = 0.02\n'
+    expect_pass("a hold and a staircase", experiment("steps", hold, steps, '[[budget]]\nmetric = "y_carriage_travel_m"\nmin = 0.045\n'), PYTHON_PID)
+    head = "time_s,position_m\n0,0\n1,0.1\n"
+    for what, text, words in (
+        ("times that run back", head + "0.5,0.2\n2,0.2\n", "bad.csv:4: time_s"),
+        ("a place that is no number", head + "2,nan\n3,0.1\n", "bad.csv:4: position_m"),
+        ("a way through the end of the tank", head + "20,9\n30,9\n", "between the hard ends"),
+        ("a jump", head + "1.001,0.4\n2,0.4\n", "at most 100 m/s"),
+        ("text", "to and fro\n", "time_s,position_m"),
+        ("bytes", "\0\1\2\n" * 9, "bad.csv"),
+        ("nothing", "", "bad.csv"),
+        ("no file", None, "no such file"),
+    ):
+        (work / "bad.csv").unlink(missing_ok=True)
+        if text is not None:
+            (work / "bad.csv").write_text(text)
+        refused(what, experiment("bad-table", by_table.replace("way", "bad"), TRAVELS), PYTHON_PID, words)
+
+
+def columns(file: Path, *names: str) -> list:
+    with file.open() as lines:
+        rows = csv.DictReader(lines)
+        return [tuple(float(row[name]) for name in names) for row in rows]
+
+
+def bbmc() -> None:
+    """In one process, and as a program of its own that is sent where the first run went: the same records."""
+    rig_beside()
+    for name, axes in (("trapezoid-400", "y"), ("circle", "yx")):
+        shipped = root / f"fixtures/experiments/{name}.toml"
+        done = subprocess.run([program, "run", str(shipped), "--no-report", "--json", "--out", str(work / "inside")], capture_output=True, text=True)
+        inside = Path(json.loads(done.stdout)["folder"])
+        head = tomllib.loads(shipped.read_text())
+        text = f'schema = 1\nname = "{name}-outside"\nrig = "rigs/macs-nominal.toml"\nduration_limit_s = 120.0\nseed = {head["seed"]}\n'
+        text += "[start]\n" + "".join(f"{key} = {value}\n" for key, value in head.get("start", {}).items())
+        for axis in axes:
+            way = columns(inside / "truth.csv", "time_s", f"{axis}_carriage_m")
+            rows = [(0.0, way[0][1]), *way[9::10], way[-1]]
+            rows = [row for i, row in enumerate(rows) if i == 0 or row[0] > rows[i - 1][0]]
+            (work / f"{axis}.csv").write_text("time_s,position_m\n" + "".join(f"{t},{m - way[0][1]:.9f}\n" for t, m in rows))
+            text += f'[[reference]]\nmove = "table"\naxis = "{axis}"\nat_s = 0.0\nfile = "{axis}.csv"\n'
+        (work / f"{name}.toml").write_text(text + TRAVELS)
+        out = work / f"{name}-by-itself"
+        outside = expect_pass(f"BBMC from outside, {name},", str(work / f"{name}.toml"), f"process:'{bbmc_process}' {{address}} '{shipped}' '{out}'")
+        expect(f"{name}: its log.csv is that of the run in one process", filecmp.cmp(inside / "log.csv", out / "log.csv", shallow=False))
+        truth = (inside / "truth.csv").read_bytes()
+        expect(f"{name}: the machine did the same", (outside / "truth.csv").read_bytes()[: len(truth)] == truth)
+        for axis in axes:
+            own = columns(inside / "log.csv", f"{axis}_count", f"{axis}_duty_pct")
+            wire = columns(outside / "log.csv", f"{axis}_count", f"{axis}_duty_pct")[: len(own)]
+            jumps = [i for i in range(1, len(wire)) if own[i][0] - own[i - 1][0] != wire[i][0] - wire[i - 1][0]]
+            duties = max(abs(a[1] - b[1]) for a, b in zip(own, wire))
+            # BBMC's own count jumps once, where its script calibrates it.
+            expect(f"{name}: the wire has {axis}'s counts and duty", len(jumps) <= 1 and duties < 1e-9 and len(wire) == len(own), (jumps[:5], duties))
+
+
+LATENESS = {"emulator_host_on_time", "controller_on_time"}
+
+
+def wall_clock() -> None:
+    """A busy host makes such a run INVALID, and then nothing else of it is judged here."""
+    for name, controller in (("C", C_PID), ("Python", PYTHON_PID), ("one with its own clock", bad("own_clock"))):
+        code, result, error = run(TRAPEZOID, controller, "--clock", "real")
+        checks = {c["name"]: c["verdict"] for c in result.get("checks", [])}
+        late = {check for check, verdict in checks.items() if verdict == "INVALID" and check in LATENESS}
+        judged = code == 0 if not late else code == 4
+        expect(f"{name} by the wall clock is judged ({'late' if late else 'in time'})", judged and LATENESS <= checks.keys(), (code, checks, error))
+        folder = Path(result.get("folder", ""))
+        timing = json.loads((folder / "realtime.json").read_text())
+        expect(f"{name}: both sides are timed", timing["emulator"]["ticks"] > 20_000 and result["clock"] == "real", timing["emulator"]["ticks"])
+    code, result, error = run(TRAPEZOID, bad("slow"), "--clock", "real")
+    late = [c["name"] for c in result.get("checks", []) if c["verdict"] == "INVALID"]
+    expect("a slow one is INVALID", code == 4 and "controller_on_time" in late, (code, late, error))
+    for kind in ("dies", "says_bye", "floods"):
+        expect_caught(f"{kind}, by the wall clock", "controller_stays", TRAPEZOID, bad(kind), "--clock", "real")
+    code, result, error = run(TRAPEZOID, bad("never_connects"), "--clock", "real")
+    expect("never_connects, by the wall clock, ends with 3", code == 3 and "before it greeted" in result.get("reason", ""), (code, error))
+    refused("a fault by the wall clock", TRAPEZOID, C_PID, "lockstep", "--clock", "real", "--fault", "kill_switch pressed at=1s")
+    replay = subprocess.run([program, "replay", str(folder)], capture_output=True, text=True)
+    expect("and is not replayed", replay.returncode == 2 and len(replay.stderr.strip().splitlines()) == 1, replay.stderr)
+
+
 def deaf() -> None:
     pressed = '[[event]]\nat_s = 1.2\ndo = "press_kill_switch"\n'
     released = pressed + '[[event]]\nat_s = 1.6\ndo = "release_kill_switch"\n'
@@ -112,13 +232,25 @@ def deaf() -> None:
 
 
 def broken() -> None:
-    for kind in ("both_channels", "time_runs_back", "skips_a_sequence", "illegal_field", "garbage"):
+    for kind in ("both_channels", "time_runs_back", "skips_a_sequence", "illegal_field", "not_a_number", "garbage"):
         expect_caught(kind, "messages_accepted", TRAPEZOID, bad(kind))
-    for kind in ("dies", "says_bye", "goes_silent", "babbles"):
+    for kind in ("dies", "says_bye", "goes_silent", "babbles", "floods"):
         expect_caught(kind, "controller_stays", TRAPEZOID, bad(kind))
+        folder = max((work / "runs").iterdir(), key=lambda path: path.stat().st_mtime_ns)
+        files = {path.name for path in folder.iterdir()}
+        expect(f"{kind} leaves a whole run folder", {"log.csv", "truth.csv", "events.jsonl", "result.json", "controller.txt", "manifest.json"} <= files, files)
+        expect(f"{kind}: the drive is off", '"drive_removed"' in (folder / "events.jsonl").read_text())
     for kind, words in (("never_connects", "before it greeted"), ("other_version", "handshake refused"), ("one_axis", "handshake refused"), ("other_tick", "handshake refused")):
         code, result, error = run(TRAPEZOID, bad(kind))
         expect(f"{kind} ends with 3 and a reason", code == 3 and words in result.get("reason", ""), (code, result.get("reason"), error))
+
+
+def refused(what: str, file: str, controller: str, words: str, *options: str) -> None:
+    arguments = [program, "run", file, "--no-report", "--out", str(work / "bad"), *(["--controller", controller] if controller else []), *options]
+    done = subprocess.run(arguments, capture_output=True, text=True, timeout=60)
+    lines = done.stderr.strip().splitlines()
+    expect(f"{what} is refused in one line", done.returncode == 2 and len(lines) == 1 and words in lines[0], (done.returncode, done.stderr))
+    expect(f"{what} leaves nothing", not list((work / "bad").glob("*")))
 
 
 def bad_input() -> None:
@@ -126,6 +258,8 @@ def bad_input() -> None:
     overlap = experiment("overlap", trapezoid(0.6), trapezoid(0.1), TRAVELS)
     still = experiment("still", TRAVELS)
     stray = experiment("stray", trapezoid(0.1).replace("speed", "radius_m = 1.0\nspeed"), TRAVELS)
+    console = experiment("console", '[[console]]\nsend = "status"\n', '[[event]]\nat_s = 1.0\ndo = "reset"\n', TRAVELS)
+    no_table = experiment("no-table", trapezoid(0.1) + 'file = "way.csv"\n', TRAVELS)
     for what, file, controller, words in (
         ("an experiment of BBMC", "circle", PYTHON_PID, "no [[reference]]"),
         ("a reference for BBMC", TRAPEZOID, "", "--controller process:"),
@@ -137,14 +271,14 @@ def bad_input() -> None:
         ("no address", TRAPEZOID, "external:nowhere", "local:PATH"),
         ("a fault of the host", TRAPEZOID, PYTHON_PID, "a fault of the machine"),
         ("a link that ends", TRAPEZOID, PYTHON_PID, "a fault of the machine"),
+        ("another carrier", TRAPEZOID, PYTHON_PID, "without another carrier"),
+        ("lines of its own", TRAPEZOID, PYTHON_PID, "neither of them"),
+        ("an operator's reset of BBMC", console, "", "sends `reset`"),
+        ("a table that is none", no_table, PYTHON_PID, "only with move"),
     ):
         faults = {"a fault of the host": "host missed_ticks at=1s", "a link that ends": "link.to_controller peer_killed at=1s"}
-        options = ["--fault", faults[what]] if what in faults else []
-        arguments = [program, "run", file, "--no-report", "--out", str(work / "bad"), *(["--controller", controller] if controller else []), *options]
-        done = subprocess.run(arguments, capture_output=True, text=True, timeout=60)
-        lines = done.stderr.strip().splitlines()
-        expect(f"{what} is refused in one line", done.returncode == 2 and len(lines) == 1 and words in lines[0], (done.returncode, done.stderr))
-    expect("nothing is left of what was refused", not list((work / "bad").glob("*")))
+        options = {"another carrier": ["--carrier", "local"], "lines of its own": ["--lines", "gpiochip0,gpiochip1"]}
+        refused(what, file, controller, words, *(["--fault", faults[what]] if what in faults else options.get(what, [])))
 
 
 def conform() -> None:
@@ -175,6 +309,6 @@ def conform() -> None:
         expect(f"{what} is refused in one line", done.returncode == 2 and len(done.stderr.strip().splitlines()) == 1, done.stderr)
 
 
-{"good": good, "deaf": deaf, "broken": broken, "bad_input": bad_input, "conform": conform}[group]()
+{"good": good, "reset": reset, "tables": tables, "bbmc": bbmc, "wall_clock": wall_clock, "deaf": deaf, "broken": broken, "bad_input": bad_input, "conform": conform}[group]()
 subprocess.run(["rm", "-rf", str(work)], check=False)
 sys.exit(bool(failures))
