@@ -22,11 +22,11 @@ class AnswerWatch {
 
   TOWBENCH_REALTIME void heard(core::Nanoseconds now_ns) noexcept {
     heard_ns_ = now_ns;
-    shown_ns_ = takes_turns_ ? shown_ns_ : now_ns;
+    shown_ns_ = ends_turns_ ? shown_ns_ : now_ns;
   }
   TOWBENCH_REALTIME void answered(core::Nanoseconds until_ns, core::Nanoseconds now_ns) noexcept {
     heard_ns_ = now_ns;
-    takes_turns_ = true;
+    ends_turns_ = true;
     // What is said of the future shows nothing yet.
     const auto told_ns = std::min(until_ns - exchange_ns_, now_ns);
     if (told_ns > shown_ns_) {
@@ -61,7 +61,7 @@ class AnswerWatch {
 
  private:
   core::Nanoseconds exchange_ns_;
-  bool takes_turns_ = false;
+  bool ends_turns_ = false;
   bool counts_ = false;
   core::Nanoseconds heard_ns_ = 0;
   core::Nanoseconds shown_ns_ = 0;  // it has answered everything up to then

@@ -1,6 +1,5 @@
 #include "harness/realtime/wall_clock_carrier.h"
 
-#include "protocol/carriers/load.h"
 #include "protocol/carriers/paced_can.h"
 
 namespace towbench::harness {
@@ -13,11 +12,15 @@ void go_by_the_wall_clock(protocol::Connection& connection) noexcept {
 
 protocol::CarrierResult<void> bears_the_wall_clock(const protocol::CarrierAddress& address,
                                                    core::Nanoseconds exchange_ns) {
-  using protocol::Scheme;
   // A serial line's heartbeats are as long as lockstep's own messages.
-  const protocol::Traffic traffic{.fidelity = protocol::Fidelity::kDigest,
-                                  .lockstep = address.scheme == Scheme::kSerial,
-                                  .exchange_ns = exchange_ns};
+  return bears_by_the_wall_clock(address, {.fidelity = protocol::Fidelity::kDigest,
+                                           .lockstep = address.scheme == protocol::Scheme::kSerial,
+                                           .exchange_ns = exchange_ns});
+}
+
+protocol::CarrierResult<void> bears_by_the_wall_clock(const protocol::CarrierAddress& address,
+                                                      const protocol::Traffic& traffic) {
+  using protocol::Scheme;
   switch (address.scheme) {
     case Scheme::kLocal:
       return {};

@@ -5,6 +5,7 @@
 #include "core/time.h"
 #include "protocol/carriers/carrier_address.h"
 #include "protocol/carriers/connection.h"
+#include "protocol/carriers/load.h"
 
 namespace towbench::harness {
 
@@ -25,5 +26,7 @@ void go_by_the_wall_clock(protocol::Connection& connection) noexcept;
 // its own is taken for one of 1 Mbit/s.
 [[nodiscard]] protocol::CarrierResult<void> bears_the_wall_clock(
     const protocol::CarrierAddress& address, core::Nanoseconds exchange_ns);
+[[nodiscard]] protocol::CarrierResult<void> bears_by_the_wall_clock(
+    const protocol::CarrierAddress& address, const protocol::Traffic& traffic);
 
 }  // namespace towbench::harness

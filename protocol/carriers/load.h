@@ -29,6 +29,7 @@ struct Traffic {
   double line_changes_per_s = 200.0;
   bool force_samples = false;    // one an exchange
   bool current_samples = false;  // one an axis and exchange
+  bool references = false;       // the same
 };
 
 struct Load {

@@ -49,6 +49,7 @@ TEST(SerialLoad, BoundsWhatIsReallyWritten) {
     for (const core::Axis axis : core::kAxes) {
       writer.on(EncoderReport{.axis = axis, .time_ns = time_ns, .sequence = word});
       writer.on(CurrentSample{axis, time_ns, 1.0F});
+      writer.on(Reference{axis, time_ns, 1.0F, 1.0F, 1.0F});
     }
     writer.on(DigitalInputs{1, time_ns, word});
     writer.on(ForceSample{time_ns, {}, {}});
@@ -57,7 +58,8 @@ TEST(SerialLoad, BoundsWhatIsReallyWritten) {
     const Traffic all{.lockstep = true,
                       .line_changes_per_s = 1000.0,
                       .force_samples = true,
-                      .current_samples = true};
+                      .current_samples = true,
+                      .references = true};
     const double bits = static_cast<double>(out.bytes.size() * 10);
     EXPECT_LE(bits * 1000.0, serial_load(all, 1).to_controller_bit_per_s);
   }
