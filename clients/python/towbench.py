@@ -451,6 +451,8 @@ class Bench:
                 if kind in (expected, BYE):
                     self._ended = kind
                     return
+                if kind == HEARTBEAT:  # somebody holds the bench, and it says so
+                    deadline = time.monotonic() + self.silence_s
             left_s = deadline - time.monotonic()
             if left_s <= 0:
                 raise BenchError(f"the bench was silent for {self.silence_s} s")

@@ -1,5 +1,6 @@
 #include "harness/external/external_bench.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -138,11 +139,19 @@ void ExternalBench::take_hand(Nanoseconds now_ns) {
     }
     finished_ = finished_ || act.kind == HandAct::Kind::kFinished;
     disturbed_ = disturbed_ || act.disturbs();
-    if (act.kind == HandAct::Kind::kTyped) {  // all that an operator has to say here
+    // All that an operator has to say here; of a run that is repeated it is an event.
+    if (act.kind == HandAct::Kind::kTyped && !is_planned(now_ns)) {
       plant_.node.add_event({.time_ns = now_ns, .kind = emulator::ScheduledEventKind::kReset});
     }
   }
   advanced_ = HostClock::now();  // a hand may have held the run
+}
+
+bool ExternalBench::is_planned(Nanoseconds reset_ns) const {
+  const auto& events = fixture_.experiment.events;
+  return std::any_of(events.begin(), events.end(), [&](const emulator::ScheduledEvent& event) {
+    return event.kind == emulator::ScheduledEventKind::kReset && event.time_ns == reset_ns;
+  });
 }
 
 bool ExternalBench::inject(const Injection& injection) {

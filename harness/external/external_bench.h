@@ -124,6 +124,8 @@ class ExternalBench final : public SteeredBench {
   // True when it is said.
   [[nodiscard]] bool said_too_much();
   void take_hand(core::Nanoseconds now_ns);
+  // Whether the experiment itself has the operator's reset then.
+  [[nodiscard]] bool is_planned(core::Nanoseconds reset_ns) const;
   void interrupt_if_asked(const LoopWatchers& watchers);
   void exchange_until_over(const LoopWatchers& watchers);
   void tick_until_over(TickLoop& loop, AnswerWatch& answers, const LoopWatchers& watchers);

@@ -88,44 +88,58 @@ json places_json() {
 }
 
 // Read as `validate` reads it; one that cannot be run says why.
-json experiment_json(const std::filesystem::path& path, const std::string& name) {
+json experiment_json(const std::filesystem::path& path, const std::string& name, bool own,
+                     const std::string& controller) {
   try {
     const auto fixture = load_experiment(path);
     const auto& experiment = fixture.experiment;
     json object = {{"name", name.empty() ? experiment.name : name},
-                   {"own", !name.empty()},
+                   {"own", own},
                    {"title", experiment.title},
                    {"description", experiment.description},
                    {"duration_limit_s", experiment.duration_limit_s},
                    {"seed", experiment.seed},
                    {"budgets", experiment.budgets.size()},
                    {"lines", json::array()}};
+    if (!experiment.reference.empty()) {
+      object["controller"] = controller;
+      if (controller.empty()) {
+        object["trouble"] =
+            "no controller follows its [[reference]]: start the panel with "
+            "--controller process:COMMAND";
+      }
+    }
     for (const auto& step : experiment.console) {
       object["lines"].push_back(step.send);
     }
     return object;
   } catch (const FixtureError& error) {
     return {{"name", name.empty() ? path.stem().string() : name},
-            {"own", !name.empty()},
+            {"own", own},
             {"trouble", error.what()}};
   }
 }
 
-json experiments_json() {
+json experiments_json(const std::string& controller) {
   auto experiments = json::array();
   for (const auto& path : own_experiments(".")) {
-    experiments.push_back(experiment_json(path, path.string()));
+    experiments.push_back(experiment_json(path, path.string(), true, controller));
+  }
+  if (!controller.empty()) {
+    for (const auto& [name, path] : any_controller_experiments()) {
+      experiments.push_back(experiment_json(path, name, false, controller));
+    }
   }
   for (const auto& path : toml_files_in(fixtures_directory() / "experiments")) {
-    experiments.push_back(experiment_json(path, ""));
+    experiments.push_back(experiment_json(path, "", false, controller));
   }
   return experiments;
 }
 
 }  // namespace
 
-std::string catalogue_json() {
-  return json{{"experiments", experiments_json()},
+std::string catalogue_json(const std::string& controller) {
+  return json{{"experiments", experiments_json(controller)},
               {"faults", faults_json()},
               {"places", places_json()},
               {"commands", commands_json()}}

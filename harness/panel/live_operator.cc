@@ -8,6 +8,7 @@
 #include "harness/fault_cases/case_run.h"
 #include "harness/fault_cases/fault_case.h"
 #include "harness/fault_cases/inject.h"
+#include "harness/fault_cases/machine_faults.h"
 #include "harness/fault_plan/carrier_fit.h"
 
 namespace towbench::harness {
@@ -28,6 +29,13 @@ void refuse_unless_possible(const Fault& fault, const ExperimentFixture& fixture
   }
   if (!fixture.rig.parameters.axes[fault.place.axis].exists) {
     throw FixtureError({.file = "fault"}, place, "an axis that the rig has");
+  }
+  if (!fixture.experiment.reference.empty()) {
+    refuse_faults_beyond({fault}, FaultReach::kMachineAndLink);
+    if (fault.kind == FaultKind::kBounce) {
+      throw FixtureError({.file = "fault"}, place,
+                         "before the start: it looks at what the run without it would do");
+    }
   }
 }
 
@@ -141,7 +149,13 @@ std::span<const HandAct> LiveOperator::at(core::Nanoseconds now_ns, SteeredBench
     if (!until) {
       break;
     }
-    changed_.wait_until(lock, *until);
+    // Who waits at the other end hears now and then that it goes on.
+    constexpr auto kSlice = std::chrono::milliseconds(200);
+    const auto slice = HostClock::now() + kSlice;
+    changed_.wait_until(lock, std::min(*until, slice));
+    if (slice < *until) {
+      bench.wait_a_little();
+    }
   }
   const auto fresh = std::span<const HandAct>(done_).subspan(told_);
   told_ = done_.size();

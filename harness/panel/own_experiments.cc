@@ -1,6 +1,7 @@
 #include "harness/panel/own_experiments.h"
 
 #include <algorithm>
+#include <utility>
 #include <variant>
 
 #include "harness/files/regular_file.h"
@@ -56,9 +57,23 @@ std::vector<fs::path> own_experiments(const fs::path& folder) {
   return found;
 }
 
+std::vector<std::pair<std::string, fs::path>> any_controller_experiments() {
+  std::vector<std::pair<std::string, fs::path>> found;
+  for (auto& path : toml_files_in(fixtures_directory() / "any-controller")) {
+    auto name = "any-controller/" + path.stem().string();
+    found.emplace_back(std::move(name), std::move(path));
+  }
+  return found;
+}
+
 fs::path experiment_named(const std::string& name) {
   if (name.find('/') == std::string::npos && !name.ends_with(".toml")) {
     return find_experiment(name);
+  }
+  for (const auto& [shipped, path] : any_controller_experiments()) {
+    if (shipped == name) {
+      return path;
+    }
   }
   const auto own = own_experiments(".");
   if (std::find(own.begin(), own.end(), fs::path(name)) == own.end()) {

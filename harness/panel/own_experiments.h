@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace towbench::harness {
@@ -11,6 +12,10 @@ namespace towbench::harness {
 // few levels deep, no hidden folder, no link followed.
 [[nodiscard]] std::vector<std::filesystem::path> own_experiments(
     const std::filesystem::path& folder);
+
+// The shipped ones that any controller can follow: "any-controller/NAME" and the file.
+[[nodiscard]] std::vector<std::pair<std::string, std::filesystem::path>>
+any_controller_experiments();
 
 // What a page names: a shipped experiment by its name, or one of own_experiments("."). Throws
 // FixtureError for everything else, above all for a path that leads out.

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "harness/checks/check.h"
+#include "harness/commands/experiment_options.h"
 #include "harness/commands/option_checks.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_error.h"
@@ -20,8 +21,20 @@ namespace {
 
 struct PanelOptions {
   std::string out = "runs";
+  std::string controller;
   WebOptions web;
 };
+
+// A page names no command: who follows a reference is said here, by whoever starts the panel.
+std::optional<ExternalController> controller_of(const PanelOptions& options) {
+  RunOptions chosen;
+  choose_controller(options.controller, chosen);
+  if (!options.controller.empty() && !chosen.external) {
+    throw FixtureError({"command line", 0, "--controller"}, '"' + options.controller + '"',
+                       "process:COMMAND or external:ADDRESS; an image runs by `run`");
+  }
+  return chosen.external;
+}
 
 int execute_panel(const PanelOptions& options) {
   if (panel::script_asset().text.empty()) {
@@ -29,7 +42,7 @@ int execute_panel(const PanelOptions& options) {
                        "one with TOWBENCH_REPORT_ASSETS=ON");
   }
   const auto& stop = stop_requested();
-  Session session(options.out);
+  Session session(options.out, controller_of(options));
   WebServer server(options.web, session);
   const auto tell = [](const std::string& address) {
     std::printf("%s\n", address.c_str());
@@ -54,6 +67,9 @@ void add_panel(CLI::App& app, int& exit_code) {
       ->check(folder_to_write())
       ->check(folder_to_write())
       ->capture_default_str();
+  verb->add_option("--controller", options->controller,
+                   "who follows the experiments with [[reference]]: process:\"COMMAND {address}\" "
+                   "or external:ADDRESS");
   verb->add_option("--port", options->web.port, "TCP port; 0: any that is free")
       ->check(whole_number())
       ->check(whole_number())

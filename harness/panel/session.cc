@@ -87,6 +87,11 @@ void Session::start(const SessionStart& wanted) {
   }
   auto fixture =
       std::make_unique<ExperimentFixture>(load_experiment(find_experiment(wanted.experiment)));
+  if (!fixture->experiment.reference.empty() && !controller_) {
+    throw FixtureError({.file = "panel", .key = "experiment"}, '"' + wanted.experiment + '"',
+                       "one of BBMC's; who follows a [[reference]] is named when the panel starts: "
+                       "--controller process:COMMAND");
+  }
   FaultPlan plan;
   for (const auto& words : wanted.faults) {
     plan.push_back(parse_fault(words));
@@ -129,10 +134,13 @@ RunResult Session::run_by_its_clock(std::uint64_t seed) {
   options.tap = &tap_;
   options.watchers.stop = &stop_;
   options.clock = state().clock;
+  if (!fixture_->experiment.reference.empty()) {
+    options.external = controller_;
+  }
   if (options.clock == RunClock::kLockstep) {
     return run_experiment(*fixture_, options);
   }
-  options.carrier = Carrier::kLocal;
+  options.carrier = options.external ? Carrier::kInProcess : Carrier::kLocal;
   options.program = program_;
   // The loop's rights are of a thread of its own and end with it; the memory's are given back.
   RunResult result;
@@ -202,6 +210,18 @@ Session::State Session::state() const {
 
 RunOperator* Session::hand_if_running() noexcept {
   return state().phase == Phase::kRunning ? hand_.get() : nullptr;
+}
+
+void Session::type(const std::string& text) {
+  auto& operator_here = hand();
+  if (!fixture_->experiment.reference.empty()) {
+    const auto line = text.substr(0, text.find_last_not_of(" \r\n") + 1);
+    if (line != "reset") {
+      throw FixtureError({.file = "panel"}, '"' + line + '"',
+                         "`reset`, the operator's: this controller has no console here");
+    }
+  }
+  operator_here.type(text);
 }
 
 RunOperator& Session::hand() {

@@ -45,10 +45,12 @@ class Session {
     std::string reason{};   // why there is none, or the first check that did not hold
   };
 
-  // Run folders come below `runs`. `program` emulates the machine of a run by the wall clock; it
+  // Run folders come below `runs`. `controller` runs the experiments that state their reference,
+  // which are refused without one. `program` emulates the machine of a run by the wall clock; it
   // knows the verb `emulate`.
-  explicit Session(std::filesystem::path runs, std::filesystem::path program = "/proc/self/exe")
-      : runs_(std::move(runs)), program_(std::move(program)) {}
+  explicit Session(std::filesystem::path runs, std::optional<ExternalController> controller = {},
+                   std::filesystem::path program = "/proc/self/exe")
+      : runs_(std::move(runs)), controller_(std::move(controller)), program_(std::move(program)) {}
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
   ~Session() { cut_short(); }
@@ -62,11 +64,17 @@ class Session {
   [[nodiscard]] LiveTap& tap() noexcept { return tap_; }
   // Of the run under way. Throws FixtureError when there is none.
   [[nodiscard]] RunOperator& hand();
+  // On the console of the run under way; where there is none, the operator's `reset` alone. Throws
+  // FixtureError.
+  void type(const std::string& text);
   // Null when none is under way.
   [[nodiscard]] RunOperator* hand_if_running() noexcept;
   // Of the last run started; null before.
   [[nodiscard]] const ExperimentFixture* fixture() const noexcept { return fixture_.get(); }
   [[nodiscard]] const std::filesystem::path& runs() const noexcept { return runs_; }
+  [[nodiscard]] const std::optional<ExternalController>& controller() const noexcept {
+    return controller_;
+  }
 
  private:
   void run(std::uint64_t seed);
@@ -74,6 +82,7 @@ class Session {
   void set(Phase phase);
 
   std::filesystem::path runs_;
+  std::optional<ExternalController> controller_;
   std::filesystem::path program_;
   LiveTap tap_;
   std::unique_ptr<ExperimentFixture> fixture_;

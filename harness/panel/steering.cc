@@ -113,7 +113,7 @@ void carry_out(Session& session, const json& message) {
   } else if (what == "speed") {
     session.hand().set_speed(number(message, "speed", 0, kFastest));
   } else if (what == "type") {
-    session.hand().type(text(message, "text"));
+    session.type(text(message, "text"));
   } else if (what == "break") {
     session.hand().break_now(any_fault_of(message));
   } else if (what == "clear") {

@@ -104,7 +104,7 @@ WebAnswer WebRoutes::answer(const WebRequest& request) {
   const std::string_view target = request.target;
   const auto path = target.substr(0, target.find('?'));
   if (path == "/api/catalogue") {
-    return {.type = "application/json", .body = catalogue_json()};
+    return {.type = "application/json", .body = catalogue_json(controller_)};
   }
   if (path == "/api/folders") {
     return {.type = "application/json", .body = folders_json(runs_)};

@@ -33,8 +33,13 @@ class WebRoutes {
  public:
   // `runs`: the folder whose files may be seen. `hosts`: what a browser on this machine may call
   // the server, port included; others are a page elsewhere that wants to be taken for this one.
-  WebRoutes(std::filesystem::path runs, std::vector<std::string> hosts, WebKeys& keys)
-      : runs_(std::move(runs)), hosts_(std::move(hosts)), keys_(keys) {}
+  // `controller`: as catalogue_json() takes it.
+  WebRoutes(std::filesystem::path runs, std::vector<std::string> hosts, WebKeys& keys,
+            std::string controller = {})
+      : runs_(std::move(runs)),
+        hosts_(std::move(hosts)),
+        keys_(keys),
+        controller_(std::move(controller)) {}
 
   [[nodiscard]] WebAnswer answer(const WebRequest& request);
   // A WebSocket to /live: none when it is welcome, else the refusal.
@@ -48,6 +53,7 @@ class WebRoutes {
   std::filesystem::path runs_;
   std::vector<std::string> hosts_;
   WebKeys& keys_;
+  std::string controller_;
 };
 
 }  // namespace towbench::harness

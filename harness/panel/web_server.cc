@@ -82,7 +82,8 @@ class WebServer::Implementation {
         timer_(io_),
         frames_(session),
         host_(name_of(acceptor_.local_endpoint())),
-        routes_(session.runs(), names_of(acceptor_.local_endpoint()), keys_) {
+        routes_(session.runs(), names_of(acceptor_.local_endpoint()), keys_,
+                session.controller() ? session.controller()->text() : "") {
     keep_from_children(acceptor_);
     accept();
   }

@@ -1,5 +1,7 @@
 #include "harness/run/driven_run.h"
 
+#include <algorithm>
+
 #include "harness/experiment/experiment_toml.h"
 #include "harness/fixtures/canonical_hash.h"
 
@@ -11,6 +13,22 @@ void set_text(ExperimentFixture& fixture) {
   CanonicalHash hash;
   hash.add(fixture.sources.front().text);
   fixture.hash = hash.value();
+}
+
+// A controller that follows a stated reference has no console: what is typed is the operator's
+// reset.
+void plan_resets(Experiment& experiment) {
+  if (experiment.reference.empty()) {
+    return;
+  }
+  for (const auto& act : experiment.hand) {
+    if (act.kind == HandAct::Kind::kTyped) {
+      experiment.events.push_back(
+          {.time_ns = act.time_ns, .kind = emulator::ScheduledEventKind::kReset});
+    }
+  }
+  std::stable_sort(experiment.events.begin(), experiment.events.end(),
+                   [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; });
 }
 
 }  // namespace
@@ -33,6 +51,7 @@ ExperimentFixture as_driven(const ExperimentFixture& fixture,
   for (const auto& act : experiment.hand) {
     experiment.budgets_apply = experiment.budgets_apply && !act.disturbs();
   }
+  plan_resets(experiment);
   set_text(driven);
   return driven;
 }

@@ -8,6 +8,7 @@ import { join } from "node:path";
 
 import { withBrowser } from "./browser.mjs";
 import { browseFolders } from "./panel_browse.mjs";
+import { driveController } from "./panel_controller.mjs";
 import { driveRuns } from "./panel_drive.mjs";
 import { lookAtIt } from "./panel_looks.mjs";
 import { behaveBadly, lockOut, sleepAtIt } from "./panel_strangers.mjs";
@@ -24,7 +25,8 @@ mkdirSync(shots, { recursive: true });
 
 const checks = new Checks();
 const runs = join(work, "runs");
-const panel = startPanel(bench, root, runs);
+const controller = `process:python3 '${join(root, "clients/python/examples/pid.py")}' {address}`;
+const panel = startPanel(bench, root, runs, ["--controller", controller]);
 const address = await panel.address();
 const { hostname, port, origin } = new URL(address);
 
@@ -49,6 +51,7 @@ await withBrowser(async (context) => {
   const world = { checks, person: new Person(page), page, context, bench, root, work, runs, shots, hostname, port, origin };
   const sleeper = await sleepAtIt(world);
   await driveRuns(world);
+  await driveController(world);
   await browseFolders(world);
   await lookAtIt(world);
   await lockOut(world);

@@ -26,8 +26,8 @@ export class Checks {
 }
 
 // The panel's process; `address` resolves with each address that it prints.
-export function startPanel(bench, root, runs) {
-  const child = spawn(bench, ["panel", "--out", runs], { cwd: root, stdio: ["ignore", "pipe", "inherit"] });
+export function startPanel(bench, root, runs, options = []) {
+  const child = spawn(bench, ["panel", "--out", runs, ...options], { cwd: root, stdio: ["ignore", "pipe", "inherit"] });
   const waiting = [];
   const seen = [];
   let text = "";

@@ -35,6 +35,7 @@ export interface ExperimentEntry {
   lines: string[];
   trouble?: string;
   own?: boolean; // a file of the working folder, named by its path
+  controller?: string; // who follows the reference that it states; BBMC has none
 }
 
 export interface Catalogue {

@@ -66,7 +66,8 @@ export class StartForm {
   private show(): void {
     const entry = this.chosen();
     if (entry === undefined) return;
-    this.about.textContent = entry.trouble ?? `${entry.title}. ${entry.description}`;
+    const follows = entry.controller ? ` Controller: ${entry.controller}` : "";
+    this.about.textContent = entry.trouble ?? `${entry.title}. ${entry.description}${follows}`;
     this.about.classList.toggle("trouble", entry.trouble !== undefined);
     this.go.disabled = entry.trouble !== undefined;
     this.seed.value = String(entry.seed ?? "");
