@@ -1,6 +1,6 @@
 // bbmc_process ADDRESS EXPERIMENT OUT: BBMC as a program that the bench starts (--controller
-// process:...). It types the console of an experiment to itself, as a run in one process does, writes
-// log.csv and the other records of its side to OUT, and stays until the bench ends the run.
+// process:...). It types the console of an experiment to itself, as a run in one process does,
+// writes log.csv and the other records of its side to OUT, and stays until the bench ends the run.
 #include <cstdio>
 
 #include "harness/experiment/experiment_fixture.h"
