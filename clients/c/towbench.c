@@ -98,8 +98,74 @@ static int send_cobs(tb_bench* bench, message* m) {
   return 1;
 }
 
+/* Identifiers to the plant, or of an axis; those to the controller are one higher. */
+enum {
+  ID_FAULT = 0x040,
+  ID_BYE = 0x050,
+  ID_LINES = 0x080,
+  ID_DUTY = 0x100,
+  ID_INDEX = 0x180,
+  ID_DIGEST = 0x190,
+  ID_TIME = 0x200,
+  ID_LONG = 0x600,
+  ID_HEARTBEAT = 0x700
+};
+enum { SEGMENT = TB_CAN_DATA - 1, FIRST_SEGMENT = 0x80 };
+
+static size_t segments_of(size_t payload_size) {
+  return (1 + payload_size + 4 + SEGMENT - 1) / SEGMENT;
+}
+
+static int send_frame(tb_bench* bench, unsigned id, uint64_t word) {
+  if (bench->out_size + TB_FRAME_SIZE > TB_OUT_SIZE) return 0;
+  uint8_t* at = bench->out + bench->out_size;
+  at[0] = (uint8_t)id;
+  at[1] = (uint8_t)(id >> 8);
+  for (int i = 0; i < TB_CAN_DATA; ++i) at[2 + i] = (uint8_t)(word >> 8 * i);
+  bench->out_size += TB_FRAME_SIZE;
+  return 1;
+}
+
+static int send_segments(tb_bench* bench, const message* m) {
+  uint8_t bytes[1 + sizeof m->bytes + 4 + SEGMENT] = {0};
+  const size_t segments = segments_of(m->size);
+  if (bench->out_size + segments * TB_FRAME_SIZE > TB_OUT_SIZE) return 0;
+  bytes[0] = (uint8_t)m->size;
+  memcpy(bytes + 1, m->bytes, m->size);
+  const uint32_t crc = tb_crc32c(bytes, 1 + m->size);
+  for (int i = 0; i < 4; ++i) bytes[1 + m->size + (size_t)i] = (uint8_t)(crc >> 8 * i);
+  for (size_t i = 0; i < segments; ++i) {
+    const uint64_t head = (i == 0 ? FIRST_SEGMENT : 0u) | (segments - 1 - i);
+    send_frame(bench, ID_LONG, head | load(bytes + i * SEGMENT, SEGMENT) << 8);
+  }
+  return 1;
+}
+
+/* What every turn sends is packed into one frame; of a sequence number the low bits, which the
+ * receiver completes. */
+static int send_can(tb_bench* bench, const message* m) {
+  const uint8_t* p = m->bytes;
+  switch (p[0]) {
+    case TB_PWM_DUTY:
+      return send_frame(bench, ID_DUTY + (unsigned)p[1],
+                        load(p + 3, 6) | (uint64_t)p[2] << 48 | load(p + 9, 4) << 49);
+    case TB_DIGITAL_OUTPUTS:
+      if (load(p + 3, 8) >> 48 != 0) break;
+      return send_frame(bench, ID_LINES, p[1] | (uint64_t)p[11] << 8 | load(p + 3, 6) << 16);
+    case TB_ADVANCE:
+      return send_frame(bench, ID_TIME, load(p + 1, 8));
+    case TB_BYE:
+      return send_frame(bench, ID_BYE, load(p + 1, 8));
+    default:
+      break;
+  }
+  return send_segments(bench, m);
+}
+
 static int send_message(tb_bench* bench, message m) {
-  return bench->framing == TB_STREAM ? send_stream(bench, &m) : send_cobs(bench, &m);
+  return bench->framing == TB_STREAM ? send_stream(bench, &m)
+         : bench->framing == TB_COBS ? send_cobs(bench, &m)
+                                     : send_can(bench, &m);
 }
 
 void tb_init(tb_bench* bench, tb_framing framing, uint8_t axes_mask, uint32_t exchange_ns,
@@ -108,7 +174,8 @@ void tb_init(tb_bench* bench, tb_framing framing, uint8_t axes_mask, uint32_t ex
   bench->framing = framing;
   bench->axes_mask = axes_mask;
   bench->exchange_ns = exchange_ns;
-  bench->wanted = capabilities;
+  bench->wanted = framing == TB_CAN ? capabilities & ~(uint32_t)TB_EDGES : capabilities;
+  bench->can.lines_sequence = ~(uint32_t)0;
   bench->in_place = 1;
 }
 
@@ -346,6 +413,9 @@ int tb_take(tb_bench* bench, const uint8_t* p, size_t size) {
     case TB_RESET:
       bench->reset = 1;
       break;
+    case TB_HEARTBEAT:
+      ++bench->heartbeats;
+      break;
     case TB_FAULT:
       bench->fault = load16(p + 1);
       ++bench->faults;
@@ -454,4 +524,166 @@ size_t tb_feed(tb_bench* bench, const uint8_t* bytes, size_t size) {
       return taken;
     }
   }
+}
+
+/* --- CAN: packed frames, and segments of what is longer ---- */
+
+/* Whatever way it came: the next packed one is read relative to it. */
+static void note_report(tb_can_report* last, const uint8_t* p) {
+  const int64_t time_ns = load_time(p + 3);
+  const int follows = last->noted > 0 && load32(p + 35) == last->sequence + 1;
+  last->interval_ns = follows ? time_ns - last->time_ns : 0;
+  last->noted = follows ? 2 : 1;
+  last->time_ns = time_ns;
+  last->edge_ns = load_time(p + 15);
+  last->period_ns = load32(p + 23);
+  last->index_count = (int32_t)load32(p + 27);
+  last->sequence = load32(p + 35);
+}
+
+static int take_whole(tb_bench* bench, const uint8_t* payload, size_t size) {
+  const int id = tb_take(bench, payload, size);
+  if (id == TB_ENCODER_REPORT) note_report(&bench->can.report[payload[1]], payload);
+  if (id == TB_DIGITAL_INPUTS) bench->can.lines_sequence = load32(payload + 11);
+  return id;
+}
+
+/* As the capture unit forms it from one edge more. */
+static uint32_t period_to(const tb_can_report* last, int64_t edge_ns) {
+  if (last->edge_ns == 0) return last->period_ns;
+  return edge_ns - last->edge_ns > 0xffffffff ? 0xffffffffu : (uint32_t)(edge_ns - last->edge_ns);
+}
+
+/* The report that the frame stands for; 0 when one before it is missing. */
+static int expand(const tb_can_report* last, size_t axis, uint64_t word, message* report) {
+  const uint32_t sequence = last->sequence + 1;
+  const int has_index = word >> 17 & 1;
+  const unsigned edges = word >> 15 & 3; /* none, one, several */
+  const int64_t time_ns = (int64_t)((uint64_t)last->time_ns + (uint64_t)last->interval_ns);
+  int64_t edge_ns = last->edge_ns;
+  uint32_t period_ns = last->period_ns;
+  if (last->noted < 2 || (word >> 18 & 63) != (sequence & 63) || time_ns < 0 || edges == 3 ||
+      has_index != last->has_index || (has_index && last->index >> 48 != (sequence & 0xffff)))
+    return 0;
+  if (edges != 0) {
+    edge_ns = time_ns - (int64_t)(word >> 24 & 0xfffff);
+    if (edge_ns < last->edge_ns) return 0;
+    period_ns = edges == 1 ? period_to(last, edge_ns) : (uint32_t)(word >> 44);
+  }
+  *report = message_of(TB_ENCODER_REPORT);
+  put(report, axis, 1);
+  put(report, word >> 12 & 7, 1);
+  put(report, (uint64_t)time_ns, 8);
+  put(report, (word & 0xfff) | (word & 0x800 ? 0xfffff000u : 0u), 4);
+  put(report, (uint64_t)edge_ns, 8);
+  put(report, period_ns, 4);
+  put(report, has_index ? last->index : (uint64_t)last->index_count, 4);
+  put(report, has_index ? last->index >> 32 : 0u, 2);
+  put(report, 0, 2); /* one with illegal transitions goes whole */
+  put(report, sequence, 4);
+  return 1;
+}
+
+static int take_digest(tb_bench* bench, size_t axis, uint64_t word) {
+  tb_can_report* last = &bench->can.report[axis];
+  message report;
+  const int known = expand(last, axis, word, &report);
+  last->has_index = 0;
+  if (known) return take_whole(bench, report.bytes, report.size);
+  last->noted = 0;
+  ++bench->counts.sequence_gaps;
+  return 0;
+}
+
+static int take_lines(tb_bench* bench, uint64_t word) {
+  const uint32_t next = bench->can.lines_sequence + 1;
+  message m = message_of(TB_DIGITAL_INPUTS);
+  put(&m, word & 0xff, 2);
+  put(&m, word >> 16, 8);
+  put(&m, next + (((word >> 8) - next) & 0xff), 4);
+  return take_whole(bench, m.bytes, m.size);
+}
+
+static int take_time(tb_bench* bench, uint8_t id, uint64_t time_ns) {
+  message m = message_of(id);
+  put(&m, time_ns, 8);
+  if (id == TB_HEARTBEAT) put(&m, 0, 4);
+  return take_whole(bench, m.bytes, m.size);
+}
+
+static int drop_segment(tb_bench* bench, uint32_t* count, uint8_t* following) {
+  ++*count;
+  bench->counts.discarded_bytes += TB_CAN_DATA;
+  *following = 0;
+  return 0;
+}
+
+static int take_segment(tb_bench* bench, uint8_t* held, size_t room, size_t* size,
+                        uint8_t* following, const uint8_t* data) {
+  const int is_first = (data[0] & FIRST_SEGMENT) != 0;
+  const uint8_t behind = data[0] & (FIRST_SEGMENT - 1);
+  if (is_first) {
+    bench->counts.truncated += *following > 0;
+    *size = 0;
+  } else if (*following == 0 || behind + 1 != *following) {
+    return drop_segment(bench, &bench->counts.truncated, following);
+  }
+  if (*size + (behind + 1u) * SEGMENT > room)
+    return drop_segment(bench, &bench->counts.too_long, following);
+  memcpy(held + *size, data + 1, SEGMENT);
+  *size += SEGMENT;
+  *following = behind;
+  if (behind > 0) return 0;
+  if (*size != segments_of(held[0]) * SEGMENT) return refused(&bench->counts.truncated);
+  if (tb_crc32c(held, 1u + held[0]) != load32(held + 1 + held[0]))
+    return refused(&bench->counts.bad_checksum);
+  return take_whole(bench, held + 1, held[0]);
+}
+
+static int take_frame(tb_bench* bench, unsigned id, const uint8_t* data) {
+  const uint64_t word = load(data, TB_CAN_DATA);
+  const size_t axis = id & 1;
+  switch (id) {
+    case ID_INDEX:
+    case ID_INDEX + 1:
+      bench->can.report[axis].index = word;
+      bench->can.report[axis].has_index = 1;
+      return 0;
+    case ID_DIGEST:
+    case ID_DIGEST + 1:
+      return take_digest(bench, axis, word);
+    case ID_LINES + 1:
+      return take_lines(bench, word);
+    case ID_TIME + 1:
+      return take_time(bench, TB_ADVANCED, word);
+    case ID_BYE + 1:
+      return take_time(bench, TB_BYE, word);
+    case ID_HEARTBEAT + 1: /* behind 16 bits of a sequence number that nobody asks for */
+      return take_time(bench, TB_HEARTBEAT, word >> 16);
+    case ID_FAULT + 1:
+      return take_segment(bench, bench->can.fault, sizeof bench->can.fault, &bench->can.fault_size,
+                          &bench->can.fault_following, data);
+    default:
+      return take_segment(bench, bench->held, sizeof bench->held, &bench->held_size,
+                          &bench->can.following, data);
+  }
+}
+
+static int is_ours(unsigned id) {
+  return id == ID_INDEX || id == ID_DIGEST || id == ID_INDEX + 1 || id == ID_DIGEST + 1 ||
+         id == ID_LINES + 1 || id == ID_TIME + 1 || id == ID_BYE + 1 || id == ID_HEARTBEAT + 1 ||
+         id == ID_FAULT + 1 || id == ID_LONG + 1;
+}
+
+int tb_feed_frame(tb_bench* bench, unsigned identifier, const uint8_t* data, size_t size) {
+  if (!is_ours(identifier)) return 0;
+  if (size != TB_CAN_DATA) {
+    ++bench->counts.truncated;
+    bench->counts.discarded_bytes += (uint32_t)size;
+    return 0;
+  }
+  const int id = take_frame(bench, identifier, data);
+  if (!ends_wait(id)) return 0;
+  bench->heard = (uint8_t)id;
+  return 1;
 }

@@ -8,8 +8,9 @@
  *     tb_end_turn(&bench);                   then send bench.out, and feed until tb_turn_over()
  *   }
  *
- * The caller moves the bytes: it sends out[0 .. out_size) and sets out_size to 0. Bytes and rules:
- * docs/reference/protocol.md. CAN is not spoken here. */
+ * The caller moves the bytes: it sends out[0 .. out_size) and sets out_size to 0. On CAN they are
+ * frames of TB_FRAME_SIZE bytes, and what comes goes to tb_feed_frame(). Bytes and rules:
+ * docs/reference/protocol.md. */
 #ifndef TOWBENCH_H
 #define TOWBENCH_H
 
@@ -63,7 +64,10 @@ enum {
 #define TB_OUT_SIZE 256
 #endif
 
-typedef enum { TB_STREAM, TB_COBS } tb_framing; /* local socket, serial line */
+/* Local socket; serial line; classic CAN, which has no edges. */
+typedef enum { TB_STREAM, TB_COBS, TB_CAN } tb_framing;
+/* A CAN frame in `out`: identifier, low byte first, and eight bytes of data. */
+enum { TB_FRAME_SIZE = 10, TB_CAN_DATA = 8 };
 
 /* Where an axis is to be now, counted from where it stood when the run began. */
 typedef struct {
@@ -82,6 +86,22 @@ typedef struct {
   uint8_t levels, heard;
 } tb_axis;
 
+/* Private: what a packed CAN frame says is relative to the message before. */
+typedef struct {
+  int64_t time_ns, interval_ns, edge_ns;
+  uint64_t index;
+  uint32_t period_ns, sequence;
+  int32_t index_count;
+  uint8_t noted, has_index; /* reports in a row, up to two: then the interval is known */
+} tb_can_report;
+typedef struct {
+  tb_can_report report[TB_AXES];
+  uint32_t lines_sequence;
+  uint8_t following, fault_following; /* frames still to come */
+  uint8_t fault[21];
+  size_t fault_size;
+} tb_can;
+
 /* What was met that is no message, and gaps in sequence numbers. */
 typedef struct {
   uint32_t bad_checksum, too_long, truncated, unknown, bad_field, discarded_bytes, sequence_gaps;
@@ -96,6 +116,7 @@ typedef struct {
   uint8_t reset;         /* in this turn the operator asked to leave the safe state */
   uint16_t fault;        /* the last thing that the bench refused, and how many there were */
   uint32_t faults;
+  uint32_t heartbeats; /* of a bench that waits for a greeting: a wire has no connection */
   tb_counts counts;
 
   uint8_t out[TB_OUT_SIZE];
@@ -109,6 +130,7 @@ typedef struct {
   uint8_t skips, in_place;
   uint8_t held[TB_LONGEST_PAYLOAD + TB_LONGEST_PAYLOAD / 254 + 8];
   size_t held_size;
+  tb_can can;
 } tb_bench;
 
 void tb_init(tb_bench* bench, tb_framing framing, uint8_t axes_mask, uint32_t exchange_ns,
@@ -125,6 +147,9 @@ int tb_say_bye(tb_bench* bench);
 /* Any bytes in any portions. Stops behind the message that ends a turn and says how many were
  * taken. */
 size_t tb_feed(tb_bench* bench, const uint8_t* bytes, size_t size);
+/* One frame from the bus, anybody's. 1 when it ended what is waited for: then no other before the
+ * answer. */
+int tb_feed_frame(tb_bench* bench, unsigned identifier, const uint8_t* data, size_t size);
 
 int tb_greeted(const tb_bench* bench);   /* the reply has come; `refusal` says which */
 int tb_turn_over(const tb_bench* bench); /* the inputs are those of now_ns */

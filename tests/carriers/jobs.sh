@@ -173,6 +173,17 @@ faults_over_can() {
   bench campaign can --fresh --quiet --workers 1 --out "$runs/faults"
 }
 
+# The example in C, over the same frames.
+controller_in_c_over_can() {
+  local code=0
+  rm -rf "${runs:?}/c"
+  bench run fixtures/any-controller/trapezoid-y.toml -q --no-report --controller external:can:vcan0 --out "$runs/c" &
+  local bench=$!
+  chrt --batch 0 "$build/tests/clients/c_pid" can:vcan0 || code=1
+  wait "$bench" || code=1
+  return "$code"
+}
+
 # Edges over FD frames: the same bits as without a wire, and FD frames they were.
 edges_over_can_fd() {
   rm -rf "${runs:?}/fd"
@@ -247,6 +258,7 @@ in_machine() {
   job 'SocketCAN: filters, error frames, bus-off, queues' \
     "$build/tests/protocol/test_protocol" --gtest_brief=1 '--gtest_filter=SocketCan*'
   demo_over vcan can:vcan0
+  job 'the C client over CAN: a trapezoid, judged' controller_in_c_over_can
   job 'edges over CAN FD: the log of a run in one process, bit for bit' edges_over_can_fd
   job 'GPIO lines: both sides, edges, debouncing, taken lines' \
     "$build/tests/protocol/test_protocol" --gtest_brief=1 '--gtest_filter=GpioLines*'

@@ -1,7 +1,8 @@
 // Any bytes: the C client takes and refuses what the bench's own codec does, and as a stream, in
-// any portions, they neither break it nor stop it.
+// any portions, or as frames on a bus, they neither break it nor stop it.
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 
 #include "clients/c/towbench.h"
@@ -22,6 +23,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::size_t at = 0; at < size;) {
       at += tb_feed(bench.get(), data + at, std::min(step, size - at));
     }
+  }
+  tb_init(bench.get(), TB_CAN, 3, 1'000'000, TB_DIGEST);
+  static constexpr unsigned kHeard[] = {0x041, 0x051, 0x081, 0x180, 0x181, 0x190,
+                                        0x191, 0x201, 0x601, 0x701, 0x7ff};
+  for (std::size_t at = 0; at + 1 < size; at += 1 + TB_CAN_DATA) {
+    tb_feed_frame(bench.get(), kHeard[data[at] % std::size(kHeard)], data + at + 1,
+                  std::min<std::size_t>(TB_CAN_DATA, size - at - 1));
   }
   return 0;
 }

@@ -57,7 +57,7 @@ board_checks() {
 
 stage_carriers() {
   local status=0 log=$build/carriers.log
-  built release towbench-bench test_protocol test_bbmc
+  built release towbench-bench test_protocol test_bbmc c_pid
   if is_asked_for fuzz; then start_fuzz_beside; fi
   "$root/tests/carriers/run.sh" "$root" "$build/release" 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
   passed=$((passed + $(grep -c '^@@ passed' "$log")))

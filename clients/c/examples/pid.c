@@ -1,6 +1,9 @@
-/* A PID position controller for two axes: pid ADDRESS, with ADDRESS = local:PATH. */
+/* A PID position controller for two axes: pid ADDRESS, with ADDRESS = local:PATH or can:INTERFACE.
+ */
 #define _POSIX_C_SOURCE 200809L
+#include <linux/can.h>
 #include <math.h>
+#include <net/if.h>
 #include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -66,27 +69,68 @@ static const char* reason_to_stop(const pid* loops, const tb_bench* bench) {
   return NULL;
 }
 
-/* Sends what is in `out` and feeds until the turn is over. 0 when the run is. */
-static int exchange(int line, tb_bench* bench) {
+static int send_out(int line, tb_bench* bench) {
+  const size_t size = bench->out_size;
+  bench->out_size = 0;
+  if (bench->framing != TB_CAN) return write(line, bench->out, size) == (ssize_t)size;
+  for (const uint8_t* at = bench->out; at < bench->out + size; at += TB_FRAME_SIZE) {
+    struct can_frame frame = {.can_id = at[0] | (canid_t)at[1] << 8, .can_dlc = TB_CAN_DATA};
+    memcpy(frame.data, at + 2, TB_CAN_DATA);
+    if (write(line, &frame, sizeof frame) != sizeof frame) return 0;
+  }
+  return 1;
+}
+
+/* Feeds what comes next. 0 when nobody speaks any more. */
+static int hear(int line, tb_bench* bench) {
   static uint8_t bytes[4096];
   static size_t from, to;
-  if (write(line, bench->out, bench->out_size) != (ssize_t)bench->out_size) return 0;
-  bench->out_size = 0;
-  for (;;) {
-    from += tb_feed(bench, bytes + from, to - from);
-    if (tb_ended(bench)) return 0;
-    if (tb_greeted(bench) || tb_turn_over(bench)) return 1;
-    struct pollfd waiting = {.fd = line, .events = POLLIN};
-    const ssize_t got = poll(&waiting, 1, kSilence_ms) > 0 ? read(line, bytes, sizeof bytes) : 0;
-    if (got <= 0) return 0; /* gone, or silent */
+  struct can_frame frame;
+  struct pollfd waiting = {.fd = line, .events = POLLIN};
+  if (from == to && poll(&waiting, 1, kSilence_ms) <= 0) return 0;
+  if (bench->framing == TB_CAN) {
+    if (read(line, &frame, sizeof frame) != sizeof frame) return 0;
+    tb_feed_frame(bench, frame.can_id, frame.data, frame.can_dlc);
+    return 1;
+  }
+  if (from == to) {
+    const ssize_t got = read(line, bytes, sizeof bytes);
+    if (got <= 0) return 0;
     from = 0;
     to = (size_t)got;
   }
+  from += tb_feed(bench, bytes + from, to - from);
+  return 1;
 }
 
-static int open_local(const char* address) {
+/* Sends what is in `out` and feeds until the turn is over. 0 when the run is. */
+static int exchange(int line, tb_bench* bench) {
+  int goes_on = send_out(line, bench);
+  while (goes_on && !tb_greeted(bench) && !tb_turn_over(bench))
+    goes_on = hear(line, bench) && !tb_ended(bench);
+  return goes_on;
+}
+
+/* A bus has no connection: the bench says that it waits. */
+static int await_bench(int line, tb_bench* bench) {
+  int tries = bench->framing == TB_CAN ? 60 : 0;
+  while (bench->heartbeats == 0 && tries-- > 0) hear(line, bench);
+  return bench->framing != TB_CAN || bench->heartbeats > 0;
+}
+
+static int open_can(const char* interface) {
+  const int line = socket(PF_CAN, SOCK_RAW, CAN_RAW);
+  const struct sockaddr_can place = {.can_family = AF_CAN,
+                                     .can_ifindex = (int)if_nametoindex(interface)};
+  const int bound =
+      place.can_ifindex != 0 && bind(line, (const struct sockaddr*)&place, sizeof place) == 0;
+  return bound ? line : -1;
+}
+
+static int open_line(const char* address) {
   const struct timespec pause = {0, 10000000};
   struct sockaddr_un place = {.sun_family = AF_UNIX};
+  if (strncmp(address, "can:", 4) == 0) return open_can(address + 4);
   if (strncmp(address, "local:", 6) != 0 || strlen(address) - 6 >= sizeof place.sun_path) return -1;
   memcpy(place.sun_path, address + 6, strlen(address) - 5);
   for (int tries = 0; tries < 1000; ++tries) {
@@ -103,9 +147,11 @@ int main(int argc, char** argv) {
   static pid loops[TB_AXES];
   const char* stopped = NULL;
   int killed = 0, brakes = 0;
-  const int line = argc == 2 ? open_local(argv[1]) : -1;
-  if (line < 0) return fprintf(stderr, "usage: pid local:PATH\n"), 2;
-  tb_init(&bench, TB_STREAM, 3, 1000000, TB_DIGEST | TB_REFERENCE | TB_RESETS);
+  const int line = argc == 2 ? open_line(argv[1]) : -1;
+  if (line < 0) return fprintf(stderr, "usage: pid local:PATH | can:INTERFACE\n"), 2;
+  const tb_framing framing = argv[1][0] == 'c' ? TB_CAN : TB_STREAM;
+  tb_init(&bench, framing, 3, 1000000, TB_DIGEST | TB_REFERENCE | TB_RESETS);
+  if (!await_bench(line, &bench)) return fprintf(stderr, "no bench on the bus\n"), 1;
   tb_greet(&bench);
   if (!exchange(line, &bench) || bench.refusal != 0)
     return fprintf(stderr, "refused: %u\n", bench.refusal), 1;
@@ -136,5 +182,5 @@ int main(int argc, char** argv) {
   }
   bench.out_size = 0;
   tb_say_bye(&bench);
-  return write(line, bench.out, bench.out_size) < 0;
+  return !send_out(line, &bench);
 }
