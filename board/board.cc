@@ -199,7 +199,7 @@ std::uint32_t Board::load(std::uint32_t address, unsigned bytes) {
   const std::uint32_t value = block->load(offset, bytes);
   if (!bus_.doubt.empty() && doubt_.empty()) {
     doubt_ = fmt::format("at {} the image goes by {} (0x{:08x}), which is not modelled",
-                         at(processor_->pc()), bus_.doubt, address);
+                         at(processor_->instruction_that_accesses(address)), bus_.doubt, address);
   }
   return stuck_.empty() ? value : as_stuck(address, bytes, value);
 }
@@ -282,6 +282,12 @@ void Board::run_until(core::Nanoseconds until_ns) {
       case Processor::Pause::kCrashed:
         fail_with_crash();
         break;
+      case Processor::Pause::kAgain:
+        break;
+    }
+    if (!bus_.doubt.empty() && doubt_.empty()) {
+      doubt_ = fmt::format("at {} the image goes by {}, which is not modelled",
+                           at(processor_->doubtful_pc()), bus_.doubt);
     }
   }
   // The last block may have run a little past the end: the next call begins there.

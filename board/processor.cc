@@ -171,6 +171,7 @@ void Processor::start(std::uint32_t entry) {
   write_coprocessor(1, 0, 0x00C5'0078);  // SCTLR of the Cortex-A8 after reset
   set_reg(UC_ARM_REG_FPEXC, 0);
   profile_.forget_blocks();
+  counter_.reset();
   pc_ = entry;
   crash_ = {};
   idle_.restart();
@@ -217,6 +218,13 @@ void Processor::on_block(std::uint32_t address, std::uint32_t size) {
   }
   Block* block = profile_.block_at(address, size);
   if (block == nullptr) {
+    const bool thumb = (reg(UC_ARM_REG_CPSR) & kThumb) != 0;
+    if (find_monitor_accesses(address, size, thumb)) {
+      block_ = address;
+      block_size_ = size;
+      pause(Pause::kAgain);
+      return;
+    }
     block = &meet(address, size);
   }
   block_ = address;
@@ -284,6 +292,10 @@ Processor::Pause Processor::run(core::Nanoseconds deadline_ns) {
       continue;
     }
     if (monitor_call_) {
+      continue;
+    }
+    if (paused_ == Pause::kAgain) {
+      forget_code(block_, block_size_);
       continue;
     }
     // Unicorn leaves by itself at WFI only.

@@ -13,12 +13,14 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "board/aintc.h"
 #include "board/bus.h"
+#include "board/cycle_counter.h"
 #include "board/execution_profile.h"
 #include "board/idle_detector.h"
 
@@ -65,6 +67,7 @@ class Processor final : private RegisterReader {
     kWaiting,    // WFI
     kIdle,       // an idle loop
     kCrashed,
+    kAgain,  // within run(): the block is to be translated with hooks in it
   };
 
   // All outlive this. Throws std::runtime_error when Unicorn cannot be set up.
@@ -94,6 +97,13 @@ class Processor final : private RegisterReader {
   // The exception is taken. After kInterrupt, or after kWaiting when one is offered and unmasked.
   void take_interrupt();
 
+  // Of the instruction that is making an access to this address.
+  [[nodiscard]] std::uint32_t instruction_that_accesses(std::uint32_t address) const;
+  // Of the last access to the performance monitor that is not modelled.
+  [[nodiscard]] std::uint32_t doubtful_pc() const noexcept { return doubtful_pc_; }
+  // For the engine, before such an instruction.
+  void on_monitor_access(std::uint32_t address);
+
   [[nodiscard]] bool interrupts_masked() const;
   [[nodiscard]] std::uint32_t pc() const noexcept { return pc_; }
   [[nodiscard]] std::uint32_t stack_pointer() const;
@@ -114,7 +124,9 @@ class Processor final : private RegisterReader {
   [[nodiscard]] RegisterSet registers() const override;
   [[nodiscard]] FloatRegisters float_registers() const override;
   [[nodiscard]] std::span<const std::uint8_t> stack_top() const override;
-  [[nodiscard]] std::uint32_t instruction_that_accesses(std::uint32_t address) const;
+  // Whether a block holds instructions that reach the cycle counter, and that nobody has met.
+  bool find_monitor_accesses(std::uint32_t address, std::uint32_t size, bool thumb);
+  [[nodiscard]] std::uint32_t instruction_at(std::uint32_t address, bool thumb) const;
   [[nodiscard]] std::uint32_t code_word(std::uint32_t address) const;
 
   Bus& bus_;
@@ -132,6 +144,9 @@ class Processor final : private RegisterReader {
   std::uint32_t supervisor_return_ = 0;
   bool supervisor_call_ = false;
   bool monitor_call_ = false;
+  CycleCounter counter_;
+  std::set<std::uint32_t> watched_;  // instructions that reach it
+  std::uint32_t doubtful_pc_ = 0;
   struct Memory {
     std::uint32_t address = 0;
     std::span<const std::uint8_t> bytes;
