@@ -16,7 +16,7 @@ Eqep::Eqep(std::string name, Bus& bus, Interrupt interrupt)
 void Eqep::reset() {
   RegisterBlock::reset();
   stored(kRevision) = 0x44D3'1103U;
-  position_ = 0;
+  load_position(0);
   flags_ = status_ = period_ = 0;
   counts_to_unit_ = 0;
   first_index_seen_ = reversed_ = watchdog_told_ = false;

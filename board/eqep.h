@@ -35,8 +35,8 @@ class Eqep final : public HalfwordBlock {
 
   // A and B edges that were decoded since power came on.
   [[nodiscard]] std::uint64_t edges_decoded() const noexcept { return edges_decoded_; }
-  // Their sum with direction, whatever the image loads into QPOSCNT.
-  [[nodiscard]] std::int64_t steps() const noexcept { return steps_; }
+  // QPOSCNT as the image has loaded it, and every step since, however it wraps.
+  [[nodiscard]] std::int64_t count() const noexcept { return loaded_ + steps_; }
 
   void advance(core::Nanoseconds now_ns) override;
   [[nodiscard]] core::Nanoseconds next_event_ns() const override;
@@ -60,6 +60,7 @@ class Eqep final : public HalfwordBlock {
   void step(int direction, core::Nanoseconds time_ns);
   void unit_time_out(core::Nanoseconds time_ns);
   void control_written(std::uint16_t before);
+  void load_position(std::uint32_t value) noexcept;
   void capture(core::Nanoseconds time_ns);
   void watch_overflow(core::Nanoseconds time_ns);
   void restart_capture(core::Nanoseconds time_ns) noexcept;
@@ -73,7 +74,8 @@ class Eqep final : public HalfwordBlock {
   std::deque<Edge> edges_;
   std::uint8_t levels_ = 0;
   std::uint64_t edges_decoded_ = 0;
-  std::int64_t steps_ = 0;
+  std::int64_t steps_ = 0;   // since power came on, whatever is loaded
+  std::int64_t loaded_ = 0;  // what has to be added to them
   core::Nanoseconds last_edge_ns_ = -kNever;
   unsigned last_line_ = 2;
   int last_step_ = 0;

@@ -40,7 +40,7 @@ void Eqep::write_word(std::uint32_t offset, std::uint32_t value, std::uint32_t l
   }
   keep(offset, value, lanes);
   if (offset == kPosition) {
-    position_ = (position_ & ~lanes) | value;
+    load_position((position_ & ~lanes) | value);
   } else if (offset == kUnitTimer) {
     unit_base_ns_ = bus().now_ns - kClock_ns * static_cast<core::Nanoseconds>(stored(offset));
   }
@@ -113,10 +113,15 @@ void Eqep::write_half(std::uint32_t offset, std::uint16_t value, std::uint16_t l
   }
 }
 
+void Eqep::load_position(std::uint32_t value) noexcept {
+  position_ = value;
+  loaded_ = static_cast<std::int32_t>(value) - steps_;
+}
+
 void Eqep::control_written(std::uint16_t before) {
   const std::uint16_t now = half(kQepControl);
   if ((now & kSoftwareInit) != 0) {
-    position_ = stored(kInitial);
+    load_position(stored(kInitial));
     keep_half(kQepControl, 0, kSoftwareInit);
   }
   if ((now & ~before & kUnitEnable) != 0) {

@@ -123,7 +123,7 @@ void FirmwareBench::write_pin_row() {
   row.time_ns = now_ns_;
   for (const core::Axis axis : core::kAxes) {
     const std::uint64_t edges = decoded_.back().edges[axis];
-    row.axes[axis] = {.count = board_.encoder(wiring_.axes[axis].encoder).steps(),
+    row.axes[axis] = {.count = board_.encoder(wiring_.axes[axis].encoder).count(),
                       .duty_pct = node_.duty_pct(axis),
                       .edges = static_cast<std::uint32_t>(edges - edges_told_[axis])};
     edges_told_[axis] = edges;

@@ -7,6 +7,7 @@ namespace towbench::board {
 namespace {
 
 constexpr std::uint32_t kPosition = 0x00;
+constexpr std::uint32_t kInitial = 0x04;
 constexpr std::uint32_t kMaximum = 0x08;
 constexpr std::uint32_t kIndexLatch = 0x10;
 constexpr std::uint32_t kUnitPeriod = 0x20;
@@ -64,6 +65,24 @@ TEST_F(EqepFixture, AnEdgeCountsAtItsOwnTimeAndNotBefore) {
   EXPECT_EQ(eqep.load(kPosition, 4), 1U);
   at(6'000);
   EXPECT_EQ(eqep.load(kPosition, 4), 2U);
+}
+
+TEST_F(EqepFixture, ItsCountBeginsWithWhatIsLoadedAndGoesOnOverTheWrap) {
+  eqep.store(kMaximum, 4, 9);
+  step(1, 500);
+  at(500);
+  EXPECT_EQ(eqep.count(), 1);
+  eqep.store(kPosition, 4, 8);
+  EXPECT_EQ(eqep.count(), 8);
+  for (int i = 1; i <= 5; ++i) {
+    step(1, 1000 * i);
+  }
+  at(5000);
+  EXPECT_EQ(eqep.load(kPosition, 4), 3U);
+  EXPECT_EQ(eqep.count(), 13);
+  eqep.store(kInitial, 4, 0xFFFF'FFFE);
+  eqep.store(kControl, 2, 0x1098);  // software initialisation
+  EXPECT_EQ(eqep.count(), -2);
 }
 
 TEST_F(EqepFixture, WrapsAtTheMaximumBothWaysAndSaysSo) {
