@@ -1,11 +1,12 @@
-// PWMSS (AM335x TRM 15.1): one page with the configuration of the subsystem, an eCAP that is kept
-// and not modelled, the eQEP at 0x180 and the eHRPWM at 0x200.
+// PWMSS (AM335x TRM 15.1): one page with the configuration of the subsystem, an eCAP at 0x100 that
+// is kept and not modelled (kept_registers.h), the eQEP at 0x180 and the eHRPWM at 0x200.
 #pragma once
 
 #include <string>
 
 #include "board/ehrpwm.h"
 #include "board/eqep.h"
+#include "board/kept_registers.h"
 #include "board/register_block.h"
 
 namespace towbench::board {
@@ -29,6 +30,7 @@ class PwmSubsystem final : public RegisterBlock {
   void write_word(std::uint32_t offset, std::uint32_t value, std::uint32_t lanes) override;
 
  private:
+  KeptRegisters capture_;
   Eqep encoder_;
   Ehrpwm pwm_;
   bool gate_ = false;

@@ -140,6 +140,24 @@ TEST(KeptRegisters, AValueThatIsReadAgainAndWasNeverWrittenMakesTheRunDoubtful) 
   EXPECT_EQ(board.notes(), std::vector<std::string>{"adc: register 0x100 is read, not modelled"});
 }
 
+// Waits for the eCAP's event flag, ECFLG.
+TEST(KeptRegisters, AnEcapThatIsPolledIsToldByName) {
+  Board board;
+  run_image(board,
+            {
+                0xE59F000C,  // ldr r0, [pc, #12]   PWMSS1
+                0xE590112C,  // loop: ldr r1, [r0, #0x12C]
+                0xE1A01821,  // lsr r1, r1, #16
+                0xE3510000,  // cmp r1, #0
+                0x0AFFFFFB,  // beq loop
+                0x48302000,
+            },
+            1e-3);
+  EXPECT_EQ(board.doubt(),
+            "at 0x80000004 (start+0x4) the image goes by register 0x2c of ecap1 (0x4830212c), "
+            "which is not modelled");
+}
+
 TEST(KeptRegisters, AReadThatAWriteFollowsIsNotedAndNoMore) {
   Board board;
   run_image(board,
