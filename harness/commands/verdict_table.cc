@@ -1,8 +1,11 @@
 #include "harness/commands/verdict_table.h"
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace towbench::harness {
 namespace {
@@ -42,6 +45,18 @@ std::string line_of(const Check& check) {
   return line + "\n";
 }
 
+// What an INVALID must not hide.
+std::string also_failed(const Judgement& judgement) {
+  std::vector<std::string> failed;
+  for (const auto& check : judgement.checks) {
+    if (judgement.verdict == Verdict::kInvalid && check.verdict == Verdict::kFail) {
+      failed.push_back(check.name);
+    }
+  }
+  return failed.empty() ? std::string{}
+                        : fmt::format("         and FAIL: {}\n", fmt::join(failed, ", "));
+}
+
 }  // namespace
 
 std::string with_unit(double value, const std::string& unit) {
@@ -67,6 +82,7 @@ std::string verdict_table(const std::string& experiment, const RunResult& run, b
   if (!run.judgement.judged.empty()) {
     text += "         " + run.judgement.judged + "\n";
   }
+  text += also_failed(run.judgement);
   for (const auto& check : run.judgement.checks) {
     if (all || check.verdict != Verdict::kPass) {
       text += line_of(check);

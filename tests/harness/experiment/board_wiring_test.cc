@@ -10,7 +10,7 @@ BoardWiring read(const std::string& text) {
   return read_board_wiring(FixtureFile::parse("schema = 1\n" + text, "wiring.toml"));
 }
 
-std::string refusal(const std::string& text) {
+std::string wiring_refusal(const std::string& text) {
   try {
     (void)read(text);
   } catch (const FixtureError& error) {
@@ -61,16 +61,18 @@ TEST(BoardWiring, PinsMoveInvertAndAreLeftOut) {
 TEST(BoardWiring, WhatCannotBeIsRefusedWithItsKey) {
   for (const char* pin :
        {"gpio4.1", "gpio1.32", "gpio1", "14", "gpio1.14 ", "!!gpio1.14", "GPIO1.14"}) {
-    const auto text = refusal("kill_switch = \"" + std::string(pin) + "\"\n");
+    const auto text = wiring_refusal("kill_switch = \"" + std::string(pin) + "\"\n");
     EXPECT_NE(text.find("kill_switch"), std::string::npos) << pin << ": " << text;
     EXPECT_NE(text.find("gpioB.P"), std::string::npos) << pin << ": " << text;
   }
-  EXPECT_NE(refusal("kill_switch = \"gpio1.17\"\n").find("axis.y.hall_max has"), std::string::npos);
-  EXPECT_NE(refusal("[axis.x]\npwm = \"ehrpwm1\"\n").find("a module of its own"),
+  EXPECT_NE(wiring_refusal("kill_switch = \"gpio1.17\"\n").find("axis.y.hall_max has"),
             std::string::npos);
-  EXPECT_NE(refusal("[axis.y]\nencoder = \"eqep3\"\n").find("eqep2"), std::string::npos);
-  EXPECT_NE(refusal("[axis.y]\nhall_mim = \"gpio1.1\"\n").find("hall_min"), std::string::npos);
-  EXPECT_NE(refusal("console = \"uart1\"\n").find("uart0"), std::string::npos);
+  EXPECT_NE(wiring_refusal("[axis.x]\npwm = \"ehrpwm1\"\n").find("a module of its own"),
+            std::string::npos);
+  EXPECT_NE(wiring_refusal("[axis.y]\nencoder = \"eqep3\"\n").find("eqep2"), std::string::npos);
+  EXPECT_NE(wiring_refusal("[axis.y]\nhall_mim = \"gpio1.1\"\n").find("hall_min"),
+            std::string::npos);
+  EXPECT_NE(wiring_refusal("console = \"uart1\"\n").find("uart0"), std::string::npos);
 }
 
 }  // namespace
