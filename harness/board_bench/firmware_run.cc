@@ -172,8 +172,13 @@ class FirmwareLoop {
     const auto progress = person_ == nullptr ? script_.update(now_ns, bench_.idle())
                                              : ConsoleScript::Progress::kRunning;
     if (watchers_.stop != nullptr && watchers_.stop->load(std::memory_order_relaxed)) {
-      outcome_.reason = "interrupted";
-      return true;
+      if (person_ == nullptr) {
+        outcome_.reason = "interrupted";
+        return true;
+      }
+      // That is how a person ends a run; a record ends with a whole row.
+      outcome_.complete = now_ns % FirmwareBench::kPinRow_ns == 0;
+      return outcome_.complete;
     }
     const bool running = progress == ConsoleScript::Progress::kRunning;
     const auto failure = bench_.failure();

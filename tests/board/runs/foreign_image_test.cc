@@ -1,5 +1,6 @@
 // Images that nothing of the project has been made for (tests/board/foreign) against the machine,
 // as a user runs his own.
+#include <atomic>
 #include <cstdio>
 #include <map>
 #include <set>
@@ -155,6 +156,34 @@ budget = [{ metric = "y_hard_end_contacts", max = 0.0 }]
                                 "misbehave.elf");
   EXPECT_NE(check_named(silent, "console_script")->reason.find("did not come within 1 s"),
             std::string::npos);
+}
+
+// Ctrl-C is how a person at the console ends a run.
+TEST(ForeignImage, ARunOfAPersonAtTheConsoleEndsWhenStoppedAndProvesNothing) {
+  TemporaryFixtures files;
+  std::filesystem::create_directory_symlink(std::filesystem::absolute("fixtures"),
+                                            files.folder() / "fixtures");
+  const auto file = files.write("by-hand.toml", R"(
+schema = 1
+name = "by-hand"
+rig = "fixtures/rigs/macs-nominal.toml"
+controller = "fixtures/controllers/bbmc-default.toml"
+duration_limit_s = 10.0
+budget = [{ metric = "y_carriage_travel_m", max = 0.105 }]
+)");
+  const std::atomic<bool> stop{true};
+  RunOptions options;
+  options.out = files.folder() / "runs";
+  options.firmware = kImages / "servo.elf";
+  options.person_at_console = true;
+  options.watchers.stop = &stop;
+  const auto run = run_experiment(load_experiment(file), options);
+  EXPECT_TRUE(run.complete) << run.reason;
+  EXPECT_EQ(run.judgement.verdict, Verdict::kInvalid);
+  EXPECT_NE(check_named(run, "driven_by_hand"), nullptr) << complaints_of(run);
+  for (const auto& check : run.judgement.checks) {
+    EXPECT_NE(check.verdict, Verdict::kFail) << check.name << ": " << check.reason;
+  }
 }
 
 // What the image does is right, and its pins are not where it looks for them.
