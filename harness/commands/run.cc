@@ -101,7 +101,8 @@ void add_run(CLI::App& app, int& exit_code) {
   add_experiment_options(*verb, options->shared);
   verb->footer(
       "Example: towbench run trapezoid-400 --carrier local --out runs\n"
-      "         towbench run trapezoid-400 --fault \"encoder.y frozen phase=cruise after=0.5s\"");
+      "         towbench run trapezoid-400 --fault \"encoder.y frozen phase=cruise after=0.5s\"\n"
+      "Guides: docs/guide/experiments.md, faults.md, your-controller.md, run-your-firmware.md");
   verb->callback([options, &exit_code] { exit_code = execute_run(*options); });
 }
 
