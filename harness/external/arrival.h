@@ -15,7 +15,7 @@
 
 namespace towbench::harness {
 
-inline constexpr auto kProcessComes = std::chrono::seconds(10);
+inline constexpr auto kProcessComes = std::chrono::seconds(30);
 
 // The command with the bench's address for every {address}.
 [[nodiscard]] std::string with_address(std::string command, const std::string& address);
