@@ -36,7 +36,8 @@ std::string known_by(const tb_bench& bench) {
         << axis.current_A << ' ' << int{axis.levels} << '\n';
   }
   out << bench.now_ns << ' ' << bench.lines << ' ' << bench.refusal << ' ' << bench.capabilities
-      << ' ' << bench.fault << ' ' << bench.faults << ' ' << bench.heartbeats;
+      << ' ' << bench.fault << ' ' << bench.faults << ' ' << bench.heartbeats << ' '
+      << int{bench.reset};
   return out.str();
 }
 

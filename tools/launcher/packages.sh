@@ -20,6 +20,9 @@ test_packages=(
   g++-arm-linux-gnueabihf qemu-user-static valgrind
 )
 
+# Of the stage `linuxcnc` alone.
+linuxcnc_packages=(linuxcnc-uspace linuxcnc-uspace-dev)
+
 # Those of the named packages that are not installed. Node may come from elsewhere than Debian.
 missing_packages() {
   local wanted=("$@")

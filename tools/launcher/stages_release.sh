@@ -48,6 +48,22 @@ stage_other_controllers() {
   count python3 "$root/tests/clients/campaign_of_controllers.py" whole "$root" "$bench_program" "$build/release/tests/clients/c_pid"
 }
 
+stage_linuxcnc() {
+  built release towbench-bench
+  # LinuxCNC serves this stage alone; without it the bench is whole.
+  if ! (install_packages "${linuxcnc_packages[@]}"); then
+    skip_reason="no ${linuxcnc_packages[*]} to be had here (see above)"
+    return 99
+  fi
+  local status=0 log=$build/linuxcnc.log
+  "$root/clients/linuxcnc/build.sh" "$build/linuxcnc" || return 1
+  python3 "$root/tests/linuxcnc/measure.py" "$root" "$bench_program" "$build/linuxcnc/towbench.so" "$build/linuxcnc.md" \
+    2>&1 | tee "$log" || status=${PIPESTATUS[0]}
+  passed=$((passed + $(grep -c '^ok ' "$log"))) failed=$((failed + $(grep -c '^WRONG ' "$log")))
+  note=$(sed -n 's/^@@ \(real time unproven\).*/; \1/p' "$log" | head -n 1)
+  return "$status"
+}
+
 # Every effect under two seeds, hidden by another generator: named, and nothing else, in 19 of 20.
 stage_diagnosis() {
   built release diagnose_campaign

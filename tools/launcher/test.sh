@@ -13,7 +13,7 @@ source "$root/tools/launcher/stages_release.sh"
 
 guard_stages=(lint tests board sanitize_thread sanitize_address carriers fuzz fresh_start)
 quick_stages=(lint tests)
-release_stages=(attack long_tests alone tidy step_cost armhf package campaign other_controllers diagnosis mutants guard_mutations slurm)
+release_stages=(attack long_tests alone tidy step_cost armhf package campaign other_controllers linuxcnc diagnosis mutants guard_mutations slurm)
 on_request_stages=(build_times carrier_table panel_cost)
 
 test_usage() {
@@ -52,6 +52,7 @@ with --all besides:
   package           the .deb: built, checked by lintian, installed in a bare Debian 12, demo from an empty folder
   campaign          the standard fault campaign, some 3,000 cases, from scratch
   other_controllers the standard campaign of controllers that the bench did not write: good and bad ones
+  linuxcnc          an unmodified LinuxCNC homes, runs a circle and faces the campaign; skipped where it cannot be installed
   diagnosis         the campaign of hidden effects: named, and nothing else
   mutants           controllers with one reaction removed: the fault campaign must catch each
   guard_mutations   ten slips in the sources: the tests that guard main must catch each
