@@ -1,0 +1,150 @@
+#include "tests/study/diagnose/foreign/sources.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include "study/commands/plant_model.h"
+#include "tests/study/diagnose/bench_case.h"
+#include "tests/study/diagnose/full_strength.h"
+#include "tests/study/diagnose/hidden_case.h"
+
+namespace towbench::tests::foreign {
+namespace {
+
+Key key_of(const std::string& name) {
+  if (const Effect* effect = find(name)) {
+    return {name, effect->right, effect->beside};
+  }
+  return {name, {name}, {}};
+}
+
+void describe(Posed& posed) {
+  const auto& run = posed.request.runs.front();
+  posed.rate_Hz = 1 / run.period_s;
+  posed.resolution_m = run.resolution_m;
+}
+
+constexpr const char* kBenchPlant = "fixtures/plants/macs-nominal.toml";  // bench_case.cc's own
+
+// The names that this generator has; its one effect outside the library is called so.
+const std::vector<std::string> kHiddenAxis{"coulomb_asymmetry",
+                                           "viscous_asymmetry",
+                                           "quadratic_drag",
+                                           "cubic_viscous",
+                                           "load_dependent_friction",
+                                           "stribeck",
+                                           "low_speed_rolloff",
+                                           "stiction",
+                                           "presliding",
+                                           "added_mass",
+                                           "backlash",
+                                           "chain_elasticity",
+                                           "transport_delay",
+                                           "current_loop_lag",
+                                           "amplifier_gain",
+                                           "amplifier_deadband",
+                                           "command_saturation",
+                                           "voltage_saturation",
+                                           "constant_bias",
+                                           "position_force",
+                                           "cable_spring",
+                                           "position_friction",
+                                           "position_viscous",
+                                           "torque_ripple",
+                                           "sprocket_eccentricity",
+                                           "chain_polygon",
+                                           "encoder_eccentricity",
+                                           "periodic_force",
+                                           "thermal_drift",
+                                           "encoder_count_loss"};
+
+void check(const std::vector<std::string>& names, const std::string& wished) {
+  if (!wished.empty() && std::find(names.begin(), names.end(), wished) == names.end()) {
+    throw std::runtime_error("this generator has no " + wished);
+  }
+}
+
+std::string wished_or_drawn(const std::vector<std::string>& names, const Wish& wish, Dice& dice) {
+  if (wish.kind == "none") return "";
+  check(names, wish.effect);
+  return wish.effect.empty() ? dice.pick(names) : wish.effect;
+}
+
+Posed pose_hidden_axis(const Wish& wish, std::uint64_t seed) {
+  Dice dice(seed);
+  HiddenAxis axis;
+  axis.open_loop = wish.motion == "open_loop";
+  axis.effect = wish.kind == "outside" ? "outside" : wished_or_drawn(kHiddenAxis, wish, dice);
+  if (wish.kind == "pair") {
+    do {
+      axis.second_effect = dice.pick(kHiddenAxis);
+    } while (find(axis.second_effect)->family == find(axis.effect)->family);
+  }
+  axis = at_strength(axis, wish.strength, seed);
+  Posed posed;
+  posed.machine = "hidden_axis";
+  posed.plan = axis.open_loop ? "open_loop" : "drawn_reference";
+  posed.is_outside = wish.kind == "outside";
+  for (const std::string& name : {axis.effect, axis.second_effect}) {
+    if (!name.empty()) posed.hidden.push_back(key_of(name));
+  }
+  posed.request.model = nominal_of(axis);
+  posed.request.runs = {run_of(axis, make_hidden_log(axis, seed))};
+  posed.visible = posed.hidden.empty() ? 0 : kFull * wish.strength;
+  return posed;
+}
+
+Posed pose_bench(const Wish& wish, std::uint64_t seed) {
+  if (wish.kind != "one" && wish.kind != "none") {
+    throw std::runtime_error("the bench hides one effect or none");
+  }
+  Dice dice(seed);
+  BenchCase one;
+  one.seed = seed;
+  one.strength = wish.strength;
+  one.effect = wished_or_drawn(bench_effects(), wish, dice);
+  Posed posed;
+  posed.machine = "macs";
+  posed.plan = "trapezoids";
+  if (!one.effect.empty()) posed.hidden.push_back(key_of(one.effect));
+  posed.request.model = harness::load_plant_model(kBenchPlant, "y").model;
+  posed.request.runs = {bench_run(one)};
+  return posed;
+}
+
+}  // namespace
+
+Posed pose(const Wish& wish, const DrawnCase& drawn) {
+  Posed posed;
+  for (const Hidden& hidden : drawn.hidden) {
+    posed.hidden.push_back(key_of(hidden.name));
+  }
+  posed.is_outside = wish.kind == "outside";
+  posed.machine = drawn.machine.kind;
+  posed.plan = drawn.plan.words();
+  std::set<std::string> motions;
+  for (const RunPlan& run : drawn.plan.runs) {
+    motions.insert(run.motion);
+  }
+  posed.motions.assign(motions.begin(), motions.end());
+  posed.sessions = drawn.plan.sessions.size();
+  posed.visible = drawn.visible;
+  posed.share = drawn.share;
+  posed.redrawn = drawn.redrawn;
+  posed.request = request_of(drawn);
+  describe(posed);
+  return posed;
+}
+
+Posed pose(const std::string& generator, const Wish& wish, std::uint64_t seed) {
+  if (generator == "foreign") {
+    return pose(wish, draw_case(wish, seed));
+  }
+  Posed posed = generator == "bench" ? pose_bench(wish, seed) : pose_hidden_axis(wish, seed);
+  posed.motions = {posed.plan};
+  describe(posed);
+  return posed;
+}
+
+}  // namespace towbench::tests::foreign

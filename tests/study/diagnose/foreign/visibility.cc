@@ -1,0 +1,154 @@
+#include "tests/study/diagnose/foreign/visibility.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace towbench::tests::foreign {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kDetection = 4.5;      // standard errors: some thousand candidates at 0.001
+constexpr double kLeastOfNoise = 0.14;  // what costs 1 % of the residual: sqrt(1 / 0.99^2 - 1)
+constexpr double kLeastShare = 0.01;    // of the command, of what is held against a parameter
+constexpr double kMostlyMoving = 0.9;
+
+bool counts(const Recording& run) {
+  return !run.plan.held_out && (run.plan.motion != "hand" || run.plan.hand_is_logged);
+}
+
+struct Blocks {
+  MatrixXd columns;  // a, v, dry, 1
+  VectorXd lacking_N;
+  VectorXd command_N;
+};
+
+Blocks blocks_of(const std::vector<Recording>& runs, double period_s, double block_s) {
+  const auto length = std::max<std::size_t>(1, static_cast<std::size_t>(block_s / period_s));
+  std::vector<Truth> means;
+  for (const Recording& run : runs) {
+    for (std::size_t from = 0; counts(run) && from + length <= run.truth.size(); from += length) {
+      Truth mean;
+      for (std::size_t i = from; i < from + length; ++i) {
+        const double share = 1 / static_cast<double>(length);
+        mean.lacking_N += share * run.truth[i].lacking_N;
+        mean.a_m_per_s2 += share * run.truth[i].a_m_per_s2;
+        mean.v_m_per_s += share * run.truth[i].v_m_per_s;
+        mean.dry += share * run.truth[i].dry;
+        mean.moving += share * run.truth[i].moving;
+        mean.command_N += share * run.truth[i].command_N;
+      }
+      if (mean.moving > kMostlyMoving) {
+        means.push_back(mean);
+      }
+    }
+  }
+  const auto rows = static_cast<Eigen::Index>(means.size());
+  Blocks out{MatrixXd::Ones(rows, 4), VectorXd(rows), VectorXd(rows)};
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const Truth& mean = means[static_cast<std::size_t>(i)];
+    out.columns(i, 0) = mean.a_m_per_s2;
+    out.columns(i, 1) = mean.v_m_per_s;
+    out.columns(i, 2) = mean.dry;
+    out.lacking_N[i] = mean.lacking_N;
+    out.command_N[i] = mean.command_N;
+  }
+  return out;
+}
+
+double rms(const VectorXd& x) {
+  return x.size() == 0 ? 0 : x.norm() / std::sqrt(static_cast<double>(x.size()));
+}
+
+// Least squares, with columns that hold nothing or the same left to the decomposition.
+VectorXd off(MatrixXd columns, const VectorXd& y) {
+  for (Eigen::Index j = 0; j < columns.cols(); ++j) {
+    columns.col(j) /= std::max(columns.col(j).norm(), 1e-300);
+  }
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
+  solver.setThreshold(1e-6);
+  solver.compute(columns);
+  return y - columns * solver.solve(y);
+}
+
+MatrixXd others(const MatrixXd& columns, Span span) {
+  const auto own = static_cast<Eigen::Index>(span) - static_cast<Eigen::Index>(Span::kMass);
+  MatrixXd left(columns.rows(), columns.cols() - 1);
+  left << columns.leftCols(own), columns.rightCols(columns.cols() - 1 - own);
+  return left;
+}
+
+// Rms of the error of a block's mean force: white steps of the encoder twice differentiated and
+// torque noise, both up to the band's end.
+double noise_N(const Machine& m, double band_Hz) {
+  const double count = m.metres_per_count;
+  const double step2 = count * count / 12 * 2 * m.period_s;
+  const double acceleration2 = step2 * std::pow(kTurn, 4) * std::pow(band_Hz, 5) / 5;
+  const double torque2 =
+      m.torque_noise_N * m.torque_noise_N * std::min(1.0, 2 * band_Hz * kNoiseHold_s);
+  return std::sqrt(m.mass_kg * m.mass_kg * acceleration2 + torque2);
+}
+
+}  // namespace
+
+Visibility visibility(const Machine& machine, const std::vector<Recording>& runs, Span span) {
+  Visibility best;
+  for (const double band_Hz : {5.0, 10.0, 20.0, 40.0, 80.0}) {
+    if (band_Hz > 0.25 / machine.period_s) {
+      break;
+    }
+    const Blocks blocks = blocks_of(runs, machine.period_s, 0.5 / band_Hz);
+    constexpr Eigen::Index kFewest = 20;
+    if (blocks.lacking_N.size() < kFewest) {
+      continue;
+    }
+    Visibility here;
+    here.force_N = rms(blocks.lacking_N);
+    here.command_N = rms(blocks.command_N);
+    const VectorXd& all = blocks.lacking_N;
+    const VectorXd left = span == Span::kSeveral ? all
+                          : span == Span::kNone  ? off(blocks.columns, all)
+                                                 : off(others(blocks.columns, span), all);
+    here.off = rms(left) / std::max(here.force_N, 1e-300);
+    const double noise = noise_N(machine, band_Hz);
+    const double rows = static_cast<double>(all.size());
+    double detectable = std::max(kDetection * noise / std::sqrt(rows), kLeastOfNoise * noise);
+    if (span != Span::kNone) {
+      detectable = std::max(detectable, kLeastShare * here.command_N);
+    }
+    here.times = rms(left) / std::max(detectable, 1e-300);
+    best = here.times > best.times ? here : best;
+  }
+  double moving = 0;
+  double samples = 0;
+  for (const Recording& run : runs) {
+    for (const Truth& truth : run.truth) {
+      moving += counts(run) ? truth.moving : 0;
+      samples += counts(run) ? 1 : 0;
+    }
+  }
+  best.moving = samples > 0 ? moving / samples : 0;
+  return best;
+}
+
+bool is_sound(const Machine& machine, const std::vector<Recording>& runs) {
+  constexpr double kLeastMoving = 0.15;
+  constexpr double kLeastWay = 0.02;  // of the stroke, in any run
+  const double room = 3 * machine.stroke_m;
+  for (const Recording& run : runs) {
+    double moving = 0;
+    for (const Truth& truth : run.truth) {
+      moving += truth.moving / static_cast<double>(run.truth.size());
+    }
+    const auto [low, high] = std::minmax_element(run.position_m.begin(), run.position_m.end());
+    if (run.truth.empty() || moving < kLeastMoving || *high - *low < kLeastWay * machine.stroke_m ||
+        *high > machine.stroke_m + room || *low < -room) {
+      return false;
+    }
+  }
+  return std::any_of(runs.begin(), runs.end(), counts);
+}
+
+}  // namespace towbench::tests::foreign

@@ -1,0 +1,99 @@
+#include "tests/study/diagnose/foreign/write_case.h"
+
+#include <fstream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace towbench::tests::foreign {
+namespace {
+
+void write(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream stream(path, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) {
+    throw std::runtime_error("cannot write " + path.string());
+  }
+}
+
+std::string log_of(const DrawnCase& one, const Recording& run) {
+  const bool has_reference = !run.reference_m.empty();
+  std::string text = fmt::format("time_s,position,input{}\n", has_reference ? ",reference" : "");
+  for (std::size_t k = 0; k < run.position_m.size(); ++k) {
+    text += fmt::format("{:.6f},{:.9f},{:.7g}", static_cast<double>(k) * one.machine.period_s,
+                        run.position_m[k], run.input_units[k]);
+    text += has_reference ? fmt::format(",{:.9f}\n", run.reference_m[k]) : "\n";
+  }
+  return text;
+}
+
+std::string truth_of(const Recording& run) {
+  std::string text = "lacking_N,a_m_per_s2,v_m_per_s,dry,moving,known_N\n";
+  for (std::size_t k = 0; k < run.truth.size(); ++k) {
+    const Truth& t = run.truth[k];
+    text += fmt::format("{:.6g},{:.6g},{:.6g},{:.4f},{:.3f},{:.6g}\n", t.lacking_N, t.a_m_per_s2,
+                        t.v_m_per_s, t.dry, t.moving, run.known_N[k]);
+  }
+  return text;
+}
+
+std::string map_of(const DrawnCase& one) {
+  return fmt::format(
+      "# of {0}; a joint's metres are radians, its newtons newton metres\ntime = \"time_s\"\n"
+      "position = \"position\"\nposition_scale_m = 1\ninput = \"input\"  # {1}\n"
+      "input_scale_N = {2:.12g}\n",
+      one.machine.kind, one.machine.input, one.machine.newton_per_unit);
+}
+
+// Load-side form; what it has no key for stands as a comment.
+std::string plant_of(const Machine& m) {
+  const double gear = m.sprocket_radius_m > 0 ? m.sprocket_radius_m / m.metres_per_motor_rad : 1;
+  const double radius = m.sprocket_radius_m > 0      ? m.sprocket_radius_m
+                        : m.metres_per_motor_rad > 0 ? m.metres_per_motor_rad
+                                                     : 0.01;
+  std::string text = fmt::format(
+      "# {}: stroke {:.3f}, top speed {:.3f}, {:.0f} Hz\n"
+      "# gravity {:.6g} sin(x + {:.4f}); chain {:.3f} Hz, motor's share {:.3f}\n"
+      "schema = 1\n[axis.y]\nmass_kg = {:.9g}\nviscous_friction_N_s_per_m = {:.9g}\n"
+      "coulomb_friction_N = {:.9g}\nforce_gain_N_per_V = {:.9g}\npwm_amplitude_V = 10.0\n"
+      "gear_ratio = {:.9g}\nsprocket_radius_m = {:.9g}\nencoder_counts_per_m = {:.9g}\n",
+      m.kind, m.stroke_m, m.top_speed_m_per_s, 1 / m.period_s, m.gravity_N, m.gravity_at_rad,
+      m.chain_Hz, m.motor_share, m.mass_kg, m.viscous_N_s_per_m, m.coulomb_N, m.limit_N() / 10,
+      gear, radius, 1 / m.metres_per_count);
+  if (m.chain_Hz > 0) {
+    text += fmt::format("[axis.y.chain]\nresonance_Hz = {:.9g}\ndamping_ratio = {:.6g}\n",
+                        m.chain_Hz, m.chain_damping);
+  }
+  return text;
+}
+
+}  // namespace
+
+void write_case(const DrawnCase& one, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  write(folder / "map.toml", map_of(one));
+  write(folder / "plant.toml", plant_of(one.machine));
+  std::string told = fmt::format("seed {}\nplan {}\nreference {}\nloop {:.3f} Hz, damping {:.2f}\n",
+                                 one.seed, one.plan.words(), one.plan.with_reference,
+                                 one.plan.loop.bandwidth_Hz, one.plan.loop.damping);
+  for (const Hidden& hidden : one.hidden) {
+    told += fmt::format("hidden {} strength {:.4g} draw {:.4f} place {:.4f} sign {}\n", hidden.name,
+                        hidden.strength, hidden.draw, hidden.place, hidden.sign);
+  }
+  told += fmt::format("visible {:.2f} times, {:.2f} % of the command; {} draws before\n",
+                      one.visible, 100 * one.share, one.redrawn);
+  for (std::size_t i = 0; i < one.runs.size(); ++i) {
+    const Recording& run = one.runs[i];
+    const std::string name =
+        fmt::format("{}_{}{}", i + 1, run.plan.motion, run.plan.held_out ? "_held_out" : "");
+    write(folder / (name + ".csv"), log_of(one, run));
+    write(folder / (name + ".truth.csv"), truth_of(run));
+    const Session& session = one.plan.sessions[run.plan.session];
+    told += fmt::format("run {} session {} from {:.1f} s: offset {:.4g} N, friction {:.3f}\n", name,
+                        run.plan.session, run.plan.start_s, session.offset_N, session.friction);
+  }
+  write(folder / "told.txt", told);
+}
+
+}  // namespace towbench::tests::foreign
