@@ -49,6 +49,13 @@ std::vector<Hidden> draw_effects(const Wish& wish, const Machine& machine, Dice&
   return hidden;
 }
 
+// A hand's force does not pass the drive, so that its run contradicts the others.
+bool contradicts(const DrawnCase& one) {
+  return std::any_of(one.hidden.begin(), one.hidden.end(), [&](const Hidden& hidden) {
+    return find(hidden.name)->family == "drive" && one.plan.has("hand");
+  });
+}
+
 Visibility shown(const DrawnCase& one, const Hidden& alone) {
   const auto runs = record(one.machine, {alone}, one.plan, one.seed);
   return visibility(one.machine, runs, find(alone.name)->span);
@@ -113,7 +120,7 @@ DrawnCase draw_case(const Wish& wish, std::uint64_t seed) {
       continue;
     }
     one.plan = draw_plan(one.machine, wish.motion, dice);
-    if (!shows(one, wish)) {
+    if (contradicts(one) || !shows(one, wish)) {
       continue;
     }
     one.runs = record(one.machine, one.hidden, one.plan, seed);

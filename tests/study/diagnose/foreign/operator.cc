@@ -15,9 +15,11 @@ class PositionLoop {
         w_(kTurn * loop.bandwidth_Hz),
         speed_(machine.period_s, std::max(2 * machine.period_s, 1 / (6 * w_))) {}
 
+  // At each sample, also when somebody else drives.
+  void observe(double reading_m) { rate_ = speed_.update(reading_m); }
   double force_N(const Wanted& wanted, double reading_m) {
     const double error = wanted.x_m - reading_m;
-    const double rate = wanted.v_m_per_s - speed_.update(reading_m);
+    const double rate = wanted.v_m_per_s - rate_;
     const double ahead_N = m_.mass_kg * wanted.a_m_per_s2 +
                            m_.viscous_N_s_per_m * wanted.v_m_per_s +
                            m_.coulomb_N * direction(wanted.v_m_per_s);
@@ -36,6 +38,7 @@ class PositionLoop {
   Loop loop_;
   double w_;
   SpeedEstimate speed_;
+  double rate_ = 0;
   double sum_ = 0;
 };
 
@@ -47,6 +50,7 @@ class Follower : public Operator {
         loop_(machine, loop) {}
   Command command(double t_s, double reading_m) override {
     const Wanted wanted = way_.at(t_s);
+    loop_.observe(reading_m);
     return {loop_.force_N(wanted, reading_m), wanted.x_m};
   }
   [[nodiscard]] double start_m() const override { return way_.at(0).x_m; }
@@ -161,6 +165,10 @@ class Coast : public LettingGo {
  public:
   Coast(const RunPlan& run, const Machine& machine, const Loop& loop)
       : LettingGo(run, machine), loop_(machine, loop) {}
+  Command command(double t_s, double reading_m) override {
+    loop_.observe(reading_m);
+    return LettingGo::command(t_s, reading_m);
+  }
 
  protected:
   void begin(double t_s, double reading_m) override {
@@ -206,6 +214,25 @@ class Relay : public Operator {
   double sign_ = 1;
 };
 
+// Somebody leans on the load now and then.
+class Pushed : public Follower {
+ public:
+  Pushed(const RunPlan& run, const Machine& machine, const Loop& loop)
+      : Follower(run, machine, loop),
+        size_N_(machine.coulomb_N * dice_.between(0.4, 1)),
+        every_s_(run.duration_s / 3) {}
+  [[nodiscard]] double hand_N(double t_s, double /*x_m*/, double /*v_m_per_s*/) const override {
+    constexpr double kLasts_s = 1.5;
+    const double since_s = std::fmod(t_s, every_s_) - 0.4 * every_s_;
+    return since_s > 0 && since_s < kLasts_s ? size_N_ * std::sin(0.5 * kTurn * since_s / kLasts_s)
+                                             : 0;
+  }
+
+ private:
+  double size_N_;
+  double every_s_;
+};
+
 // A hand is a soft spring to where it wants to be.
 class Hand : public Operator {
  public:
@@ -245,6 +272,7 @@ std::unique_ptr<Operator> make_operator(const RunPlan& run, const Machine& machi
   if (run.motion == "coast") return std::make_unique<Coast>(run, machine, loop);
   if (run.motion == "relay") return std::make_unique<Relay>(run, machine);
   if (run.motion == "hand") return std::make_unique<Hand>(run, machine);
+  if (run.motion == "pushed") return std::make_unique<Pushed>(run, machine, loop);
   return std::make_unique<Follower>(run, machine, loop);
 }
 

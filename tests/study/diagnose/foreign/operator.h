@@ -33,7 +33,7 @@ class Operator {
   virtual ~Operator() = default;
   // At each sample, from what the encoder reads.
   virtual Command command(double t_s, double reading_m) = 0;
-  // Of a hand on the load, at any instant.
+  // Of a hand, at any instant: in the drive's place in a run of hand, else on the load.
   [[nodiscard]] virtual double hand_N(double /*t_s*/, double /*x_m*/, double /*v_m_per_s*/) const {
     return 0;
   }

@@ -15,12 +15,8 @@ void draw_runs(Plan& plan, const Machine& machine, const std::string& motion, Di
     RunPlan run;
     run.motion = motion.empty() ? dice.pick(motion_names()) : motion;
     run.duration_s = std::min(most_s, each_s * dice.between(0.8, 1.2));
-    run.hand_is_logged = dice.chance(0.6);
     run.seed = dice.bits();
     plan.runs.push_back(run);
-  }
-  if (motion.empty() && count == 1 && plan.runs.front().motion == "hand") {
-    plan.runs.front().motion = "fast_laps";  // nobody calibrates by hand alone
   }
   if (count > 1 && dice.chance(0.5)) {
     plan.runs[static_cast<std::size_t>(dice.whole(0, count - 1))].held_out = true;
@@ -89,10 +85,15 @@ void draw_loop(Plan& plan, const Machine& machine, Dice& dice) {
 }  // namespace
 
 const std::vector<std::string>& motion_names() {
-  static const std::vector<std::string> kNames{"slow_laps", "fast_laps", "one_way", "stairs",
-                                               "sine",      "multisine", "steps",   "prbs",
-                                               "pulses",    "coast",     "relay",   "hand"};
+  static const std::vector<std::string> kNames{
+      "slow_laps", "fast_laps", "one_way", "stairs", "sine", "multisine", "steps",
+      "prbs",      "pulses",    "coast",   "relay",  "hand", "pushed"};
   return kNames;
+}
+
+bool Plan::has(const std::string& motion) const {
+  return std::any_of(runs.begin(), runs.end(),
+                     [&](const RunPlan& run) { return run.motion == motion; });
 }
 
 std::string Plan::words() const {

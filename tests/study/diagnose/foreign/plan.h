@@ -23,7 +23,6 @@ struct RunPlan {
   bool held_out = false;
   std::size_t session = 0;
   double start_s = 0;  // of the session
-  bool hand_is_logged = false;
   std::uint64_t seed = 0;
 };
 
@@ -39,10 +38,12 @@ struct Plan {
   std::vector<Session> sessions;
   Loop loop;
   bool with_reference = true;
+  [[nodiscard]] bool has(const std::string& motion) const;
   [[nodiscard]] std::string words() const;  // one a run, "(h)" where it is held out
 };
 
-// slow_laps, fast_laps, one_way, stairs, sine, multisine, steps, prbs, pulses, coast, relay, hand
+// hand: the drive lets go, and a hand moves the axis with a force that is logged in its place.
+// pushed: laps, in which somebody leans on the load and nobody logs it.
 [[nodiscard]] const std::vector<std::string>& motion_names();
 // `motion`: of every run; empty: drawn for each.
 [[nodiscard]] Plan draw_plan(const Machine& machine, const std::string& motion, Dice& dice);

@@ -46,6 +46,7 @@ class Rig {
         presliding_m_(total(laws, &Law::presliding_m)),
         breakaway_N_(total(laws, &Law::breakaway_N)),
         coulomb_N_(session.friction * machine.coulomb_N + total(laws, &Law::coulomb_N)),
+        hand_drives_(run.motion == "hand"),
         t_s_(run.start_s) {}
 
   void place(double reading_m) {
@@ -62,21 +63,18 @@ class Rig {
   [[nodiscard]] double stated_gravity_N(double x_m) const {
     return (1 - unstated_) * m_.gravity_at_N(x_m);
   }
-  // Holds a command for a sample. `hand` is asked at every step, its mean returned beside the
-  // truth.
-  Truth hold(double command_N, int steps, double h_s, const Operator& hand, double clock_s,
-             double& hand_N) {
+  // Holds a command for a sample; who drives may push at every step.
+  Truth hold(double command_N, int steps, double h_s, const Operator& who, double clock_s) {
     Truth truth;
     truth.command_N = command_N;
     const Balance before = balance();
     const double share = 1.0 / steps;
     drive_.command(command_N);
-    hand_N = 0;
     for (int i = 0; i < steps; ++i) {
-      const Body& load = bodies_.load();
-      const double pushed_N = hand.hand_N(clock_s + i * h_s, load.x_m, load.v_m_per_s);
-      hand_N += share * pushed_N;
-      const Step done = step(h_s, pushed_N);
+      const Body& pushed = hand_drives_ ? bodies_.motor() : bodies_.load();
+      const double hand_N = who.hand_N(clock_s + i * h_s, pushed.x_m, pushed.v_m_per_s);
+      truth.hand_N += share * hand_N;
+      const Step done = step(h_s, hand_N);
       truth.dry += share * done.dry;
       truth.moving += share * done.moving;
       truth.lacking_N += share * (-done.nominal_N);
@@ -85,7 +83,7 @@ class Rig {
     const double duration_s = steps * h_s;
     truth.v_m_per_s = (after.reading_m - before.reading_m) / duration_s;
     truth.a_m_per_s2 = (after.speed - before.speed) / duration_s;
-    truth.lacking_N += command_N + hand_N - (after.momentum - before.momentum) / duration_s;
+    truth.lacking_N += command_N + truth.hand_N - (after.momentum - before.momentum) / duration_s;
     return truth;
   }
 
@@ -160,9 +158,9 @@ class Rig {
     const Now motor = now(bodies_.motor(), h_s, drive_N);
     const Now load = now(bodies_.load(), h_s, drive_N);
     ForcePair push{drive_N + noise_N_ + total(laws_, &Law::on_motor_N, motor) +
-                       total(laws_, &Law::memory_N, motor),
-                   session_.offset_N + hand_N + total(laws_, &Law::on_load_N, load) -
-                       m_.gravity_at_N(bodies_.load().x_m)};
+                       total(laws_, &Law::memory_N, motor) + (hand_drives_ ? hand_N : 0),
+                   session_.offset_N + (hand_drives_ ? 0 : hand_N) +
+                       total(laws_, &Law::on_load_N, load) - m_.gravity_at_N(bodies_.load().x_m)};
     const double on_load = bodies_.two() ? m_.load_friction : 0;
     ForcePair grip{(1 - on_load) * level_N(motor), on_load * level_N(load)};
     if (presliding_m_ > 0) {
@@ -223,6 +221,7 @@ class Rig {
   double presliding_m_;
   double breakaway_N_;
   double coulomb_N_;
+  bool hand_drives_;
   double t_s_;
   DryBodies bodies_{{}, {}, {}};
   double acceleration_ = 0;
@@ -248,14 +247,13 @@ Recording record_run(const Machine& machine, const std::vector<Law>& laws, const
     // Who drives a joint holds it against gravity.
     const double wanted_N = command.force_N + machine.gravity_at_N(reading_m);
     const double units = in_steps(machine, wanted_N / machine.newton_per_unit);
-    double hand_N = 0;
-    out.truth.push_back(rig.hold(units * machine.newton_per_unit, steps, h_s, *who, t_s, hand_N));
+    out.truth.push_back(rig.hold(units * machine.newton_per_unit, steps, h_s, *who, t_s));
     out.position_m.push_back(reading_m);
     out.input_units.push_back(units);
     if (command.reference_m && plan.with_reference) {
       out.reference_m.push_back(*command.reference_m);
     }
-    out.known_N.push_back(rig.stated_gravity_N(reading_m) - (run.hand_is_logged ? hand_N : 0));
+    out.gravity_N.push_back(rig.stated_gravity_N(reading_m));
   }
   return out;
 }
@@ -288,9 +286,13 @@ harness::diagnose::Run run_of(const Machine& machine, const Recording& recording
   run.period_s = machine.period_s;
   run.position_m = vector(recording.position_m);
   run.input_N = machine.newton_per_unit * vector(recording.input_units);
-  if (machine.gravity_N != 0 ||
-      (recording.plan.motion == "hand" && recording.plan.hand_is_logged)) {
-    run.known_N = vector(recording.known_N);
+  if (recording.plan.motion == "hand") {
+    for (Eigen::Index k = 0; k < run.size(); ++k) {
+      run.input_N[k] += recording.truth[static_cast<std::size_t>(k)].hand_N;  // of a force sensor
+    }
+  }
+  if (machine.gravity_N != 0) {
+    run.known_N = vector(recording.gravity_N);
   }
   run.reference_m = vector(recording.reference_m);
   run.missing.assign(recording.position_m.size(), 0);

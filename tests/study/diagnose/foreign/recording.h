@@ -18,6 +18,7 @@ struct Truth {
   double dry = 0;     // of the file's Coulomb friction, -1 to 1
   double moving = 0;  // share of the time
   double command_N = 0;
+  double hand_N = 0;
 };
 
 struct Recording {
@@ -25,7 +26,7 @@ struct Recording {
   std::vector<double> position_m;
   std::vector<double> input_units;
   std::vector<double> reference_m;  // empty: none
-  std::vector<double> known_N;      // of gravity that is stated and a hand that is logged
+  std::vector<double> gravity_N;    // as the file states it, at the reading
   std::vector<Truth> truth;
 };
 

@@ -26,7 +26,7 @@ std::pair<double, double> interval_pct(int hits, int all) {
   constexpr double z = 1.96;
   const double middle = (p + z * z / (2 * n)) / (1 + z * z / n);
   const double half = z / (1 + z * z / n) * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
-  return {100 * (middle - half), 100 * (middle + half)};
+  return {100 * std::max(0.0, middle - half), 100 * std::min(1.0, middle + half)};
 }
 
 }  // namespace

@@ -24,13 +24,13 @@ enum class Outcome {
   kExtra,    // all named, and something that is not there
   kFalse,    // something that is not there instead
   kRefused,  // the data
-  kFailed    // the program
+  kUnjudged  // not diagnosed
 };
-inline constexpr std::array<const char*, 7> kOutcomes{"right", "partly",  "missed", "extra",
-                                                      "false", "refused", "failed"};
+inline constexpr std::array<const char*, 7> kOutcomes{"right", "partly",  "missed",  "extra",
+                                                      "false", "refused", "unjudged"};
 
 struct Judged {
-  Outcome outcome = Outcome::kFailed;
+  Outcome outcome = Outcome::kUnjudged;
   std::vector<std::string> false_names;
 };
 

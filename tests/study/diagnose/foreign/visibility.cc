@@ -16,7 +16,7 @@ constexpr double kLeastShare = 0.01;    // of the command, of what is held again
 constexpr double kMostlyMoving = 0.9;
 
 bool counts(const Recording& run) {
-  return !run.plan.held_out && (run.plan.motion != "hand" || run.plan.hand_is_logged);
+  return !run.plan.held_out && run.plan.motion != "pushed";
 }
 
 struct Blocks {

@@ -60,7 +60,7 @@ void sines(Way& way, const Machine& m, int count, Dice& dice) {
 void steps(Way& way, const Machine& m, double duration_s, Dice& dice) {
   while (way.duration_s() < duration_s) {
     way.rest(dice.between(0.5, 2));
-    way.jump(std::clamp(way.end_m() + dice.sign() * m.stroke_m * dice.log_between(0.02, 0.2), 0.0,
+    way.jump(std::clamp(way.end_m() + dice.sign() * m.stroke_m * dice.log_between(0.02, 0.12), 0.0,
                         m.stroke_m));
   }
 }
@@ -125,12 +125,12 @@ Wanted Way::at(double t_s) const {
 
 Way draw_way(const std::string& motion, const Machine& machine, double duration_s, Dice& dice) {
   const bool from_the_end = motion == "slow_laps" || motion == "fast_laps" || motion == "one_way" ||
-                            motion == "stairs" || motion == "coast";
+                            motion == "stairs" || motion == "pushed";
   Way way(from_the_end ? 0 : 0.5 * machine.stroke_m);
   way.rest(0.3);
   if (motion == "slow_laps") {
     laps(way, machine, duration_s, 0.03, 0.3, dice);
-  } else if (motion == "fast_laps" || motion == "coast") {
+  } else if (motion == "fast_laps" || motion == "pushed") {
     laps(way, machine, duration_s, 0.4, 1.0, dice);
   } else if (motion == "one_way") {
     one_way(way, machine, duration_s, dice);

@@ -18,22 +18,24 @@ void write(const std::filesystem::path& path, const std::string& text) {
 }
 
 std::string log_of(const DrawnCase& one, const Recording& run) {
+  const bool is_hand = run.plan.motion == "hand";
   const bool has_reference = !run.reference_m.empty();
   std::string text = fmt::format("time_s,position,input{}\n", has_reference ? ",reference" : "");
   for (std::size_t k = 0; k < run.position_m.size(); ++k) {
-    text += fmt::format("{:.6f},{:.9f},{:.7g}", static_cast<double>(k) * one.machine.period_s,
-                        run.position_m[k], run.input_units[k]);
+    text += fmt::format(
+        "{:.6f},{:.9f},{:.7g}", static_cast<double>(k) * one.machine.period_s, run.position_m[k],
+        run.input_units[k] + (is_hand ? run.truth[k].hand_N / one.machine.newton_per_unit : 0));
     text += has_reference ? fmt::format(",{:.9f}\n", run.reference_m[k]) : "\n";
   }
   return text;
 }
 
 std::string truth_of(const Recording& run) {
-  std::string text = "lacking_N,a_m_per_s2,v_m_per_s,dry,moving,known_N\n";
+  std::string text = "lacking_N,a_m_per_s2,v_m_per_s,dry,moving,gravity_N\n";
   for (std::size_t k = 0; k < run.truth.size(); ++k) {
     const Truth& t = run.truth[k];
     text += fmt::format("{:.6g},{:.6g},{:.6g},{:.4f},{:.3f},{:.6g}\n", t.lacking_N, t.a_m_per_s2,
-                        t.v_m_per_s, t.dry, t.moving, run.known_N[k]);
+                        t.v_m_per_s, t.dry, t.moving, run.gravity_N[k]);
   }
   return text;
 }
