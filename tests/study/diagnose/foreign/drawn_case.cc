@@ -10,6 +10,7 @@ namespace {
 constexpr int kMostDraws = 400;
 // What the file's columns can make of it is no shape of its own.
 constexpr double kLeastOff = 0.2;
+constexpr double kLeastOutside = 0.02;  // of the command's rms, of what is to be told
 
 std::vector<const Effect*> fitting(const Wish& wish, const Machine& machine) {
   std::vector<const Effect*> all;
@@ -56,8 +57,16 @@ bool contradicts(const DrawnCase& one) {
   });
 }
 
+// The effect's own force: without torque noise, and with every session as the file says.
 Visibility shown(const DrawnCase& one, const Hidden& alone) {
-  const auto runs = record(one.machine, {alone}, one.plan, one.seed);
+  Machine quiet = one.machine;
+  quiet.torque_noise_N = 0;
+  Plan plain = one.plan;
+  for (Session& session : plain.sessions) {
+    session.offset_N = 0;
+    session.friction = 1;
+  }
+  const auto runs = record(quiet, {alone}, plain, one.seed);
   return visibility(one.machine, runs, find(alone.name)->span);
 }
 
@@ -88,15 +97,15 @@ bool shows(DrawnCase& one, const Wish& wish) {
     }
     const Visibility seen = shown(one, alone);
     const Span span = find(alone.name)->span;
-    const bool outside = wish.kind == "outside";
-    // What is to be told needs ten times the noise and a share of the force.
-    const double least = outside ? 5 * kVisible : kVisible;
-    const bool alike = span == Span::kNone && seen.off < kLeastOff;
-    if (seen.times < least * (wish.scale == Scale::kDetectable ? 0.5 : 1) || alike) {
+    const double share = seen.force_N / seen.command_N;
+    const bool is_shape = span != Span::kNone || seen.off >= kLeastOff;
+    const bool is_large = wish.kind != "outside" || share >= kLeastOutside * wish.strength;
+    const double least = wish.scale == Scale::kPhysical ? kVisible : 0;
+    if (seen.times < least || !is_shape || !is_large) {
       return false;
     }
     one.visible = std::min(one.visible, seen.times);
-    one.share = std::min(one.share, seen.force_N / std::max(seen.command_N, 1e-300));
+    one.share = std::min(one.share, share);
   }
   if (one.hidden.empty()) {
     one.visible = 0;

@@ -143,17 +143,17 @@ double rms_lacking(const std::vector<Recording>& runs) {
 // The balance of forces along the motion is an energy balance at every sample.
 TEST(Recordings, NothingIsLackingWhereNothingIsHidden) {
   for (const std::string& motion : motion_names()) {
-    EXPECT_LT(rms_lacking(record(stage(), {}, plan_of(motion), 1)), 0.02) << motion;
+    EXPECT_LT(rms_lacking(record(stage(), {}, plan_of(motion), 1)), 1e-3) << motion;
   }
   Machine elastic = stage();
   elastic.kind = "elastic_chain";
   elastic.sprocket_radius_m = 0.03;
   elastic.chain_Hz = 11;
-  EXPECT_LT(rms_lacking(record(elastic, {}, plan_of("multisine"), 1)), 0.02);
+  EXPECT_LT(rms_lacking(record(elastic, {}, plan_of("multisine"), 1)), 1e-3);
   Machine joint = stage();
   joint.kind = "joint";
   joint.gravity_N = 6;
-  EXPECT_LT(rms_lacking(record(joint, {}, plan_of("fast_laps"), 1)), 0.02);
+  EXPECT_LT(rms_lacking(record(joint, {}, plan_of("fast_laps"), 1)), 1e-3);
 }
 
 TEST(Recordings, AConstantForceIsLackingInItsSize) {

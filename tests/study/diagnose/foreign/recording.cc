@@ -153,7 +153,6 @@ class Rig {
       noise_N_ = m_.torque_noise_N * noise_.gauss();
       next_noise_s_ = t_s_ + kNoiseHold_s * (1 - 1e-9);
     }
-    const double speed = bodies_.motor().v_m_per_s;
     const double drive_N = drive_.step(h_s, now(bodies_.motor(), h_s, drive_.force_N()));
     const Now motor = now(bodies_.motor(), h_s, drive_N);
     const Now load = now(bodies_.load(), h_s, drive_N);
@@ -167,11 +166,12 @@ class Rig {
       push.motor_N -= bristle_N(grip.motor_N);
       grip.motor_N = 0;
     }
+    const DryBodies before = bodies_;
     const ForcePair dry = bodies_.step(h_s, push, grip);
-    acceleration_ = (bodies_.motor().v_m_per_s - speed) / h_s;
+    acceleration_ = (bodies_.motor().v_m_per_s - before.motor().v_m_per_s) / h_s;
     strain_ = presliding_m_ > 0 ? strained(h_s * bodies_.motor().v_m_per_s) : 0;
     t_s_ += h_s;
-    return stated(dry, on_load);
+    return stated(before, dry, on_load);
   }
 
   // Dahl: the friction force follows the way, not the speed; the step's way is integrated exactly.
@@ -186,29 +186,28 @@ class Rig {
   }
 
   // What the file's law says of the step that was made.
-  [[nodiscard]] Step stated(const ForcePair& dry, double on_load) const {
+  [[nodiscard]] Step stated(const DryBodies& before, const ForcePair& dry, double on_load) const {
     Step out;
     const double creep = 1e-4 * m_.top_speed_m_per_s;
-    const auto friction = [&](const Body& body, double resisted_N, double share) {
+    const auto resist = [&](const Body& from, const Body& to, double resisted_N, double share,
+                            double rate) {
       const double most = share * m_.coulomb_N;
-      const bool moves = std::abs(body.v_m_per_s) > creep;
+      const bool moves = std::abs(to.v_m_per_s) > creep && from.v_m_per_s * to.v_m_per_s > 0;
       out.moving += share * (moves ? 1 : 0);
-      const double taken =
-          moves ? std::copysign(most, body.v_m_per_s) : std::clamp(resisted_N, -most, most);
-      out.dry += taken / m_.coulomb_N;
-      out.nominal_N += taken;
+      const double taken_N =
+          moves ? std::copysign(most, to.v_m_per_s) : std::clamp(resisted_N, -most, most);
+      out.dry += taken_N / m_.coulomb_N;
+      out.nominal_N +=
+          taken_N + share * m_.viscous_N_s_per_m * rate * 0.5 * (from.v_m_per_s + to.v_m_per_s);
     };
     const bool load_is_stated = m_.chain_Hz > 0;
-    const double seen = load_is_stated ? on_load : 0;
-    const double resisted = presliding_m_ > 0 ? coulomb_N_ * strain_ : dry.motor_N;
-    friction(bodies_.motor(), load_is_stated ? resisted : resisted + dry.load_N, 1 - seen);
-    double viscous_N =
-        (1 - seen) * m_.viscous_N_s_per_m * reading_rate() * bodies_.motor().v_m_per_s;
+    const double motor_N = presliding_m_ > 0 ? coulomb_N_ * strain_ : dry.motor_N;
+    resist(before.motor(), bodies_.motor(), load_is_stated ? motor_N : motor_N + dry.load_N,
+           load_is_stated ? 1 - on_load : 1, reading_rate());
     if (load_is_stated) {
-      friction(bodies_.load(), dry.load_N, seen);
-      viscous_N += seen * m_.viscous_N_s_per_m * bodies_.load().v_m_per_s;
+      resist(before.load(), bodies_.load(), dry.load_N, on_load, 1);
     }
-    out.nominal_N += viscous_N + stated_gravity_N(bodies_.motor().x_m);
+    out.nominal_N += stated_gravity_N(before.load().x_m);
     return out;
   }
 

@@ -12,7 +12,8 @@ using Eigen::VectorXd;
 
 constexpr double kDetection = 4.5;      // standard errors: some thousand candidates at 0.001
 constexpr double kLeastOfNoise = 0.14;  // what costs 1 % of the residual: sqrt(1 / 0.99^2 - 1)
-constexpr double kLeastShare = 0.01;    // of the command, of what is held against a parameter
+constexpr double kLeastOfSpan = 0.01;   // of the command, of what is held against a parameter
+constexpr double kLeastShare = 0.003;   // of the command, of anything else
 constexpr double kMostlyMoving = 0.9;
 
 bool counts(const Recording& run) {
@@ -38,7 +39,7 @@ Blocks blocks_of(const std::vector<Recording>& runs, double period_s, double blo
         mean.v_m_per_s += share * run.truth[i].v_m_per_s;
         mean.dry += share * run.truth[i].dry;
         mean.moving += share * run.truth[i].moving;
-        mean.command_N += share * run.truth[i].command_N;
+        mean.command_N += share * (run.truth[i].command_N + run.truth[i].hand_N);
       }
       if (mean.moving > kMostlyMoving) {
         means.push_back(mean);
@@ -115,9 +116,8 @@ Visibility visibility(const Machine& machine, const std::vector<Recording>& runs
     const double noise = noise_N(machine, band_Hz);
     const double rows = static_cast<double>(all.size());
     double detectable = std::max(kDetection * noise / std::sqrt(rows), kLeastOfNoise * noise);
-    if (span != Span::kNone) {
-      detectable = std::max(detectable, kLeastShare * here.command_N);
-    }
+    detectable =
+        std::max(detectable, (span == Span::kNone ? kLeastShare : kLeastOfSpan) * here.command_N);
     here.times = rms(left) / std::max(detectable, 1e-300);
     best = here.times > best.times ? here : best;
   }

@@ -3,7 +3,7 @@
 // The force that the file's law lacks is averaged over blocks of half a period of a band's highest
 // frequency, while the axis moves, in what is fitted. The part that no parameter of the file can
 // make is set against what encoder steps and torque noise leave of such a mean:
-//   times = rms / max(kDetection noise / sqrt(blocks), least gain)
+//   times = rms / max(kDetection noise / sqrt(blocks), least gain, least share of the command)
 // in the best of several bands. An effect that lies in one column of the file's law counts by what
 // the other columns cannot make; one that lies in several, as a whole: both against the file.
 #pragma once
