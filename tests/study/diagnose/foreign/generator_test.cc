@@ -183,6 +183,33 @@ TEST(Recordings, ADeadTimeIsItsOwnLength) {
   EXPECT_EQ(begins(late[0]) - begins(at_once[0]), 6U);
 }
 
+// On the first kind of machine that can have it.
+Machine machine_for(const Effect& effect) {
+  for (const std::string& kind : machine_kinds()) {
+    Dice dice(3);
+    Machine machine = draw_machine(kind, dice);
+    machine.torque_noise_N = 0;
+    if (effect.fits(machine)) return machine;
+  }
+  ADD_FAILURE() << effect.name << " fits no machine";
+  return stage();
+}
+
+TEST(Recordings, EachEffectTakesAForceThatTheFileLacks) {
+  for (const Effect& effect : effects()) {
+    const Machine machine = machine_for(effect);
+    Dice dice(11);
+    const Plan plan = plan_of("fast_laps");
+    const Hidden hidden = draw_hidden(effect.name, 1, dice);
+    const auto with = visibility(machine, record(machine, {hidden}, plan, 1), effect.span);
+    const auto without = visibility(machine, record(machine, {}, plan, 1), effect.span);
+    EXPECT_LT(without.force_N, 2e-3 * without.command_N) << effect.name;
+    // Break-away shows where slow motion sticks, and hardly in laps.
+    const double least = effect.name == "stiction" ? 1 : 4;
+    EXPECT_GT(with.force_N, least * without.force_N) << effect.name;
+  }
+}
+
 TEST(DrawnCases, AreTheSameForTheSameSeed) {
   const Wish wish{.kind = "pair"};
   const DrawnCase one = draw_case(wish, 5);
