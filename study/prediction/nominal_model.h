@@ -44,6 +44,7 @@ struct NominalModel {
   [[nodiscard]] bool elastic() const noexcept { return chain.stiffness_N_per_m > 0; }
   // The log's input is held from its own sample to the next, so it acts half a period late.
   bool input_is_held = true;
+  bool rotary = false;  // a joint: read rad for m and Nm for N
 };
 
 }  // namespace towbench::harness::diagnose

@@ -1,0 +1,274 @@
+#include "study/prediction/axis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace towbench::harness::diagnose {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kLongestStep_s = 5e-4;
+constexpr double kStepsPerMode = 25;  // substeps in a period of the chain's mode
+
+double sign(double x) {
+  return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0;
+}
+
+double wave(double cosine, double sine, double turns) {
+  const double angle = kTurn * turns;
+  return cosine * std::cos(angle) + sine * std::sin(angle);
+}
+
+// sum a_k cos(k w), k = 1..kShapes, by Chebyshev's recursion.
+double shape(const Parameters& p, Key first, double cosine) {
+  double before = 1;
+  double now = cosine;
+  double sum = 0;
+  for (int k = 0; k < kShapes; ++k) {
+    sum += p[next(first, k)] * now;
+    const double after = 2 * cosine * now - before;
+    before = now;
+    now = after;
+  }
+  return sum;
+}
+
+bool any_shape(const Parameters& p) {
+  for (const Key first : {Key::kPlaceFriction1, Key::kPlaceViscous1, Key::kPlaceForce1}) {
+    for (int k = 0; k < kShapes; ++k) {
+      if (p[next(first, k)] != 0) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+Axis::Axis(const Parameters& parameters, const Scene& scene)
+    : p_(parameters),
+      scene_(scene),
+      middle_m_(0.5 * (scene.stroke_min_m + scene.stroke_max_m)),
+      per_stroke_(std::numbers::pi / (scene.stroke_max_m - scene.stroke_min_m)),
+      shapes_(any_shape(parameters)),
+      two_(parameters[Key::kMotorMass] > 0) {
+  double longest = kLongestStep_s;
+  if (two_) {
+    const double load = p_[Key::kMass] - p_[Key::kMotorMass];
+    const double reduced = load * p_[Key::kMotorMass] / p_[Key::kMass];
+    longest = std::min(longest, kTurn * std::sqrt(reduced / p_[Key::kStiffness]) / kStepsPerMode);
+  }
+  substeps_ = std::max(1, static_cast<int>(std::ceil(scene.run->period_s / longest - 1e-9)));
+  if (p_[Key::kWarming] != 0) {
+    warm_end_ = 1 - std::exp(-scene.session_length_s / p_[Key::kWarmingTime]);
+  }
+}
+
+void Axis::place(double position_m, double speed_m_per_s) {
+  const double counted = 1 - p_[Key::kCountLoss];
+  motor_ = {position_m / counted, speed_m_per_s / counted, speed_m_per_s == 0};
+  load_ = motor_;
+  lagged_N_ = scene_.run->input_N[0];
+  direction_ = 0;
+  turned_at_m_ = farthest_m_ = motor_.x;
+}
+
+void Axis::shift(double by_m, double by_m_per_s) {
+  for (Body* body : {&motor_, &load_}) {
+    body->x += by_m;
+    body->v += by_m_per_s;
+  }
+}
+
+double Axis::reading_m() const {
+  const double x = (1 - p_[Key::kCountLoss]) * motor_.x;
+  return p_[Key::kReadPerMetre] == 0 ? x
+                                     : x + wave(p_[Key::kReadCosine], p_[Key::kReadSine],
+                                                p_[Key::kReadPerMetre] * motor_.x);
+}
+
+void Axis::step(Eigen::Index k) {
+  const double h = scene_.run->period_s / substeps_;
+  for (int i = 0; i < substeps_; ++i) {
+    substep(static_cast<double>(k) * scene_.run->period_s + i * h, h, k);
+  }
+}
+
+double Axis::driven_N(double input_N, double h) {
+  double drive = (1 - p_[Key::kGainLoss]) * input_N;
+  if (p_[Key::kDeadband] > 0) {
+    drive = sign(drive) * std::max(0.0, std::abs(drive) - p_[Key::kDeadband]);
+  }
+  if (p_[Key::kClipShare] != 0) {
+    drive -=
+        p_[Key::kClipShare] * sign(drive) * std::max(0.0, std::abs(drive) - p_[Key::kClipLevel]);
+  }
+  if (p_[Key::kStallShare] != 0) {
+    const double along = motor_.v * sign(drive) / scene_.stated->no_load_speed_m_per_s;
+    const double level = p_[Key::kStallLevel] * std::max(0.0, 1 - along);
+    drive -= p_[Key::kStallShare] * sign(drive) * std::max(0.0, std::abs(drive) - level);
+  }
+  if (p_[Key::kLag] > 0) {
+    const double gone = 1 - std::exp(-h / p_[Key::kLag]);
+    const double mean = drive + (lagged_N_ - drive) * gone * p_[Key::kLag] / h;
+    lagged_N_ += (drive - lagged_N_) * gone;
+    drive = mean;
+  }
+  if (p_[Key::kOutOfRoundPerMetre] != 0) {
+    drive *= 1 - wave(p_[Key::kOutOfRoundCosine], p_[Key::kOutOfRoundSine],
+                      p_[Key::kOutOfRoundPerMetre] * motor_.x);
+  }
+  return drive;
+}
+
+double Axis::on_motor_N(double t_s, Eigen::Index k) const {
+  const double x = motor_.x;
+  double force = 0;
+  if (p_[Key::kRipplePerMetre] != 0) {
+    force += wave(p_[Key::kRippleCosine], p_[Key::kRippleSine], p_[Key::kRipplePerMetre] * x);
+  }
+  if (p_[Key::kPeriodicHertz] != 0) {
+    force += wave(p_[Key::kPeriodicCosine], p_[Key::kPeriodicSine], p_[Key::kPeriodicHertz] * t_s);
+  }
+  if (p_[Key::kOtherMass] != 0 || p_[Key::kOtherViscous] != 0) {
+    force += p_[Key::kOtherMass] * scene_.other_m_per_s2[k] +
+             p_[Key::kOtherViscous] * scene_.other_m_per_s[k];
+  }
+  if (scene_.run->known_N.size() > 0) {
+    force += scene_.run->known_N[k];
+  }
+  if (scene_.extra_N.size() > 0) {
+    force += scene_.extra_N[k];
+  }
+  return force;
+}
+
+double Axis::on_load_N(const Body& body) const {
+  const double x = body.x;
+  const double v = body.v;
+  const double speed = std::abs(v);
+  double force = p_[Key::kBias] + p_[Key::kViscousAsymmetry] * speed + p_[Key::kDrag] * v * speed +
+                 p_[Key::kCubic] * v * v * v + p_[Key::kCable] * (x - middle_m_);
+  if (shapes_) {
+    const double cosine = std::cos(per_stroke_ * (x - scene_.stroke_min_m));
+    force += shape(p_, Key::kPlaceForce1, cosine) + v * shape(p_, Key::kPlaceViscous1, cosine);
+  }
+  if (p_[Key::kGravitySine] != 0 || p_[Key::kGravityCosine] != 0) {
+    force += p_[Key::kGravityCosine] * std::cos(x) + p_[Key::kGravitySine] * std::sin(x);
+  }
+  return force;
+}
+
+double Axis::shared_dry_N(const Body& body, double direction, double t_s) const {
+  const double speed = std::abs(body.v);
+  double asymmetry_N = p_[Key::kCoulombAsymmetry] * direction;
+  double level = p_[Key::kCoulomb];
+  if (p_[Key::kStribeck] != 0) {
+    const double s = speed / p_[Key::kStribeckSpeed];
+    const double fade = scene_.stated->stribeck_is_lorentz ? 1 / (1 + s * s) : std::exp(-s * s);
+    level += p_[Key::kStribeck] * fade;
+    asymmetry_N *= 1 - fade;  // break-away is alike in both directions
+  }
+  level += asymmetry_N;
+  if (p_[Key::kRolloff] != 0) {
+    level -= p_[Key::kRolloff] * std::exp(-speed / p_[Key::kRolloffSpeed]);
+  }
+  if (p_[Key::kPresliding] != 0) {
+    const double travel = std::abs(motor_.x - turned_at_m_);
+    level -= p_[Key::kPresliding] * std::exp(-travel / p_[Key::kPreslidingTravel]);
+  }
+  if (p_[Key::kWarming] != 0) {
+    const double t = scene_.session_start_s + t_s;
+    level -= p_[Key::kWarming] * (1 - std::exp(-t / p_[Key::kWarmingTime])) / warm_end_;
+  }
+  if (p_[Key::kBreakaway] != 0 && (body.stands || body.leaves)) {
+    const double s = speed / p_[Key::kBreakawaySpeed];
+    level += p_[Key::kBreakaway] * std::exp(-s * s);
+  }
+  return level * (1 - p_[Key::kWorkWarming] * warmth_);
+}
+
+double Axis::load_dry_N(const Body& body, double drive_N) const {
+  double level = p_[Key::kLoadFriction] * std::abs(drive_N);
+  if (shapes_) {
+    level +=
+        shape(p_, Key::kPlaceFriction1, std::cos(per_stroke_ * (body.x - scene_.stroke_min_m)));
+  }
+  if (!scene_.stated->friction_at_m.empty()) {
+    level += stated_friction_N(*scene_.stated, body.x);
+  }
+  return level;
+}
+
+void Axis::slide(Body& body, double force_N, const Sliding& with, double drive_N, double t_s,
+                 double h) const {
+  const double viscous = with.share * p_[Key::kViscous];
+  const double free = (body.v + h * force_N / with.mass_kg) / (1 + h * viscous / with.mass_kg);
+  const double direction = body.v != 0 && !body.stands ? sign(body.v) : sign(free);
+  const double dry =
+      with.share * shared_dry_N(body, direction, t_s) + (with.load ? load_dry_N(body, drive_N) : 0);
+  const double loss = h * std::max(0.0, dry) / with.mass_kg;
+  const double before = std::abs(body.v);
+  body.stands = std::abs(free) <= loss;
+  body.v = body.stands ? 0.0 : free - sign(free) * loss;
+  body.leaves = std::abs(body.v) >= before;
+}
+
+// Forces act in the middle of the step's way (leapfrog): second order, and no phase of its own.
+void Axis::substep(double t_s, double h, Eigen::Index k) {
+  const double drive = driven_N(scene_.mean_input_N(t_s - p_[Key::kDelay], h), h);
+  motor_.x += 0.5 * h * motor_.v;
+  load_.x += 0.5 * h * load_.v;
+  const double on_motor = drive - on_motor_N(t_s, k);
+  if (!two_) {
+    slide(motor_, on_motor - on_load_N(motor_), {p_[Key::kMass], 1, true}, drive, t_s, h);
+  } else {
+    const double chain = chain_N();
+    const double share = p_[Key::kLoadShare];
+    const double motor_kg = p_[Key::kMotorMass];
+    slide(motor_, on_motor - chain, {motor_kg, 1 - share, false}, drive, t_s, h);
+    slide(load_, chain - on_load_N(load_), {p_[Key::kMass] - motor_kg, share, true}, chain, t_s, h);
+  }
+  motor_.x += 0.5 * h * motor_.v;
+  load_.x += 0.5 * h * load_.v;
+  if (p_[Key::kWorkWarming] != 0) {
+    // What friction dissipates, beside cold Coulomb friction at top speed.
+    const double power =
+        std::abs(motor_.v) / scene_.top_speed_m_per_s * (1 - p_[Key::kWorkWarming] * warmth_);
+    warmth_ += h / p_[Key::kWorkWarmingTime] * (power - warmth_);
+  }
+  if (p_[Key::kPresliding] != 0) {
+    follow_reversals();
+  }
+}
+
+double Axis::chain_N() const {
+  const double half = 0.5 * p_[Key::kPlay];
+  const double stretch = motor_.x - load_.x;
+  const double past = std::abs(stretch) <= half ? 0 : stretch - sign(stretch) * half;
+  if (past == 0 && half > 0) {
+    return 0;
+  }
+  const double chain = p_[Key::kStiffness] * past + p_[Key::kDamping] * (motor_.v - load_.v);
+  return half > 0 && chain * past < 0 ? 0 : chain;  // a flank pushes and never pulls
+}
+
+void Axis::follow_reversals() {
+  const double x = motor_.x;
+  const double least =
+      std::max(1.5 * scene_.run->resolution_m, 1e-6 * (scene_.stroke_max_m - scene_.stroke_min_m));
+  if (direction_ == 0) {
+    if (std::abs(x - turned_at_m_) > least) {
+      direction_ = sign(x - turned_at_m_);
+      farthest_m_ = x;
+    }
+  } else if ((x - farthest_m_) * direction_ >= 0) {
+    farthest_m_ = x;
+  } else if ((farthest_m_ - x) * direction_ > least) {
+    turned_at_m_ = farthest_m_;
+    farthest_m_ = x;
+    direction_ = -direction_;
+  }
+}
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,199 @@
+#include "study/prediction/blocks.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <boost/math/distributions/fisher_f.hpp>
+
+namespace towbench::harness::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Index kFolds = 10;
+constexpr double kMemories = 8;  // time constants of the correction in a block, at least
+constexpr double kShortest_s = 0.2;
+constexpr Index kMostBlocks = 120;
+constexpr double kNothing = 1e-12;  // of a column's square: depends on the others
+
+MatrixXd part(const MatrixXd& gram, const Columns& rows, const Columns& columns) {
+  MatrixXd out(std::ssize(rows), std::ssize(columns));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      out(static_cast<Index>(i), static_cast<Index>(j)) = gram(rows[i], columns[j]);
+    }
+  }
+  return out;
+}
+
+// Columns differ in size by their units.
+VectorXd solve_scaled(MatrixXd gram, const VectorXd& right) {
+  VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  gram = scale.asDiagonal() * gram * scale.asDiagonal();
+  gram.diagonal().array() += kNothing;
+  return scale.asDiagonal() * gram.ldlt().solve(scale.asDiagonal() * right);
+}
+
+MatrixXd inverse_scaled(MatrixXd gram) {
+  VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  gram = scale.asDiagonal() * gram * scale.asDiagonal();
+  gram.diagonal().array() += kNothing;
+  return scale.asDiagonal() * gram.ldlt().solve(MatrixXd::Identity(gram.rows(), gram.cols())) *
+         scale.asDiagonal();
+}
+
+double survival(double f, double k, double rest) {
+  if (!(f > 0) || rest < 1) return 1;
+  return boost::math::cdf(complement(boost::math::fisher_f(k, rest), f));
+}
+
+}  // namespace
+
+double wald(const VectorXd& b, const MatrixXd& covariance, std::size_t blocks) {
+  const auto k = static_cast<double>(b.size());
+  const auto n = static_cast<double>(blocks);
+  const double rest = n - k;
+  return survival(b.dot(solve_scaled(covariance, b)) / k * rest / (n - 1), k, rest);
+}
+
+std::vector<Span> cut(const Data& data, double bandwidth) {
+  double all_s = 0;
+  for (const Scene& scene : data.scenes) {
+    all_s += scene.run->period_s * static_cast<double>(scene.run->size());
+  }
+  const double length_s =
+      std::max({kMemories / bandwidth, kShortest_s, all_s / static_cast<double>(kMostBlocks)});
+  std::vector<Span> spans;
+  for (std::size_t i = 0; i < data.scenes.size(); ++i) {
+    const Run& run = *data.scenes[i].run;
+    const double run_s = run.period_s * static_cast<double>(run.size());
+    const auto pieces = std::max<Index>(1, std::lround(run_s / length_s));
+    for (Index piece = 0; piece < pieces; ++piece) {
+      spans.push_back({data.starts[i] + run.size() * piece / pieces,
+                       data.starts[i] + run.size() * (piece + 1) / pieces});
+    }
+  }
+  return spans;
+}
+
+Blocks::Blocks(const MatrixXd& all, const std::vector<Span>& spans, VectorXd ridge)
+    : sum_(MatrixXd::Zero(all.cols(), all.cols())),
+      ridge_(std::move(ridge)),
+      error_(all.cols() - 1) {
+  if (ridge_.size() == 0) {
+    ridge_ = VectorXd::Zero(error_);
+  }
+  samples_ = static_cast<double>((all.col(error_).array() != 0).count());
+  gram_.reserve(spans.size());
+  for (const Span& span : spans) {
+    const auto rows = all.middleRows(span.from, span.to - span.from);
+    gram_.emplace_back(rows.transpose() * rows);
+    sum_ += gram_.back();
+  }
+}
+
+VectorXd Blocks::solve(const MatrixXd& gram, const Columns& of) const {
+  MatrixXd a = part(gram, of, of);
+  for (std::size_t j = 0; j < of.size(); ++j) {
+    a(static_cast<Index>(j), static_cast<Index>(j)) += ridge_[of[j]];
+  }
+  return solve_scaled(a, part(gram, of, {error_}).col(0));
+}
+
+Fit Blocks::fit(const Columns& of) const {
+  Fit out;
+  out.b = solve(sum_, of);
+  MatrixXd a = part(sum_, of, of);
+  for (std::size_t j = 0; j < of.size(); ++j) {
+    a(static_cast<Index>(j), static_cast<Index>(j)) += ridge_[of[j]];
+  }
+  MatrixXd meat = MatrixXd::Zero(a.rows(), a.cols());
+  for (const MatrixXd& gram : gram_) {
+    const VectorXd score = part(gram, of, {error_}).col(0) - part(gram, of, of) * out.b;
+    meat += score * score.transpose();
+  }
+  const auto n = static_cast<double>(gram_.size());
+  const MatrixXd bread = inverse_scaled(a);
+  out.covariance = n / std::max(1.0, n - 1) * bread * meat * bread;
+  return out;
+}
+
+GroupTest Blocks::test(const Columns& others, const Columns& group) const {
+  Columns all = others;
+  all.insert(all.end(), group.begin(), group.end());
+  const auto k = std::ssize(group);
+  GroupTest out;
+  // What of each column the others cannot make.
+  out.own_share = 1;
+  for (const Index g : group) {
+    const VectorXd by = solve_scaled(part(sum_, others, others), part(sum_, others, {g}).col(0));
+    const double left = sum_(g, g) - by.dot(part(sum_, others, {g}).col(0));
+    out.own_share =
+        std::min(out.own_share, std::sqrt(std::max(0.0, left) / std::max(1e-300, sum_(g, g))));
+  }
+  const Fit fitted = fit(all);
+  const VectorXd b = fitted.b.tail(k);
+  const MatrixXd v = fitted.covariance.bottomRightCorner(k, k);
+  out.p_value = wald(b, v, gram_.size());
+  out.statistic = b.dot(solve_scaled(v, b));
+  // b' (what the group has of its own) b, by Schur's complement.
+  const MatrixXd cross = part(sum_, others, group);
+  VectorXd taken(std::ssize(others));
+  taken = solve_scaled(part(sum_, others, others), cross * b);
+  const double square = b.dot(part(sum_, group, group) * b) - taken.dot(cross * b);
+  out.rms = std::sqrt(std::max(0.0, square) / std::max(1.0, samples_));
+  return out;
+}
+
+VectorXd Blocks::squared(const Columns& of, const VectorXd& b) const {
+  VectorXd out(std::ssize(gram_));
+  for (std::size_t i = 0; i < gram_.size(); ++i) {
+    const MatrixXd& g = gram_[i];
+    out[static_cast<Index>(i)] =
+        std::max(0.0, g(error_, error_) - 2 * b.dot(part(g, of, {error_}).col(0)) +
+                          b.dot(part(g, of, of) * b));
+  }
+  return out;
+}
+
+VectorXd Blocks::predicted(const Columns& of) const {
+  const auto n = std::ssize(gram_);
+  const Index folds = std::min<Index>(kFolds, n);
+  VectorXd out(n);
+  for (Index fold = 0; fold < folds; ++fold) {
+    MatrixXd rest = sum_;
+    for (Index i = fold; i < n; i += folds) {
+      rest -= gram_[static_cast<std::size_t>(i)];
+    }
+    const VectorXd b = solve(rest, of);
+    for (Index i = fold; i < n; i += folds) {
+      const MatrixXd& g = gram_[static_cast<std::size_t>(i)];
+      out[i] = std::max(0.0, g(error_, error_) - 2 * b.dot(part(g, of, {error_}).col(0)) +
+                                 b.dot(part(g, of, of) * b));
+    }
+  }
+  return out;
+}
+
+Comparison compare(const VectorXd& worse, const VectorXd& better, double errors) {
+  const auto n = static_cast<double>(worse.size());
+  const VectorXd d = worse - better;
+  const double mean = d.mean();
+  const double spread = std::sqrt((d.array() - mean).square().sum() / std::max(1.0, n * (n - 1)));
+  const double before = std::max(1e-300, worse.mean());
+  // Per block in rms as well: a few loud blocks hide how many agree.
+  const VectorXd r = worse.cwiseSqrt() - better.cwiseSqrt();
+  const double quiet = r.mean() / std::max(1e-300, std::sqrt((r.array() - r.mean()).square().sum() /
+                                                             std::max(1.0, n * (n - 1))));
+  const auto as_gain = [&](double difference) {
+    return 1 - std::sqrt(std::max(0.0, 1 - difference / before));
+  };
+  return {as_gain(mean), as_gain(mean - errors * spread), as_gain(mean + errors * spread),
+          std::max(mean / std::max(1e-300, spread), quiet)};
+}
+
+}  // namespace towbench::harness::diagnose

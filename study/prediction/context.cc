@@ -1,0 +1,49 @@
+#include "study/prediction/context.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace towbench::harness::diagnose {
+Context make_context(const NominalModel& stated, const Data& data) {
+  Context c;
+  c.stated = stated;
+  double energy = 0;
+  for (const Scene& scene : data.scenes) {
+    const Run& run = *scene.run;
+    energy += run.input_N.squaredNorm();
+    c.input_max_N = std::max(c.input_max_N, run.input_N.cwiseAbs().maxCoeff());
+    c.period_s = std::max(c.period_s, run.period_s);
+    c.duration_s += run.period_s * static_cast<double>(run.size());
+    c.resolution_m = std::max(c.resolution_m, run.resolution_m);
+    c.has_other = c.has_other ||
+                  (scene.other_m_per_s.size() > 0 && scene.other_m_per_s.cwiseAbs().maxCoeff() > 0);
+  }
+  c.input_rms_N = std::sqrt(energy / static_cast<double>(data.samples()));
+  c.top_speed_m_per_s = data.scenes.front().top_speed_m_per_s;
+  c.stroke_min_m = data.scenes.front().stroke_min_m;
+  c.stroke_m = data.scenes.front().stroke_max_m - data.scenes.front().stroke_min_m;
+  return c;
+}
+
+Parameters parameters_of(const NominalModel& stated) {
+  Parameters p;
+  p[Key::kMass] = stated.mass_kg;
+  p[Key::kViscous] = stated.viscous_N_s_per_m;
+  p[Key::kCoulomb] = stated.coulomb_N;
+  p[Key::kBias] = stated.bias_N;
+  if (stated.breakaway_excess_N != 0) {
+    p[Key::kStribeck] = stated.breakaway_excess_N;
+    p[Key::kStribeckSpeed] = std::max(1e-9, stated.stribeck_speed_m_per_s);
+  }
+  if (stated.elastic()) {
+    p[Key::kMotorMass] = stated.chain.motor_kg;
+    p[Key::kStiffness] = stated.chain.stiffness_N_per_m;
+    p[Key::kDamping] = stated.chain.damping_N_s_per_m;
+    p[Key::kPlay] = stated.chain.play_m;
+    p[Key::kLoadShare] = stated.chain.load_share;
+  }
+  return p;
+}
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,33 @@
+// What effects may know of the data and the stated model, to choose where they begin.
+#pragma once
+
+#include <vector>
+
+#include "study/prediction/nominal_model.h"
+#include "study/prediction/predictor.h"
+
+namespace towbench::harness::diagnose {
+
+struct Context {
+  NominalModel stated;
+  double input_rms_N = 0;
+  double input_max_N = 0;
+  double top_speed_m_per_s = 0;  // that 99 % of the samples stay below
+  double stroke_min_m = 0;
+  double stroke_m = 0;
+  double period_s = 0;
+  double duration_s = 0;
+  double resolution_m = 0;
+  // Frequencies at which the innovations repeat (lines.h), along the way and in time.
+  std::vector<double> lines_per_m;
+  std::vector<double> lines_Hz;
+  double searched = 0;     // how many were looked at
+  bool has_other = false;  // another axis is in the log, and moves
+};
+
+[[nodiscard]] Context make_context(const NominalModel& stated, const Data& data);
+
+// The stated model as parameters of the axis.
+[[nodiscard]] Parameters parameters_of(const NominalModel& stated);
+
+}  // namespace towbench::harness::diagnose

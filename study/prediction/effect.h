@@ -1,0 +1,53 @@
+// A cause that a model may lack: keys of the axis that are set. One name each, part of the
+// interface.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "study/prediction/context.h"
+
+namespace towbench::harness::diagnose {
+
+using Scales = std::vector<double>;
+
+struct Effect {
+  std::string name = {};
+  std::string cause = {};  // in words, after "the model lacks"
+  std::string needs = {};  // the data that would show it
+  // Linear in the force: one column each. Empty: the effect as it is set is one column, and its
+  // coefficient is 1 where it is right.
+  std::vector<Key> amplitudes = {};
+  std::vector<std::string> amplitude_names = {};  // with units
+  // Where they begin, and what a fit may move.
+  std::vector<Key> scales = {};
+  std::vector<std::string> scale_names = {};
+  bool positive = false;    // its first amplitude; otherwise the physics allows both signs
+  std::string covers = {};  // an effect that is one of its shapes
+  double least = 0;         // of its first amplitude's size, that is worth a name
+  double most = 0;          // of its first amplitude's size; 0: no limit
+  double own = 0.02;        // least share of its shape that the model must be unable to make
+  bool flexible = false;    // a free shape, that takes on what is not its own
+  double whole = 0;         // the amplitude that its law fixes; 0: none
+  // The base key that the mean of its shape falls into: with the effect found, that parameter is
+  // not comparable with the supplied one. kCount: none.
+  Key shares_mean_with = Key::kCount;
+  std::vector<Scales> (*grid)(const Context&) = nullptr;
+  // Sets scales and whatever else it needs; amplitudes stay.
+  void (*set)(Parameters&, const Context&, std::span<const double>) = nullptr;
+  double (*step)(const Context&) = nullptr;  // of an amplitude, for its derivative
+};
+
+// The families; each in a file of its own.
+void add_friction_effects(std::vector<Effect>& library);
+void add_drive_effects(std::vector<Effect>& library);
+void add_mechanical_effects(std::vector<Effect>& library);
+void add_place_effects(std::vector<Effect>& library);
+void add_periodic_effects(std::vector<Effect>& library);
+
+[[nodiscard]] const std::vector<Effect>& effects();
+[[nodiscard]] const Effect* find_effect(std::string_view name);
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,177 @@
+#include "study/prediction/fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <thread>
+
+namespace towbench::harness::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kRunsDiffer = 0.1;   // of the dry friction, or of the input where there is none
+constexpr double kGoodEnough = 3e-5;  // relative fall of the cost that ends a fit
+constexpr double kLargestFactor = 2;
+constexpr double kFastest_per_sample = 0.25;  // bandwidth times period
+
+double penalty(const std::vector<Freedom>& free, const VectorXd& ridge, Model& model) {
+  double sum = 0;
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    const double v = value_in(model, free[j]);
+    sum += free[j].of == Freedom::Of::kAll ? 0 : ridge[static_cast<Index>(j)] * v * v;
+  }
+  return sum;
+}
+
+Model moved(const Model& from, const std::vector<Freedom>& free, const VectorXd& by, double share) {
+  Model to = from;
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    double& value = value_in(to, free[j]);
+    const double wanted = value + share * by[static_cast<Index>(j)];
+    value = free[j].positive && value > 0
+                ? std::clamp(wanted, value / kLargestFactor, value * kLargestFactor)
+                : wanted;
+  }
+  Parameters& p = to.parameters;
+  p[Key::kCoulomb] = std::max(0.0, p[Key::kCoulomb]);
+  p[Key::kDelay] = std::max(0.0, p[Key::kDelay]);
+  p[Key::kLag] = std::max(0.0, p[Key::kLag]);
+  p[Key::kMotorMass] = std::min(p[Key::kMotorMass], 0.98 * p[Key::kMass]);
+  return to;
+}
+
+}  // namespace
+
+void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next{0};
+  const auto take = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      work(i);
+    }
+  };
+  const std::size_t workers =
+      std::min<std::size_t>(count, std::max(1U, std::thread::hardware_concurrency()));
+  std::vector<std::jthread> others;
+  for (std::size_t w = 1; w < workers; ++w) {
+    others.emplace_back(take);
+  }
+  take();
+}
+
+std::vector<Freedom> base_freedoms(const Context& c, std::size_t runs) {
+  const double force = 0.01 * c.input_rms_N;
+  const double speed = std::max(1e-12, c.top_speed_m_per_s);
+  std::vector<Freedom> free{{.key = Key::kMass, .step = 0.01 * c.stated.mass_kg, .positive = true},
+                            {.key = Key::kViscous, .step = force / speed},
+                            {.key = Key::kCoulomb, .step = force},
+                            {.key = Key::kBias, .step = force}};
+  for (std::size_t run = 0; run < runs && runs > 1; ++run) {
+    free.push_back({.of = Freedom::Of::kBiasOfRun, .run = run, .step = force});
+    free.push_back({.of = Freedom::Of::kCoulombOfRun, .run = run, .step = force});
+  }
+  return free;
+}
+
+double& value_in(Model& model, const Freedom& f) {
+  switch (f.of) {
+    case Freedom::Of::kBiasOfRun:
+      return model.of_run[f.run].bias_N;
+    case Freedom::Of::kCoulombOfRun:
+      return model.of_run[f.run].coulomb_N;
+    case Freedom::Of::kAll:
+      break;
+  }
+  return model.parameters[f.key];
+}
+
+MatrixXd derivatives(const Data& data, const Model& model, const std::vector<Freedom>& free,
+                     const VectorXd& e, double bandwidth) {
+  MatrixXd x = MatrixXd::Zero(data.samples(), std::ssize(free));
+  in_parallel(free.size(), [&](std::size_t j) {
+    const Freedom& f = free[j];
+    Model other = model;
+    value_in(other, f) += f.step;
+    const auto column = static_cast<Index>(j);
+    for (std::size_t run = 0; run < data.scenes.size(); ++run) {
+      if (f.of == Freedom::Of::kAll || f.run == run) {
+        const Index from = data.starts[run];
+        const Index n = data.starts[run + 1] - from;
+        x.col(column).segment(from, n) =
+            (e.segment(from, n) - innovations_of(data, run, other.in_run(run), bandwidth)) / f.step;
+      }
+    }
+  });
+  return x;
+}
+
+VectorXd ridge_of(const std::vector<Freedom>& free, const Context& c, double mean_square) {
+  VectorXd ridge = VectorXd::Zero(std::ssize(free));
+  const double usual = kRunsDiffer * std::max(c.stated.coulomb_N, 0.2 * c.input_rms_N);
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    if (free[j].of != Freedom::Of::kAll) {
+      ridge[static_cast<Index>(j)] = mean_square / (usual * usual);
+    }
+  }
+  return ridge;
+}
+
+Fitted fit_model(const Data& data, const Context& context, Model start,
+                 const std::vector<Freedom>& free, double bandwidth, int rounds) {
+  Fitted best{std::move(start), {}, 0};
+  best.e = innovations(data, best.model, bandwidth);
+  const double mean_square = best.e.squaredNorm() / static_cast<double>(best.e.size());
+  const VectorXd ridge = ridge_of(free, context, mean_square);
+  best.cost = best.e.squaredNorm() + penalty(free, ridge, best.model);
+  double damping = 1e-6;
+  for (int round = 0; round < rounds; ++round) {
+    const MatrixXd x = derivatives(data, best.model, free, best.e, bandwidth);
+    MatrixXd a = x.transpose() * x;
+    VectorXd b = x.transpose() * best.e;
+    for (std::size_t j = 0; j < free.size(); ++j) {
+      const auto i = static_cast<Index>(j);
+      a(i, i) += ridge[i];
+      b[i] -= ridge[i] * (free[j].of == Freedom::Of::kAll ? 0 : value_in(best.model, free[j]));
+    }
+    const VectorXd scale = a.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    const MatrixXd scaled = scale.asDiagonal() * a * scale.asDiagonal();
+    const double before = best.cost;
+    for (int attempt = 0; attempt < 6; ++attempt, damping *= 20) {
+      const MatrixXd damped = scaled + damping * MatrixXd::Identity(scaled.rows(), scaled.cols());
+      const VectorXd by = scale.asDiagonal() * damped.ldlt().solve(scale.asDiagonal() * b);
+      Fitted other{moved(best.model, free, by, 1), {}, 0};
+      other.e = innovations(data, other.model, bandwidth);
+      other.cost = other.e.squaredNorm() + penalty(free, ridge, other.model);
+      if (std::isfinite(other.cost) && other.cost < best.cost) {
+        best = std::move(other);
+        damping = std::max(1e-9, damping / 50);
+        break;
+      }
+    }
+    if (before - best.cost < kGoodEnough * before) {
+      break;
+    }
+  }
+  return best;
+}
+
+double best_bandwidth(const Data& data, const Context& context, const Model& model) {
+  double best = 0;
+  double least = 0;
+  // A slow correction has a long memory, and leaves few blocks.
+  const double slowest = std::max(6.0, 300 / context.duration_s);
+  for (double w = slowest; w < kFastest_per_sample / context.period_s && w < 700; w *= 1.6) {
+    const VectorXd e = innovations(data, model, w);
+    const double cost = e.squaredNorm() / static_cast<double>((e.array() != 0).count() + 1);
+    if (best == 0 || cost < least) {
+      best = w;
+      least = cost;
+    }
+  }
+  return best > 0 ? best : kFastest_per_sample / context.period_s;
+}
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,50 @@
+// The model's parameters at the least squared innovations, by Gauss-Newton with derivatives from
+// one more prediction each.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "study/prediction/blocks.h"
+#include "study/prediction/context.h"
+
+namespace towbench::harness::diagnose {
+
+// What a fit may move: a key, or what one run has of its own.
+struct Freedom {
+  enum class Of { kAll, kBiasOfRun, kCoulombOfRun };
+  Of of = Of::kAll;
+  Key key = Key::kMass;
+  std::size_t run = 0;
+  double step = 0;        // for a derivative
+  bool positive = false;  // stays above zero, and moves at most by a factor of two at once
+};
+
+// Mass, friction and offset, of all runs and of each where there are several.
+[[nodiscard]] std::vector<Freedom> base_freedoms(const Context& context, std::size_t runs);
+
+[[nodiscard]] double& value_in(Model& model, const Freedom& freedom);
+
+// Columns -de/dp, so that e = X (p_true - p) + rest; in `threads` of two processors.
+[[nodiscard]] Eigen::MatrixXd derivatives(const Data& data, const Model& model,
+                                          const std::vector<Freedom>& free,
+                                          const Eigen::VectorXd& e, double bandwidth);
+// One a freedom: what a run has of its own is held near zero by what runs usually differ by.
+[[nodiscard]] Eigen::VectorXd ridge_of(const std::vector<Freedom>& free, const Context& context,
+                                       double mean_square);
+
+struct Fitted {
+  Model model;
+  Eigen::VectorXd e;
+  double cost = 0;  // sum of squares with the penalty
+};
+[[nodiscard]] Fitted fit_model(const Data& data, const Context& context, Model start,
+                               const std::vector<Freedom>& free, double bandwidth, int rounds);
+
+// Of the correction, where the innovations are least; rad/s.
+[[nodiscard]] double best_bandwidth(const Data& data, const Context& context, const Model& model);
+
+// Calls `work` for 0 .. count-1 on the processors there are.
+void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work);
+
+}  // namespace towbench::harness::diagnose

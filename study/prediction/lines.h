@@ -1,0 +1,12 @@
+// Frequencies at which innovations repeat, along the way and in time: starts for effects whose own
+// frequency is not known.
+#pragma once
+
+#include "study/prediction/context.h"
+
+namespace towbench::harness::diagnose {
+
+// Sets lines_per_m, lines_Hz and searched.
+void find_lines(const Data& data, const Eigen::VectorXd& e, Context& context);
+
+}  // namespace towbench::harness::diagnose

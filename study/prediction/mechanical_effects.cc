@@ -1,0 +1,121 @@
+// Masses that are not where the rigid model has them, and the other axis.
+#include <algorithm>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "study/prediction/effect_steps.h"
+
+namespace towbench::harness::diagnose {
+namespace {
+
+constexpr double kFrictionAtLoad = 0.65;  // of all friction, where nothing is stated
+constexpr double kFlank_Hz = 50;          // of a load on its flank: stiff in the band
+constexpr double kFlankDamping = 0.4;
+constexpr double kChainDamping = 0.05;
+
+// A load behind a spring, by its frequency on a held motor and its share of the mass.
+void set_chain(Parameters& p, double mode_Hz, double damping_ratio, double load_share) {
+  const double load = load_share * p[Key::kMass];
+  const double w = 2 * std::numbers::pi * mode_Hz;
+  p[Key::kMotorMass] = p[Key::kMass] - load;
+  p[Key::kStiffness] = load * w * w;
+  p[Key::kDamping] = 2 * damping_ratio * load * w;
+  p[Key::kLoadShare] = kFrictionAtLoad;
+}
+
+void set_elastic(Parameters& p, const Context& /*c*/, std::span<const double> s) {
+  set_chain(p, s[0], kChainDamping, s[1]);
+}
+
+void set_loose(Parameters& p, const Context& /*c*/, std::span<const double> s) {
+  set_chain(p, kFlank_Hz, kFlankDamping, s[1]);
+  p[Key::kPlay] = s[0];
+}
+
+std::vector<Scales> modes(const Context& c) {
+  std::vector<Scales> grid;
+  for (const double mode_Hz : {3.0, 5.0, 8.0, 13.0, 21.0, 34.0}) {
+    for (const double load : {0.5, 0.8}) {
+      if (!c.stated.elastic() && mode_Hz * c.period_s < 0.2) grid.push_back({mode_Hz, load});
+    }
+  }
+  return grid;
+}
+
+std::vector<Scales> plays(const Context& c) {
+  std::vector<Scales> grid;
+  const double least = std::max({0.5 * c.resolution_m, 1e-5 * c.stroke_m, 1e-7});
+  for (double play = least; play < c.stroke_m / 20 && !c.stated.elastic(); play *= 3) {
+    for (const double load : {0.5, 0.8}) grid.push_back({play, load});
+  }
+  return grid;
+}
+
+std::vector<Scales> where_elastic(const Context& c) {
+  return c.stated.elastic() ? std::vector<Scales>{{}} : std::vector<Scales>{};
+}
+std::vector<Scales> where_other(const Context& c) {
+  return c.has_other ? std::vector<Scales>{{}} : std::vector<Scales>{};
+}
+
+double stiffness_step(const Context& c) {
+  return 0.01 * c.stated.chain.stiffness_N_per_m;
+}
+double play_step(const Context& c) {
+  return std::max(0.5 * c.resolution_m, 1e-6);
+}
+
+}  // namespace
+
+void add_mechanical_effects(std::vector<Effect>& library) {
+  const std::string resolved = "accelerations fast enough to excite it, finely resolved";
+  const std::string reversals = "reversals, or a sensor on the load";
+  library.push_back({.name = "chain_elasticity",
+                     .cause = "an elastic chain between motor and load",
+                     .needs = resolved,
+                     .scales = {Key::kStiffness, Key::kDamping, Key::kMotorMass},
+                     .scale_names = {"stiffness_N_per_m", "damping_N_s_per_m", "motor_mass_kg"},
+                     .positive = true,
+                     .whole = 1,
+                     .grid = modes,
+                     .set = set_elastic,
+                     .step = whole_step});
+  library.push_back({.name = "chain_elasticity",
+                     .cause = "a chain stiffer or softer, or damped otherwise, than stated",
+                     .needs = resolved,
+                     .amplitudes = {Key::kStiffness, Key::kDamping},
+                     .amplitude_names = {"stiffness_N_per_m", "damping_N_s_per_m"},
+                     .grid = where_elastic,
+                     .set = set_nothing,
+                     .step = stiffness_step});
+  library.push_back({.name = "backlash",
+                     .cause = "play: after the load lets go of a flank the motor moves without it",
+                     .needs = reversals,
+                     .scales = {Key::kPlay, Key::kMotorMass},
+                     .scale_names = {"play_m", "motor_mass_kg"},
+                     .positive = true,
+                     .whole = 1,
+                     .grid = plays,
+                     .set = set_loose,
+                     .step = whole_step});
+  library.push_back({.name = "backlash",
+                     .cause = "play: after the load lets go of a flank the motor moves without it",
+                     .needs = reversals,
+                     .amplitudes = {Key::kPlay},
+                     .amplitude_names = {"play_m"},
+                     .positive = true,
+                     .grid = where_elastic,
+                     .set = set_nothing,
+                     .step = play_step});
+  library.push_back({.name = "cross_axis_coupling",
+                     .cause = "forces from the other axis's motion",
+                     .needs = "a log that has the other axis, moving",
+                     .amplitudes = {Key::kOtherMass, Key::kOtherViscous},
+                     .amplitude_names = {"mass_kg", "viscous_N_s_per_m"},
+                     .grid = where_other,
+                     .set = set_nothing,
+                     .step = force_step});
+}
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,131 @@
+#include "study/prediction/predictor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "study/prediction/axis.h"
+
+namespace towbench::harness::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+// Time constants of the correction after which its start is forgotten.
+constexpr double kForgotten = 6;
+constexpr double kFarthest = 1e6;  // strokes; a model that runs away is no model
+
+double speed_from(const Run& run, Index k) {
+  const Index reach =
+      std::min<Index>(std::max<Index>(4, std::lround(0.01 / run.period_s)), run.size() - 1 - k);
+  return reach == 0 ? 0
+                    : (run.position_m[k + reach] - run.position_m[k]) /
+                          (static_cast<double>(reach) * run.period_s);
+}
+
+double quantile(std::vector<double>& values, double share) {
+  const auto nth =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+// That 99 % of the samples stay below.
+double top_speed_of(const std::vector<Run>& runs) {
+  std::vector<double> speeds;
+  for (const Run& run : runs) {
+    const auto reach = std::max<Index>(1, std::lround(0.01 / run.period_s));
+    for (Index i = reach; i + reach < run.size(); i += reach) {
+      speeds.push_back(std::abs(run.position_m[i + reach] - run.position_m[i - reach]) /
+                       (2 * static_cast<double>(reach) * run.period_s));
+    }
+  }
+  return speeds.empty() ? 0 : quantile(speeds, 0.99);
+}
+
+}  // namespace
+
+Data make_data(const std::vector<Run>& runs, const NominalModel& stated) {
+  Data data;
+  double low = runs.front().position_m[0];
+  double high = low;
+  double session_s = 0;
+  data.starts.push_back(0);
+  for (const Run& run : runs) {
+    low = std::min(low, run.position_m.minCoeff());
+    high = std::max(high, run.position_m.maxCoeff());
+    data.scenes.emplace_back(run, stated);
+    data.scenes.back().session_start_s = session_s;
+    session_s += run.period_s * static_cast<double>(run.size());
+    data.starts.push_back(data.starts.back() + run.size());
+  }
+  const double top_speed = top_speed_of(runs);
+  for (Scene& scene : data.scenes) {
+    scene.top_speed_m_per_s = top_speed;
+    scene.stroke_min_m = low;
+    scene.stroke_max_m = high;
+    scene.session_length_s = session_s;
+  }
+  return data;
+}
+
+Data make_data_like(const Data& fitted, const std::vector<Run>& runs, const NominalModel& stated) {
+  Data data = make_data(runs, stated);
+  for (Scene& scene : data.scenes) {
+    scene.stroke_min_m = fitted.scenes.front().stroke_min_m;
+    scene.stroke_max_m = fitted.scenes.front().stroke_max_m;
+    scene.session_length_s = fitted.scenes.front().session_length_s;
+    scene.top_speed_m_per_s = fitted.scenes.front().top_speed_m_per_s;
+    scene.session_start_s = 0;
+  }
+  return data;
+}
+
+VectorXd innovations_of(const Data& data, std::size_t which, const Parameters& parameters,
+                        double bandwidth) {
+  const Scene& scene = data.scenes[which];
+  const Run& run = *scene.run;
+  const double r = std::exp(-bandwidth * run.period_s);
+  const double by_place = 1 - r * r;
+  const double by_speed = (1 - r) * (1 - r) / run.period_s;
+  const auto forgotten = static_cast<Index>(std::ceil(kForgotten / (bandwidth * run.period_s)));
+  const double farthest = kFarthest * (scene.stroke_max_m - scene.stroke_min_m);
+  Axis axis(parameters, scene);
+  axis.place(run.position_m[0], speed_from(run, 0));
+  VectorXd e = VectorXd::Zero(run.size());
+  Index silent = forgotten;
+  Index gap = 0;
+  for (Index k = 0; k < run.size(); ++k) {
+    if (!run.missing.empty() && run.missing[static_cast<std::size_t>(k)] != 0) {
+      silent = forgotten;
+      ++gap;
+    } else {
+      // What was driven meanwhile is not known: behind a long gap it begins anew.
+      if (static_cast<double>(gap) * run.period_s * bandwidth > 1) {
+        axis.place(run.position_m[k], speed_from(run, k));
+      }
+      gap = 0;
+      const double off = run.position_m[k] - axis.reading_m();
+      if (!(std::abs(off) < farthest)) {
+        e.setConstant(farthest);
+        return e;
+      }
+      e[k] = silent > 0 ? 0 : off;
+      axis.shift(by_place * off, by_speed * off);
+      --silent;
+    }
+    axis.step(k);
+  }
+  return e;
+}
+
+VectorXd innovations(const Data& data, const Model& model, double bandwidth) {
+  VectorXd e(data.samples());
+  for (std::size_t i = 0; i < data.scenes.size(); ++i) {
+    e.segment(data.starts[i], data.scenes[i].run->size()) =
+        innovations_of(data, i, model.in_run(i), bandwidth);
+  }
+  return e;
+}
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,73 @@
+#include "study/prediction/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace towbench::harness::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+// Over a window that a quantised encoder does not fill with steps alone.
+VectorXd speed_of(const VectorXd& x, double period_s, Index reach) {
+  const Index n = x.size();
+  VectorXd out(n);
+  for (Index i = 0; i < n; ++i) {
+    const Index from = std::max<Index>(i - reach, 0);
+    const Index to = std::min(i + reach, n - 1);
+    out[i] = (x[to] - x[from]) / (static_cast<double>(to - from) * period_s);
+  }
+  return out;
+}
+
+}  // namespace
+
+Scene::Scene(const Run& given, const NominalModel& model)
+    : run(&given), stated(&model), held(model.input_is_held) {
+  const VectorXd& u = run->input_N;
+  impulse_Ns.resize(u.size());
+  double sum = 0;
+  for (Index i = 0; i < u.size(); ++i) {
+    impulse_Ns[i] = sum;
+    const double next = i + 1 < u.size() ? u[i + 1] : u[i];
+    sum += run->period_s * (held ? u[i] : 0.5 * (u[i] + next));
+  }
+  if (run->other_position_m.size() == run->size()) {
+    const auto reach = std::max<Index>(2, std::lround(0.01 / run->period_s));
+    other_m_per_s = speed_of(run->other_position_m, run->period_s, reach);
+    other_m_per_s2 = speed_of(other_m_per_s, run->period_s, reach);
+  }
+}
+
+double Scene::impulse_at(double at_s) const noexcept {
+  const VectorXd& u = run->input_N;
+  const double place = at_s / run->period_s;
+  if (place <= 0) {
+    return u[0] * at_s;
+  }
+  const auto k = std::min(static_cast<Index>(place), u.size() - 1);
+  const double s = at_s - static_cast<double>(k) * run->period_s;
+  const double next = k + 1 < u.size() && !held ? u[k + 1] : u[k];
+  return impulse_Ns[k] + s * (u[k] + 0.5 * s / run->period_s * (next - u[k]));
+}
+
+double stated_friction_N(const NominalModel& stated, double at_m) noexcept {
+  const auto& at = stated.friction_at_m;
+  const auto& force = stated.friction_N;
+  if (at.empty()) {
+    return 0;
+  }
+  const auto after = std::upper_bound(at.begin(), at.end(), at_m);
+  if (after == at.begin()) {
+    return force.front();
+  }
+  if (after == at.end()) {
+    return force.back();
+  }
+  const auto i = static_cast<std::size_t>(after - at.begin());
+  const double share = (at_m - at[i - 1]) / (at[i] - at[i - 1]);
+  return force[i - 1] + share * (force[i] - force[i - 1]);
+}
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,192 @@
+#include "study/prediction/screening.h"
+
+#include <cmath>
+
+#include "study/prediction/lines.h"
+
+namespace towbench::harness::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kWholeLeast = 0.3;  // coefficient of what its law fixes at 1
+constexpr double kWholeMost = 3;
+constexpr double kFarAway = 1.3;  // a mass off by that has been led astray by what is missing
+
+bool is_sought(const Context& c, const Scales& scales) {
+  const auto among = [&](const std::vector<double>& lines) {
+    return !scales.empty() && std::find(lines.begin(), lines.end(), scales[0]) != lines.end();
+  };
+  return among(c.lines_per_m) || among(c.lines_Hz);
+}
+
+// Zero: a shaft's turn is what it is.
+double scale_step(const Context& c, Key key, double value, bool sought) {
+  switch (key) {
+    case Key::kRipplePerMetre:
+    case Key::kReadPerMetre:
+    case Key::kOutOfRoundPerMetre:
+      return sought ? 0.01 / c.stroke_m : 0;
+    case Key::kPeriodicHertz:
+      return 0.01 / c.duration_s;
+    default:
+      return 0.02 * value;
+  }
+}
+
+struct Slot {
+  const Effect* effect;
+  Scales scales;
+  Index from;  // its first column
+  Index count;
+};
+
+std::vector<Slot> slots_of(const Frame& frame, const State& s,
+                           const std::vector<const Effect*>& excluded) {
+  std::vector<Slot> slots;
+  Index column = s.derivatives.cols();
+  for (const Effect& effect : effects()) {
+    if (is_in(frame, s, effect) ||
+        std::find(excluded.begin(), excluded.end(), &effect) != excluded.end())
+      continue;
+    for (const Scales& scales : effect.grid(frame.context)) {
+      const Index count = std::max<Index>(1, std::ssize(effect.amplitudes));
+      slots.push_back({&effect, scales, column, count});
+      column += count;
+    }
+  }
+  return slots;
+}
+
+// The model's own derivatives, each candidate's columns, and the error.
+MatrixXd columns_of(const Frame& frame, const State& s, const std::vector<Slot>& slots) {
+  const Index p = s.derivatives.cols();
+  const Index column = slots.empty() ? p : slots.back().from + slots.back().count;
+  MatrixXd all = MatrixXd::Zero(frame.data->samples(), column + 1);
+  all.leftCols(p) = s.derivatives;
+  all.col(column) = s.fitted.e;
+  in_parallel(slots.size(), [&](std::size_t i) {
+    const Slot& slot = slots[i];
+    Model with = s.fitted.model;
+    slot.effect->set(with.parameters, frame.context, slot.scales);
+    if (slot.effect->amplitudes.empty()) {
+      all.col(slot.from) = s.fitted.e - innovations(*frame.data, with, frame.bandwidth);
+    }
+    for (Index j = 0; j < std::ssize(slot.effect->amplitudes); ++j) {
+      Model one = with;
+      const double step = slot.effect->step(frame.context);
+      one.parameters[slot.effect->amplitudes[static_cast<std::size_t>(j)]] += step;
+      all.col(slot.from + j) = (s.fitted.e - innovations(*frame.data, one, frame.bandwidth)) / step;
+    }
+  });
+  return all;
+}
+
+Candidate judge(const Blocks& blocks, const Slot& slot, Index p, const VectorXd& before) {
+  Candidate c;
+  c.effect = slot.effect;
+  c.scales = slot.scales;
+  const Columns base = up_to(p);
+  Columns group;
+  for (Index j = 0; j < slot.count; ++j) group.push_back(slot.from + j);
+  Columns both = base;
+  both.insert(both.end(), group.begin(), group.end());
+  c.test = blocks.test(base, group);
+  c.b = blocks.fit(both).b.tail(slot.count);
+  const VectorXd after = blocks.predicted(both);
+  c.gain = compare(before, after, 2);
+  c.loss = after.sum();
+  const bool whole = slot.effect->amplitudes.empty() || slot.effect->whole != 0;
+  c.plausible = (!slot.effect->positive || c.b[0] > 0) &&
+                (slot.effect->most == 0 || std::abs(c.b[0]) < slot.effect->most) &&
+                (!whole || (c.b[0] > kWholeLeast && c.b[0] < kWholeMost)) &&
+                c.test.own_share > slot.effect->own && std::isfinite(c.loss);
+  return c;
+}
+
+}  // namespace
+
+bool is_in(const Frame& frame, const State& s, const Effect& effect) {
+  const Parameters& p = s.fitted.model.parameters;
+  const auto used = [&](Key key) { return p[key] != 0; };
+  const bool whole = effect.amplitudes.empty();
+  return std::any_of(
+             effect.amplitudes.begin(), effect.amplitudes.end(),
+             [&](Key key) {
+               return used(key) &&
+                      !(frame.context.stated.elastic() &&
+                        (key == Key::kStiffness || key == Key::kDamping || key == Key::kPlay)) &&
+                      !(key == Key::kStribeck && s.accepted.empty());
+             }) ||
+         (whole && used(Key::kMotorMass)) ||
+         std::any_of(s.accepted.begin(), s.accepted.end(), [&](const Accepted& a) {
+           return a.effect == &effect || a.effect->covers == effect.name ||
+                  (!effect.scales.empty() && !a.effect->scales.empty() &&
+                   a.effect->scales.front() == effect.scales.front());
+         });
+}
+
+Screened screen(Frame& frame, const State& s, const std::vector<const Effect*>& excluded) {
+  find_lines(*frame.data, s.fitted.e, frame.context);
+  const std::vector<Slot> slots = slots_of(frame, s, excluded);
+  const MatrixXd all = columns_of(frame, s, slots);
+  const Index p = s.derivatives.cols();
+  VectorXd ridge = VectorXd::Zero(all.cols() - 1);
+  ridge.head(p) = s.ridge;
+  const Blocks blocks(all, frame.spans, ridge);
+  const VectorXd before = blocks.predicted(up_to(p));
+  Screened out;
+  out.tried = slots.size();
+  for (const Slot& slot : slots) {
+    Candidate c = judge(blocks, slot, p, before);
+    c.sought = is_sought(frame.context, c.scales);
+    c.tried = static_cast<double>(slots.size()) + (c.sought ? frame.context.searched : 0);
+    const auto same = std::find_if(out.best.begin(), out.best.end(), [&](const Candidate& other) {
+      return other.effect == slot.effect;
+    });
+    if (same == out.best.end()) {
+      out.best.push_back(c);
+    } else if (c.plausible > same->plausible ||
+               (c.plausible == same->plausible && c.loss < same->loss)) {
+      *same = c;
+    }
+  }
+  std::sort(out.best.begin(), out.best.end(),
+            [](const Candidate& a, const Candidate& b) { return a.loss < b.loss; });
+  return out;
+}
+
+State with(const Frame& frame, const State& s, const Candidate& c, const Model& start) {
+  Model model = s.fitted.model;
+  Accepted accepted{c.effect, {}, c.sought};
+  c.effect->set(model.parameters, frame.context, c.scales);
+  for (std::size_t j = 0; j < c.effect->amplitudes.size(); ++j) {
+    const Key key = c.effect->amplitudes[j];
+    model.parameters[key] += c.effect->whole != 0 ? c.effect->whole : c.b[static_cast<Index>(j)];
+    if (c.effect->whole == 0) {
+      accepted.free.push_back({.key = key,
+                               .step = c.effect->step(frame.context),
+                               .positive = c.effect->positive && j == 0});
+    }
+  }
+  for (const Key key : c.effect->scales) {
+    const double step = scale_step(frame.context, key, model.parameters[key], c.sought);
+    if (step > 0) accepted.free.push_back({.key = key, .step = step, .positive = true});
+  }
+  std::vector<Accepted> all = s.accepted;
+  all.push_back(accepted);
+  State here = make_state(frame, all, model);
+  const double mass_ratio = model.parameters[Key::kMass] / start.parameters[Key::kMass];
+  if (mass_ratio > kFarAway || mass_ratio < 1 / kFarAway) {
+    for (const Key key : {Key::kMass, Key::kViscous, Key::kCoulomb, Key::kBias}) {
+      model.parameters[key] = start.parameters[key];
+    }
+    State there = make_state(frame, all, model);
+    if (there.fitted.cost < here.fitted.cost) return there;
+  }
+  return here;
+}
+
+}  // namespace towbench::harness::diagnose

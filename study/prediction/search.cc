@@ -1,0 +1,344 @@
+#include "study/prediction/search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "study/prediction/whiteness.h"
+
+namespace towbench::harness::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr int kRounds = 8;
+constexpr int kFirstRounds = 3;
+constexpr double kFresh = 0.3;  // gain at which a clip is believed whatever the screening says
+constexpr std::size_t kShortlist = 3;           // that are fitted, beside the most certain
+constexpr std::size_t kFittedOfAShortlist = 2;  // in another's place
+constexpr double kBeyondDoubt = 1e-12;          // a p-value that needs no count of blocks beside it
+constexpr double kLeastForce = 0.001;           // of the input's rms
+constexpr double kLeastOfStated = 0.03;         // by which what the model states must be off
+constexpr double kStructured = 0.1;             // that innovations predict of themselves
+constexpr double kFreeGain = 0.5;               // least own gain of a free shape or a clip there
+constexpr double kLeastOfStructured = 1.0 / 3;  // least gain of all together there
+constexpr double kPlainGain = 0.05;             // of any other, two standard errors below it
+constexpr double kSwap = 1;   // standard errors by which another cause must be better
+constexpr double kAlias = 2;  // below which two are told apart by nothing
+
+class Searcher {
+ public:
+  Searcher(const Data& data, const Context& context, const Limits& limits)
+      : data_(data), limits_(limits) {
+    frame_.data = &data;
+    frame_.context = context;
+  }
+
+  Search run(const Model& start) {
+    start_ = start;
+    const std::vector<Freedom> free = base_freedoms(frame_.context, data_.scenes.size());
+    Model model = start;
+    for (int round = 0; round < 2; ++round) {
+      set_bandwidth(frame_, model);
+      model = fit_model(data_, frame_.context, model, free, frame_.bandwidth, kRounds).model;
+    }
+    State now = make_state(frame_, {}, model);
+    out_.base = now;
+    if (accept_clip(now)) {
+      set_bandwidth(frame_, now.fitted.model);
+      now = make_state(frame_, now.accepted, now.fitted.model);
+    }
+    do {
+      while (now.accepted.size() < limits_.most_causes && accept_one(now)) {
+        set_bandwidth(frame_, now.fitted.model);
+        now = make_state(frame_, now.accepted, now.fitted.model);
+      }
+      revise(now);
+    } while (drop_the_weak(now));
+    out_.base = make_state(frame_, {}, out_.base.fitted.model);  // at the final bandwidth
+    out_.final = now;
+    out_.context = frame_.context;
+    out_.bandwidth = frame_.bandwidth;
+    out_.spans = frame_.spans;
+    return std::move(out_);
+  }
+
+ private:
+  // Where much is left that no effect explains, free shapes and clips take on what is not theirs:
+  // there they must say a good part of it.
+  bool drop_the_weak(State& now) {
+    const double rms_m = now.fitted.e.norm() / std::sqrt(static_cast<double>(data_.samples()));
+    out_.structured =
+        rms_m > kRounding * frame_.context.resolution_m &&
+        predicted_by_past(data_, now.fitted.e, frame_.spans, frame_.bandwidth) > kStructured;
+    if (drop_second_shape(now)) {
+      return true;
+    }
+    if (!out_.structured) {
+      return false;
+    }
+    const State base = make_state(frame_, {}, out_.base.fitted.model);
+    const bool little =
+        !out_.causes.empty() && compare(base.loss, now.loss, 2).gain < kLeastOfStructured;
+    if (little) {
+      drop(now, weakest());
+      return true;
+    }
+    // Free shapes first: beside them what is real looks weak.
+    for (const bool free : {true, false}) {
+      for (std::size_t i = 0; i < out_.causes.size(); ++i) {
+        const Cause& cause = out_.causes[i];
+        const bool shape = is_free(cause) || cause.effect->whole != 0;
+        if (shape == free && (free ? cause.gain.gain < kFreeGain : cause.gain.low < kPlainGain)) {
+          drop(now, i);
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  std::size_t weakest() const {
+    const auto least = std::min_element(
+        out_.causes.begin(), out_.causes.end(),
+        [](const Cause& one, const Cause& other) { return one.gain.gain < other.gain.gain; });
+    return static_cast<std::size_t>(least - out_.causes.begin());
+  }
+
+  static bool is_free(const Cause& cause) { return cause.effect->flexible || cause.sought; }
+
+  void drop(State& now, std::size_t i) {
+    excluded_.push_back(out_.causes[i].effect);
+    now = without(frame_, now, i);
+    out_.causes.clear();
+  }
+
+  // Two free shapes at once fit almost anything: the one that says less goes.
+  bool drop_second_shape(State& now) {
+    std::size_t count = 0;
+    std::size_t least = 0;
+    for (std::size_t i = 0; i < out_.causes.size(); ++i) {
+      if (is_free(out_.causes[i])) {
+        least = count == 0 || out_.causes[i].gain.gain < out_.causes[least].gain.gain ? i : least;
+        ++count;
+      }
+    }
+    if (count > 1) drop(now, least);
+    return count > 1;
+  }
+
+  std::vector<Candidate> screened(const State& s) {
+    Screened found = screen(frame_, s, excluded_);
+    out_.tried = found.tried;
+    return std::move(found.best);
+  }
+
+  // What an effect makes, in newtons: less is nothing, however certain. What only reads otherwise
+  // is no force.
+  bool matters(const Effect& effect, double rms_m) const {
+    const double to_force = start_.parameters[Key::kMass] * frame_.bandwidth * frame_.bandwidth;
+    const bool reads = !effect.scales.empty() && effect.scales.front() == Key::kReadPerMetre;
+    return reads || to_force * rms_m > kLeastForce * frame_.context.input_rms_N;
+  }
+
+  bool convinces(const Candidate& c) const {
+    return c.plausible && matters(*c.effect, c.test.rms) && stands(c.gain, c.p_value());
+  }
+
+  // Where an encoder's steps make most of the innovations, a force gains little of them.
+  bool stands(const Comparison& gain, double p_value) const {
+    return p_value < kBeyondDoubt ? gain.gain > 0
+                                  : p_value < limits_.alpha && gain.gain > limits_.least_gain &&
+                                        gain.standard_errors > limits_.least_errors;
+  }
+
+  // A clip leads the fit so far astray that its derivatives there say nothing: each level is fitted
+  // from the start.
+  bool accept_clip(State& now) {
+    State best;
+    for (const Effect& effect : effects()) {
+      if (effect.whole == 0 || effect.amplitudes.empty() || is_in(frame_, now, effect)) continue;
+      Candidate chosen;
+      chosen.effect = &effect;
+      double least = 0;
+      for (const Scales& scales : effect.grid(frame_.context)) {
+        Model model = start_;
+        effect.set(model.parameters, frame_.context, scales);
+        model.parameters[effect.amplitudes.front()] = effect.whole;
+        const double cost = fit_model(data_, frame_.context, model,
+                                      base_freedoms(frame_.context, data_.scenes.size()),
+                                      frame_.bandwidth, kFirstRounds)
+                                .cost;
+        if (chosen.scales.empty() || cost < least) {
+          least = cost;
+          chosen.scales = scales;
+        }
+      }
+      if (chosen.scales.empty()) continue;
+      State other = with(frame_, now, chosen, start_);
+      const Comparison gain = compare(now.loss, other.loss, 2);
+      if (gain.gain > kFresh && gain.standard_errors > limits_.least_errors &&
+          (best.accepted.empty() || other.loss.sum() < best.loss.sum())) {
+        best = std::move(other);
+      }
+    }
+    if (best.accepted.empty()) return false;
+    now = std::move(best);
+    return true;
+  }
+
+  // Within what its law allows, and where the model states it, off by more than is worth a name.
+  static bool is_worth_naming(const Frame& frame, const State& s) {
+    const Parameters& p = s.fitted.model.parameters;
+    const Parameters stated = parameters_of(frame.context.stated);
+    return std::all_of(s.accepted.begin(), s.accepted.end(), [&](const Accepted& a) {
+      const auto& keys = a.effect->amplitudes;
+      const double first = keys.empty() ? 0 : std::abs(p[keys.front()]);
+      return (keys.empty() || first >= a.effect->least) &&
+             (a.effect->most == 0 || first < a.effect->most) &&
+             (keys.empty() || std::any_of(keys.begin(), keys.end(), [&](Key key) {
+                return std::abs(p[key] - stated[key]) > kLeastOfStated * std::abs(stated[key]);
+              }));
+    });
+  }
+
+  // The best of the shortlist once each of it is fitted; null where none of it stands. Of two that
+  // predict alike, the more certain.
+  const Candidate* best_fitted(const State& s, const std::vector<Candidate>& list, State& best) {
+    const Candidate* chosen = nullptr;
+    for (const Candidate* c : shortlist(list)) {
+      State other = with(frame_, s, *c, start_);
+      const Comparison gain = compare(s.loss, other.loss, 2);
+      if (!stands(gain, c->p_value()) || !is_worth_naming(frame_, other)) continue;
+      const auto beyond_doubt = [](const Candidate* one) { return one->p_value() < kBeyondDoubt; };
+      const bool first = chosen == nullptr;
+      const double ahead = first ? 0 : compare(best.loss, other.loss, 2).standard_errors;
+      const bool alike =
+          !first && (std::abs(ahead) < kAlias || beyond_doubt(c) != beyond_doubt(chosen));
+      if (first || (alike ? c->p_value() < chosen->p_value() : ahead > 0)) {
+        best = std::move(other);
+        chosen = c;
+      }
+    }
+    return chosen;
+  }
+
+  // By the linear prediction, and by certainty.
+  std::vector<const Candidate*> shortlist(const std::vector<Candidate>& list) const {
+    std::vector<const Candidate*> out;
+    const Candidate* surest = nullptr;
+    for (const Candidate& c : list) {
+      if (!convinces(c)) continue;
+      if (out.size() < kShortlist) out.push_back(&c);
+      if (surest == nullptr || c.p_value() < surest->p_value()) surest = &c;
+    }
+    if (surest != nullptr && std::find(out.begin(), out.end(), surest) == out.end()) {
+      out.push_back(surest);
+    }
+    return out;
+  }
+
+  bool accept_one(State& now) {
+    std::vector<Candidate> list = screened(now);
+    State best;
+    const Candidate* chosen = best_fitted(now, list, best);
+    out_.refused = list;
+    if (chosen == nullptr) return false;
+    now = std::move(best);
+    drop_the_covered(now);
+    return true;
+  }
+
+  // What is one of the shapes of the last accepted.
+  void drop_the_covered(State& now) const {
+    const std::string& covered = now.accepted.back().effect->covers;
+    for (std::size_t i = 0; i + 1 < now.accepted.size(); ++i) {
+      if (now.accepted[i].effect->name == covered) {
+        now = without(frame_, now, i);
+        return;
+      }
+    }
+  }
+
+  // Of a cause in the model that has it: Wald's test of its amplitudes.
+  double own_p_value(const State& s, std::size_t which, const Comparison& own) const {
+    const Effect& effect = *s.accepted[which].effect;
+    if (effect.whole != 0) {
+      return own.gain > kFresh && own.standard_errors > limits_.least_errors ? 0 : 1;
+    }
+    Index at = std::ssize(base_freedoms(frame_.context, data_.scenes.size()));
+    for (std::size_t i = 0; i < which; ++i) at += std::ssize(s.accepted[i].free);
+    const Index k = std::ssize(effect.amplitudes);
+    VectorXd b(k);
+    for (Index j = 0; j < k; ++j) {
+      b[j] = s.fitted.model.parameters[effect.amplitudes[static_cast<std::size_t>(j)]];
+    }
+    return std::min(1.0, wald(b, s.linear.covariance.block(at, at, k, k), frame_.spans.size()) *
+                             static_cast<double>(out_.tried));
+  }
+
+  // Each accepted cause against none and against every other in its place.
+  void revise(State& now) {
+    for (std::size_t i = 0; i < now.accepted.size();) {
+      const Effect* effect = now.accepted[i].effect;
+      const State rest = without(frame_, now, i);
+      const Comparison own = compare(rest.loss, now.loss, 2);
+      const std::vector<Candidate> list = screened(rest);
+      const auto itself = std::find_if(list.begin(), list.end(),
+                                       [&](const Candidate& c) { return c.effect == effect; });
+      const double p_value =
+          std::min(itself == list.end() ? 1 : itself->p_value(), own_p_value(now, i, own));
+      const double made_m = std::sqrt(std::max(0.0, rest.loss.sum() - now.loss.sum()) /
+                                      static_cast<double>(data_.samples()));
+      if (!stands(own, p_value) || !matters(*effect, made_m)) {
+        now = rest;
+        out_.causes.clear();
+        i = 0;
+        continue;
+      }
+      Cause cause{effect, now.accepted[i].sought, p_value, own, {}};
+      std::size_t fitted = 0;
+      bool swapped = false;
+      for (const Candidate& c : list) {
+        if (c.effect != effect && convinces(c) && fitted < kFittedOfAShortlist) {
+          ++fitted;
+          State other = with(frame_, rest, c, start_);
+          if (!is_worth_naming(frame_, other)) continue;
+          const Comparison better = compare(now.loss, other.loss, 2);
+          if (better.standard_errors > kSwap && other.loss.sum() < 0.98 * now.loss.sum()) {
+            now = std::move(other);
+            swapped = true;
+            break;
+          }
+          if (better.standard_errors > -kAlias && c.effect->name != effect->name) {
+            other.derivatives.resize(0, 0);  // large, and of no further use
+            cause.alternatives.push_back({c.effect, std::move(other)});
+          }
+        }
+      }
+      if (swapped) {
+        out_.causes.clear();
+        i = 0;
+        continue;
+      }
+      out_.causes.push_back(cause);
+      ++i;
+    }
+  }
+
+  const Data& data_;
+  Frame frame_;
+  Limits limits_;
+  Model start_;
+  std::vector<const Effect*> excluded_;  // tried, and too weak beside what is left
+  Search out_;
+};
+
+}  // namespace
+
+Search search_causes(const Data& data, const Context& context, const Model& start,
+                     const Limits& limits) {
+  return Searcher(data, context, limits).run(start);
+}
+
+}  // namespace towbench::harness::diagnose

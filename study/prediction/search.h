@@ -1,0 +1,47 @@
+// Which effects a model lacks: screened by score tests, fitted by prediction, chosen by
+// cross-validation over blocks of time.
+#pragma once
+
+#include <vector>
+
+#include "study/prediction/screening.h"
+
+namespace towbench::harness::diagnose {
+
+// What predicts as well in a cause's place, fitted.
+struct Alternative {
+  const Effect* effect = nullptr;
+  State state;
+};
+
+struct Cause {
+  const Effect* effect = nullptr;
+  bool sought = false;
+  double p_value = 1;  // corrected for the number tried
+  Comparison gain;     // its own, over the best model without it
+  std::vector<Alternative> alternatives;
+};
+
+struct Search {
+  Context context;
+  double bandwidth = 0;
+  std::vector<Span> spans;
+  State base;
+  State final;
+  std::vector<Cause> causes;
+  std::vector<Candidate> refused;  // of the last round, best first
+  std::size_t tried = 0;
+  bool structured = false;  // much is left that no effect explains
+};
+
+struct Limits {
+  double alpha = 1e-3;        // over all that is tried
+  double least_gain = 0.01;   // of the prediction error
+  double least_errors = 2.5;  // standard errors of the gain above zero
+  std::size_t most_causes = 6;
+};
+
+[[nodiscard]] Search search_causes(const Data& data, const Context& context, const Model& start,
+                                   const Limits& limits);
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,61 @@
+#include "study/prediction/state.h"
+
+#include <utility>
+
+namespace towbench::harness::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr int kStateRounds = 8;
+
+}  // namespace
+
+Columns up_to(Index n) {
+  Columns c;
+  for (Index i = 0; i < n; ++i) c.push_back(i);
+  return c;
+}
+
+void set_bandwidth(Frame& frame, const Model& model) {
+  frame.bandwidth = best_bandwidth(*frame.data, frame.context, model);
+  frame.spans = cut(*frame.data, frame.bandwidth);
+}
+
+State make_state(const Frame& frame, std::vector<Accepted> accepted, const Model& from) {
+  State s;
+  s.free = base_freedoms(frame.context, frame.data->scenes.size());
+  for (const Accepted& a : accepted) {
+    s.free.insert(s.free.end(), a.free.begin(), a.free.end());
+  }
+  s.accepted = std::move(accepted);
+  s.fitted = fit_model(*frame.data, frame.context, from, s.free, frame.bandwidth, kStateRounds);
+  s.derivatives = derivatives(*frame.data, s.fitted.model, s.free, s.fitted.e, frame.bandwidth);
+  s.ridge = ridge_of(s.free, frame.context,
+                     s.fitted.e.squaredNorm() / static_cast<double>(s.fitted.e.size()));
+  MatrixXd all(frame.data->samples(), s.derivatives.cols() + 1);
+  all << s.derivatives, s.fitted.e;
+  const Blocks blocks(all, frame.spans, s.ridge);
+  s.loss = blocks.predicted(up_to(s.derivatives.cols()));
+  s.linear = blocks.fit(up_to(s.derivatives.cols()));
+  return s;
+}
+
+State without(const Frame& frame, const State& s, std::size_t i) {
+  Model model = s.fitted.model;
+  const Effect& effect = *s.accepted[i].effect;
+  const Parameters stated = parameters_of(frame.context.stated);
+  for (const Key key : effect.amplitudes) model.parameters[key] = stated[key];
+  for (const Key key : effect.scales) model.parameters[key] = stated[key];
+  if (effect.amplitudes.empty()) {
+    for (const Key key : {Key::kMotorMass, Key::kStiffness, Key::kDamping, Key::kPlay}) {
+      model.parameters[key] = stated[key];
+    }
+  }
+  std::vector<Accepted> rest = s.accepted;
+  rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+  return make_state(frame, rest, model);
+}
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,47 @@
+// A model with some effects, fitted, and what it predicts badly, block by block.
+#pragma once
+
+#include <vector>
+
+#include "study/prediction/effect.h"
+#include "study/prediction/fit.h"
+
+namespace towbench::harness::diagnose {
+
+// What a search looks at, and how: the same for all models that are compared.
+struct Frame {
+  const Data* data = nullptr;
+  Context context;
+  double bandwidth = 0;
+  std::vector<Span> spans;
+};
+
+void set_bandwidth(Frame& frame, const Model& model);
+
+// An effect with its scales, as a model holds it.
+struct Accepted {
+  const Effect* effect = nullptr;
+  std::vector<Freedom> free;
+  bool sought = false;  // at a frequency that was found in the innovations
+};
+
+struct State {
+  std::vector<Accepted> accepted;
+  std::vector<Freedom> free;  // base first
+  Fitted fitted;
+  Eigen::MatrixXd derivatives;
+  Eigen::VectorXd ridge;
+  Eigen::VectorXd loss;  // cross-validated
+  Fit linear;            // around it: what a further step would be, and the covariance
+};
+
+// Fitted from `from`.
+[[nodiscard]] State make_state(const Frame& frame, std::vector<Accepted> accepted,
+                               const Model& from);
+// The best model without the i-th of the accepted.
+[[nodiscard]] State without(const Frame& frame, const State& state, std::size_t i);
+
+// 0 .. n - 1
+[[nodiscard]] Columns up_to(Eigen::Index n);
+
+}  // namespace towbench::harness::diagnose

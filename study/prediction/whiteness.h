@@ -1,0 +1,18 @@
+// Do innovations predict themselves? Of a right model they do not.
+#pragma once
+
+#include "study/prediction/blocks.h"
+
+namespace towbench::harness::diagnose {
+
+inline constexpr int kLags = 5;
+// Encoder steps rms that rounding alone leaves, with a reserve over 1 / sqrt(12).
+inline constexpr double kRounding = 0.35;
+
+// The innovations lagged by 1 to kLags halves of what the correction remembers.
+[[nodiscard]] Eigen::MatrixXd lagged(const Data& data, const Eigen::VectorXd& e, double bandwidth);
+// Cross-validated: 1 - rms with the past / rms without.
+[[nodiscard]] double predicted_by_past(const Data& data, const Eigen::VectorXd& e,
+                                       const std::vector<Span>& spans, double bandwidth);
+
+}  // namespace towbench::harness::diagnose

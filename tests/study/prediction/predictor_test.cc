@@ -1,0 +1,86 @@
+// Innovations: nothing of a right model but the encoder, and what a wrong one lacks.
+#include "study/prediction/predictor.h"
+
+#include <gtest/gtest.h>
+
+#include "study/prediction/fit.h"
+#include "tests/study/prediction/simulated_run.h"
+
+namespace towbench::tests {
+namespace {
+
+using namespace harness::diagnose;
+using Eigen::VectorXd;
+
+constexpr double kBandwidth = 30;  // rad/s
+
+VectorXd innovations_of_run(const Run& run, const Parameters& believed) {
+  const std::vector<harness::diagnose::Run> runs{run};
+  const NominalModel stated = simple_model();
+  return innovations(make_data(runs, stated), {believed, std::vector<OfRun>(1)}, kBandwidth);
+}
+
+double root_mean_square(const VectorXd& x) {
+  return x.norm() / std::sqrt(static_cast<double>(x.size()));
+}
+
+TEST(Innovations, OfAnExactModelAreNothing) {
+  const Parameters truth = parameters_of(simple_model());
+  EXPECT_LT(innovations_of_run(simulated_run(truth, 10, 0), truth).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+// Rounding alone leaves 0.29 steps.
+TEST(Innovations, OfAnExactModelStayBelowHalfAnEncoderStep) {
+  constexpr double kStep_m = 2e-6;
+  const Parameters truth = parameters_of(simple_model());
+  const VectorXd e = innovations_of_run(simulated_run(truth, 10, kStep_m), truth);
+  EXPECT_LT(root_mean_square(e), 0.35 * kStep_m);
+  EXPECT_GT(root_mean_square(e), 0.2 * kStep_m);
+}
+
+TEST(Innovations, ShowAMissingForceInNewtons) {
+  constexpr double kForce_N = 0.7;
+  NominalModel frictionless = simple_model();
+  frictionless.coulomb_N = 0;
+  Parameters truth = parameters_of(frictionless);
+  const Parameters believed = truth;
+  truth[Key::kBias] = kForce_N;  // the drive must make it besides
+  const VectorXd e = innovations_of_run(simulated_run(truth, 3, 0, 1e-4), believed);
+  // What the correction of the speed adds to the drag.
+  const double drag = 2 * kBandwidth * truth[Key::kViscous];
+  const double scale = truth[Key::kMass] * kBandwidth * kBandwidth + drag;
+  EXPECT_NEAR(scale * e.tail(20'000).maxCoeff(), -kForce_N, 0.02 * kForce_N);
+  EXPECT_NEAR(scale * e.tail(20'000).minCoeff(), -kForce_N, 0.02 * kForce_N);
+}
+
+TEST(Innovations, SayNothingBehindAGap) {
+  const Parameters truth = parameters_of(simple_model());
+  harness::diagnose::Run run = simulated_run(truth, 3, 0);
+  run.missing[1500] = 1;
+  run.position_m[1500] += 1;
+  const VectorXd e = innovations_of_run(run, truth);
+  EXPECT_LT(e.cwiseAbs().maxCoeff(), 1e-12) << "what is missing corrects nothing";
+}
+
+// The mean square falls to the encoder's alone where the parameters are right.
+TEST(FitModel, FindsTheParametersThatMadeTheRun) {
+  constexpr double kStep_m = 2e-6;
+  Parameters truth = parameters_of(simple_model());
+  truth[Key::kMass] *= 1.1;
+  truth[Key::kViscous] *= 0.8;
+  truth[Key::kCoulomb] *= 1.2;
+  truth[Key::kBias] = 0.3;
+  const std::vector<harness::diagnose::Run> runs{simulated_run(truth, 20, kStep_m)};
+  const NominalModel stated = simple_model();
+  const Data data = make_data(runs, stated);
+  const Context context = make_context(stated, data);
+  const Fitted fitted = fit_model(data, context, {parameters_of(stated), std::vector<OfRun>(1)},
+                                  base_freedoms(context, 1), kBandwidth, 20);
+  for (const Key key : {Key::kMass, Key::kViscous, Key::kCoulomb, Key::kBias}) {
+    EXPECT_NEAR(fitted.model.parameters[key], truth[key], 2e-3 * std::abs(truth[key]));
+  }
+  EXPECT_LT(root_mean_square(fitted.e), 0.35 * kStep_m);
+}
+
+}  // namespace
+}  // namespace towbench::tests
