@@ -67,14 +67,15 @@ function scaled(value: number, unitSi: string): [number, DisplayUnit] {
   return [value * unit.perSi, unit];
 }
 
-// What a budget judges first, by its meaning; the others behind a fold.
+// What a budget judges first, by its meaning; the others behind a fold, open where none is judged.
 function metricTables(names: string[], lists: Metric[][], checks: Check[]): HTMLElement[] {
   const isJudged = (one: Metric) => checks.some((check) => check.name === one.name && (check.window || "whole") === one.window);
   const judged = lists.map((list) => list.filter(isJudged));
   const others = lists.map((list) => list.filter((one) => !isJudged(one)));
   const rest = element("details");
   rest.append(element("summary", "", `All other metrics (${others[0]!.length})`), metricTable(names, others));
-  return judged[0]!.length === 0 ? [rest] : [metricTable(names, judged), rest];
+  rest.open = judged[0]!.length === 0;
+  return rest.open ? [rest] : [metricTable(names, judged), rest];
 }
 
 function metricTable(names: string[], lists: Metric[][]): HTMLElement {
