@@ -8,29 +8,29 @@
 namespace towbench::harness::active {
 namespace {
 
-using diagnose::Cause;
 using diagnose::Diagnosis;
+using diagnose::NamedCause;
 using diagnose::ParameterShift;
 using Means = Question::Means;
 
-Question about(const Cause& cause, const std::optional<diagnose::NextExperiment>& next) {
-  Question q{.causes = {cause.term.effect->name}};
+Question about(const NamedCause& cause) {
+  Question q{.causes = {cause.effect->name}};
   for (const auto& alternative : cause.alternatives) {
-    q.causes.push_back(alternative.term.effect->name);
+    q.causes.push_back(alternative);
   }
-  if (next) {
+  if (cause.separating) {
     q.means = Means::kMotion;
-    q.motion = next->motion;
+    q.motion = cause.separating->motion;
   } else {
     q.why = fmt::format("no motion of the menu separates them half as well again as this data; {}",
-                        cause.term.effect->needs);
+                        cause.effect->needs);
   }
   return q;
 }
 
-const Cause* gain_cause(const Diagnosis& d) {
-  for (const Cause& cause : d.selection.causes) {
-    if (cause.term.effect->name == kAmplifierGain) {
+const NamedCause* gain_cause(const Diagnosis& d) {
+  for (const NamedCause& cause : d.causes) {
+    if (cause.effect->name == kAmplifierGain) {
       return &cause;
     }
   }
@@ -47,10 +47,9 @@ diagnose::TrialMotion weighing_motion(const diagnose::Context& c) {
   constexpr double kFrequency_Hz = 0.25;
   constexpr double kTurn = 6.283185307179586;
   const double w = kTurn * kFrequency_Hz;
-  const double amplitude =
-      std::min(0.4 * (c.stroke_max_m - c.stroke_min_m), 0.6 * c.top_speed_m_per_s / w);
+  const double amplitude = std::min(0.4 * c.stroke_m, 0.6 * c.top_speed_m_per_s / w);
   return {.kind = diagnose::TrialMotion::Kind::kSine,
-          .centre_m = 0.5 * (c.stroke_min_m + c.stroke_max_m),
+          .centre_m = c.stroke_min_m + 0.5 * c.stroke_m,
           .amplitude_m = amplitude,
           .speed_m_per_s = amplitude * w,
           .acceleration_m_per_s2 = amplitude * w * w,
@@ -59,19 +58,20 @@ diagnose::TrialMotion weighing_motion(const diagnose::Context& c) {
 
 // Of the order of dry friction: a controller that had to command much more at the turning points
 // would take its encoder for frozen.
-double push_of(const diagnose::Context& c) {
+double push_of(const Diagnosis& d) {
   constexpr double kOfFriction = 1.5;
-  return kOfFriction * std::abs(c.theta[diagnose::kCoulomb]);
+  return kOfFriction * d.extended[diagnose::Key::kCoulomb];
 }
 
 Question about_gain(const Diagnosis& d) {
-  const Cause* cause = gain_cause(d);
-  const ParameterShift& mass = d.parameters[diagnose::kMass];
+  const NamedCause* cause = gain_cause(d);
+  const ParameterShift& mass = d.parameters[diagnose::kInertia];
   return {.causes = {kAmplifierGain, kAllByOneRatio},
           .means = Means::kKnownForce,
           .motion = weighing_motion(d.context),
-          .push_N = push_of(d.context),
-          .ratio = cause != nullptr ? 1 + cause->beta[0] : mass.fitted.value / mass.supplied};
+          .push_N = push_of(d),
+          .ratio = cause != nullptr ? 1 / (1 - cause->sizes.front().ci95.value)
+                                    : mass.fitted.value / mass.supplied};
 }
 
 // Classes that the algebra makes, whatever the motion.
@@ -101,9 +101,9 @@ std::vector<Question> open_questions(const Diagnosis& d) {
   if (gain_is_named(d)) {
     out.push_back(about_gain(d));
   }
-  for (std::size_t i = 0; i < d.selection.causes.size(); ++i) {
-    if (!d.selection.causes[i].alternatives.empty()) {
-      out.push_back(about(d.selection.causes[i], d.separating[i]));
+  for (const NamedCause& cause : d.causes) {
+    if (!cause.alternatives.empty()) {
+      out.push_back(about(cause));
     }
   }
   for (const ParameterShift& shift : d.parameters) {
@@ -123,10 +123,10 @@ std::string joined(const std::vector<std::string>& names, const char* between) {
 
 std::string names_of(const Diagnosis& d) {
   std::vector<std::string> all;
-  for (const Cause& cause : d.selection.causes) {
-    std::vector<std::string> names{cause.term.effect->name};
+  for (const NamedCause& cause : d.causes) {
+    std::vector<std::string> names{cause.effect->name};
     for (const auto& alternative : cause.alternatives) {
-      names.push_back(alternative.term.effect->name);
+      names.push_back(alternative);
     }
     all.push_back(joined(names, " or "));
   }

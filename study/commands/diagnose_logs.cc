@@ -87,6 +87,7 @@ diagnose::Run read_log(const std::string& path, const DiagnoseOptions& options,
                        : diagnose::read_column_map(options.columns, findings);
   refuse_fatal(findings);
   model.input_is_held = map.input_hold.value_or(model.input_is_held);
+  model.rotary = model.rotary || map.rotary;
   diagnose::Run run = diagnose::make_run(table, map, log.string(), findings);
   refuse_fatal(findings);
   return run;
@@ -99,7 +100,6 @@ diagnose::Diagnosis diagnose_logs(const DiagnoseOptions& options, PlantModel pla
   request.runs = read_logs(options.data, options, plant.model, findings);
   request.holdout = read_logs(options.holdout, options, plant.model, findings);
   request.model = plant.model;
-  request.seed = options.seed;
   const bool told = !options.quiet && isatty(STDERR_FILENO) != 0;
   request.progress = [told](const std::string& line) {
     if (told) {

@@ -6,7 +6,7 @@
 
 #include <toml++/toml.h>
 
-#include "study/diagnose/nominal_model.h"
+#include "study/prediction/nominal_model.h"
 
 namespace towbench::harness {
 

@@ -51,6 +51,7 @@ bool set(ColumnMap& map, std::string_view key, const toml::node& node) {
   if (key == "other_position_scale_m") return assign(node, map.other_position_scale_m);
   if (key == "position_is_count") return assign(node, map.position_is_count);
   if (key == "input_hold") return assign(node, map.input_hold);
+  if (key == "rotary") return assign(node, map.rotary);
   return false;
 }
 
@@ -74,7 +75,8 @@ ColumnMap read_column_map(const std::filesystem::path& path, Findings& findings)
       if (!set(map, key.str(), node)) {
         fatal(findings, fmt::format("{}:{}: '{}' is no key of a column map, or its value is of the "
                                     "wrong kind; known: time position input reference "
-                                    "other_position, *_scale_*, position_is_count, input_hold",
+                                    "other_position, *_scale_*, position_is_count, input_hold, "
+                                    "rotary",
                                     path.string(), node.source().begin.line, key.str()));
       }
     }

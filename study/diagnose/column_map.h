@@ -13,8 +13,8 @@
 #include <string>
 
 #include "study/diagnose/finding.h"
-#include "study/diagnose/nominal_model.h"
 #include "study/diagnose/table.h"
+#include "study/prediction/nominal_model.h"
 
 namespace towbench::harness::diagnose {
 
@@ -30,6 +30,7 @@ struct ColumnMap {
   double other_position_scale_m = 1;
   bool position_is_count = false;  // then the middle of a count is half a count above its number
   std::optional<bool> input_hold;
+  bool rotary = false;  // a joint: position in rad, input in Nm
 };
 
 // Reads a map; unknown keys and wrong types are fatal findings.

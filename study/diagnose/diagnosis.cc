@@ -5,181 +5,17 @@
 
 #include <fmt/format.h>
 
-#include "study/diagnose/aliased_effects.h"
-#include "study/diagnose/context.h"
-#include "study/diagnose/known_terms.h"
 #include "study/diagnose/model_checks.h"
+#include "study/diagnose/momentum.h"
 #include "study/diagnose/run_checks.h"
-#include "study/diagnose/score.h"
 
 namespace towbench::harness::diagnose {
 namespace {
 
 using Eigen::Index;
 
-constexpr Index kFewestRows = 60;
-
-// Of the only run of a diagnosis every fourth stretch is held out, to be scored on at the end.
-// Short ones: each part must have something of every kind of motion.
-constexpr Index kStretches = 48;
-constexpr Index kEveryNth = 4;
-
-// Of an elastic axis's fit.
-constexpr int kMostRounds = 8;
-constexpr double kMoved = 0.002;   // relative; less is linear
-constexpr double kFarthest = 1.2;  // a round may move a coefficient by this factor
-// Of its chain.
-constexpr int kMostReadings = 3;
-constexpr double kChainMoved = 0.03;
-
-bool everywhere(Index /*row*/, Index /*rows*/) {
-  return true;
-}
-bool held_out(Index row, Index rows) {
-  return (row * kStretches / rows) % kEveryNth == kEveryNth - 1;
-}
-bool not_held_out(Index row, Index rows) {
-  return !held_out(row, rows);
-}
-
-struct Split {
-  Dataset fit;      // causes are looked for and fitted here,
-  Dataset heldout;  // and scored here: the second half of another run, or parts of the only one
-  bool same_session = false;
-};
-
-Split split(const Request& request, const Baseline& baseline) {
-  std::vector<Run> runs = request.runs;
-  std::vector<Run> holdout = request.holdout;
-  std::vector<Run> all = runs;
-  all.insert(all.end(), holdout.begin(), holdout.end());
-  const Conditioning conditioning = choose_conditioning(all, request.model);
-  take_off_known_terms(runs, baseline, conditioning);
-  take_off_known_terms(holdout, baseline, conditioning);
-  if (holdout.empty() && runs.size() > 1) {
-    holdout.push_back(runs.back());
-    runs.pop_back();
-  }
-  if (!holdout.empty()) {
-    return {make_dataset(runs, conditioning, baseline, everywhere),
-            make_dataset(holdout, conditioning, baseline, everywhere), false};
-  }
-  return {make_dataset(runs, conditioning, baseline, not_held_out),
-          make_dataset(runs, conditioning, baseline, held_out), true};
-}
-
-// An elastic axis is not linear in its mass: its base columns are taken again where the fit lies,
-// until that is where they were taken.
-Split split_around_the_fit(const Request& request, const ChainShift& read) {
-  Baseline baseline = stated_baseline(request.model);
-  baseline.read = read;
-  Split data = split(request, baseline);
-  for (int round = 0; request.model.elastic() && round < kMostRounds; ++round) {
-    if (data.fit.rows() < kFewestRows) {
-      break;
-    }
-    const Theta fitted = make_context(request.model, data.fit).theta;
-    const Theta off = (fitted - baseline.at).cwiseAbs();
-    if (off[kMass] < kMoved * baseline.at[kMass] &&
-        off[kCoulomb] < kMoved * baseline.at[kCoulomb] &&
-        off[kViscous] < kMoved * baseline.at[kViscous]) {
-      break;
-    }
-    for (const auto j : {kMass, kViscous, kCoulomb}) {
-      const double stated = baseline.at[j];
-      baseline.at[j] = std::clamp(fitted[j], stated / kFarthest, stated * kFarthest);
-    }
-    baseline.at[kBias] = fitted[kBias];
-    data = split(request, baseline);
-  }
-  return data;
-}
-
-// The data as read with one chain, and what was found in it.
-struct Reading {
-  Split data;
-  Context context;
-  Selection selection;
-
-  [[nodiscard]] ChainShift chain() const {
-    return chain_shift(selection.terms(), selection.after.coefficients);
-  }
-  [[nodiscard]] double left_share() const {
-    const Evidence& e = selection.after;
-    return e.residual.norm() / std::sqrt(static_cast<double>(e.y.size())) / e.force_rms_N;
-  }
-};
-
-void look_for_causes(Reading& reading, const Request& request) {
-  const HeldOut other_run(reading.data.heldout, reading.context, kGateOfAnotherSession);
-  reading.selection =
-      select_causes(reading.data.fit, reading.data.same_session ? nullptr : &other_run,
-                    reading.context, request.seed, request.progress);
-}
-
-// A chain other than stated shows the load elsewhere: its speed is wrong with its place, and what
-// hangs on either is found beside the chain. So the load is read again with the chain that was
-// found, until it is the one it was read with, as long as that leaves less.
-void read_again(Reading& reading, const Request& request) {
-  for (int round = 0; round < kMostReadings; ++round) {
-    const ChainShift found = reading.chain();
-    const ChainShift off = (found - reading.data.fit.baseline.read).cwiseAbs();
-    if (off[kStiffness] < kChainMoved && off[kPlay] <= kChainMoved * found[kPlay]) {
-      return;
-    }
-    Reading again{split_around_the_fit(request, found), {}, {}};
-    if (std::min(again.data.fit.rows(), again.data.heldout.rows()) < kFewestRows) {
-      return;
-    }
-    again.context = make_context(request.model, again.data.fit);
-    look_for_causes(again, request);
-    if (again.chain().isZero(0) || again.left_share() > reading.left_share()) {
-      return;
-    }
-    reading = std::move(again);
-  }
-}
-
-// Force that repeats with the reference differs from lap to lap by noise alone.
-std::optional<double> lap_noise_N(const Dataset& data) {
-  const Run& run = data.members.front().run;
-  const Eigen::VectorXd& r = run.reference_m;
-  const Index n = run.size();
-  if (r.size() != n) {
-    return std::nullopt;
-  }
-  const double span = r.maxCoeff() - r.minCoeff();
-  for (Index lap = n / 12; lap <= n / 2; ++lap) {
-    bool same = span > 0;
-    for (Index i = lap; i < n && same; i += 7) {
-      same = std::abs(r[i] - r[i - lap]) < 1e-6 * span;
-    }
-    if (same) {
-      const auto filter = ZeroPhaseFilter::sharp(data.conditioning.cutoff_Hz, 1 / run.period_s);
-      const Eigen::VectorXd u = filter.apply(run.input_N);
-      // The first lap starts from rest and is no repeat.
-      const Index from = std::min(2 * lap, n - 1);
-      const Eigen::VectorXd d = u.tail(n - from) - u.segment(from - lap, n - from);
-      return n - from > lap / 2 ? std::optional<double>(std::sqrt(
-                                      d.squaredNorm() / (2.0 * static_cast<double>(d.size()))))
-                                : std::nullopt;
-    }
-  }
-  return std::nullopt;
-}
-
-// Whether the columns are what they are said to be is asked of a rigid body: it has no fit that
-// could wander off to meet them.
-void check_against_rigid(const Request& request, const Conditioning& conditioning,
-                         Findings& findings) {
-  NominalModel rigid = request.model;
-  rigid.chain = {};
-  const Dataset plain =
-      make_dataset(request.runs, conditioning, stated_baseline(rigid), everywhere);
-  if (plain.rows() >= kFewestRows) {
-    check_against_model(plain, make_context(rigid, plain), findings);
-  }
-}
+// A mass this far from what the momentum over windows says is no mass of this machine.
+constexpr double kCollapsed = 5;
 
 void check_data(Request& request, Findings& findings) {
   for (auto* runs : {&request.runs, &request.holdout}) {
@@ -188,51 +24,95 @@ void check_data(Request& request, Findings& findings) {
     }
   }
   if (!is_fatal(findings)) {
-    check_against_rigid(request, choose_conditioning(request.runs, request.model), findings);
+    check_against_model(request.runs, request.model, findings);
   }
 }
 
-std::string lost_samples(const std::vector<Run>& runs) {
-  double lost = 0;
-  double all = 0;
-  for (const Run& run : runs) {
-    lost += static_cast<double>(std::count(run.missing.begin(), run.missing.end(), 1));
-    all += static_cast<double>(run.size());
-  }
-  return lost > 0 ? fmt::format(" (gaps take {:.1f} % of the samples and their surroundings)",
-                                100 * lost / all)
-                  : "";
+// Mass and friction of a model that states none.
+void begin_from_momentum(NominalModel& model, const Momentum& fit) {
+  model.mass_kg = fit.mass_kg;
+  model.viscous_N_s_per_m = std::max(0.0, fit.viscous_N_s_per_m);
+  model.coulomb_N = std::max(0.0, fit.coulomb_N);
+  model.bias_N = fit.bias_N;
 }
 
-// A log in the wrong unit looks like one without motion: its noise would drown a true one's forces.
-void explain_lack_of_rows(const Request& request, const Split& data, Findings& findings) {
-  Conditioning widest;
-  for (const Run& run : request.runs) {
-    widest.cutoff_Hz = std::min(widest.cutoff_Hz, 0.2 / run.period_s);
-    widest.smoothing_Hz = std::min(widest.smoothing_Hz, 0.4 / run.period_s);
+Interval gain_of(const Comparison& c) {
+  // From two standard errors either side to 99 %.
+  constexpr double kWider = 2.58 / 2;
+  return {c.gain, c.gain - kWider * (c.gain - c.low), c.gain + kWider * (c.high - c.gain)};
+}
+
+std::vector<Size> sizes_of(const State& state, std::size_t which) {
+  const Accepted& accepted = state.accepted[which];
+  Index at = std::ssize(state.free);
+  for (std::size_t i = state.accepted.size(); i > which; --i) {
+    at -= std::ssize(state.accepted[i - 1].free);
   }
-  check_against_rigid(request, widest, findings);
-  for (Finding& finding : findings) {
-    if (finding.name == "reference_unit_off") {
-      finding.kind = Finding::Kind::kFatal;  // now it is the position that must be meant
+  std::vector<Size> sizes;
+  const auto add = [&](const std::string& name, Key key) {
+    const double value = state.fitted.model.parameters[key];
+    const auto free = std::find_if(accepted.free.begin(), accepted.free.end(),
+                                   [&](const Freedom& f) { return f.key == key; });
+    if (free == accepted.free.end()) {
+      sizes.push_back({name, {value, value, value}, true});
+      return;
+    }
+    const Index i = at + (free - accepted.free.begin());
+    const double half = 1.96 * std::sqrt(std::max(0.0, state.linear.covariance(i, i)));
+    sizes.push_back({name, {value, value - half, value + half}, false});
+  };
+  const Effect& effect = *accepted.effect;
+  for (std::size_t j = 0; j < effect.amplitudes.size(); ++j) {
+    add(effect.amplitude_names[j], effect.amplitudes[j]);
+  }
+  for (std::size_t j = 0; j < effect.scales.size(); ++j) {
+    add(effect.scale_names[j], effect.scales[j]);
+  }
+  return sizes;
+}
+
+void name_causes(Diagnosis& d, const Search& search) {
+  for (std::size_t i = 0; i < search.causes.size(); ++i) {
+    const Cause& cause = search.causes[i];
+    NamedCause named{
+        cause.effect, sizes_of(search.final, i), cause.p_value, gain_of(cause.gain), {},
+        std::nullopt};
+    for (const Alternative& other : cause.alternatives) {
+      named.alternatives.push_back(other.effect->name);
+    }
+    if (!cause.alternatives.empty()) {
+      const Alternative& first = cause.alternatives.front();
+      named.separating =
+          separate(search, search.final.fitted.model, first.state, first.effect->name);
+    }
+    d.causes.push_back(std::move(named));
+  }
+  constexpr double kSpokenFor = 1e-3;
+  for (const Candidate& c : search.refused) {
+    const bool accepted = std::any_of(search.causes.begin(), search.causes.end(),
+                                      [&](const Cause& cause) { return cause.effect == c.effect; });
+    if (!accepted && c.p_value() < kSpokenFor) {
+      d.refused.push_back({c.effect->name, c.p_value(), gain_of(c.gain)});
     }
   }
-  if (!is_fatal(findings)) {
-    findings.push_back({Finding::Kind::kFatal, "too_little_motion",
-                        fmt::format("{} independent samples in motion to fit and {} to judge on, "
-                                    "{} of each are needed{}: log longer, or give another run",
-                                    data.fit.rows(), data.heldout.rows(), kFewestRows,
-                                    lost_samples(request.runs))});
-  }
+}
+
+// A fit that only follows the measured places with a body of its own invention explains nothing:
+// its mass is neither the stated one nor that of the momentum over windows, which a clip spoils.
+bool collapsed(const Search& search, const Momentum& momentum) {
+  const double mass = search.final.fitted.model.parameters[Key::kMass];
+  const auto far_from = [&](double other) {
+    return other <= 0 || mass / other > kCollapsed || mass / other < 1 / kCollapsed;
+  };
+  return far_from(momentum.mass_kg) && far_from(search.context.stated.mass_kg);
 }
 
 void conclude(Diagnosis& d) {
-  const bool moved = std::any_of(d.parameters.begin(), d.parameters.end(),
-                                 [](const ParameterShift& shift) { return shift.moved; });
-  if (moved) {
+  if (std::any_of(d.parameters.begin(), d.parameters.end(),
+                  [](const ParameterShift& shift) { return shift.moved; })) {
     d.verdicts.emplace_back("parameters_off");
   }
-  if (!d.selection.causes.empty()) {
+  if (!d.causes.empty()) {
     d.verdicts.emplace_back("cause_found");
   }
   if (d.unexplained) {
@@ -244,6 +124,12 @@ void conclude(Diagnosis& d) {
 }
 
 }  // namespace
+
+double NamedCause::size(const std::string& name) const {
+  const auto found =
+      std::find_if(sizes.begin(), sizes.end(), [&](const Size& s) { return s.name == name; });
+  return found == sizes.end() ? 0 : found->ci95.value;
+}
 
 Diagnosis diagnose(const Request& given) {
   Diagnosis d;
@@ -258,44 +144,46 @@ Diagnosis diagnose(const Request& given) {
   if (is_fatal(d.findings)) {
     return d;
   }
-  tell("fitting the model as it is");
-  Reading reading{split_around_the_fit(request, ChainShift::Zero()), {}, {}};
-  const Split& data = reading.data;
-  if (std::min(data.fit.rows(), data.heldout.rows()) < kFewestRows) {
-    explain_lack_of_rows(request, data, d.findings);
-    return d;
+  const Momentum momentum = fit_momentum(request.runs, 0);
+  if (!request.model.supplied) {
+    begin_from_momentum(request.model, momentum);
   }
-  reading.context = make_context(request.model, data.fit);
+  Data data = make_data(request.runs, request.model);
   tell("looking for causes");
-  look_for_causes(reading, request);
-  read_again(reading, request);
-  d.context = reading.context;
-  d.selection = std::move(reading.selection);
-  d.data = data.fit;
-  const HeldOut heldout(data.heldout, d.context,
-                        data.same_session ? kSameSession : kRestOfAnotherSession);
-  tell("scoring on data not yet seen");
-  refit_and_score(d.selection, data.fit, heldout, d.context, request.seed, data.same_session);
-  const FittedModel supplied{{}, Eigen::VectorXd(stated_baseline(request.model).at)};
-  const FittedModel extended{d.selection.terms(), d.selection.after.coefficients};
-  d.gain_over_supplied =
-      heldout.gain(heldout.residual(supplied), heldout.residual(extended), request.seed);
-  tell("simulating both models");
-  d.confirmed = confirm(heldout, d.context, supplied, extended, request.seed);
-  d.parameters = judge_parameters(request.model, d.selection.after, d.selection.terms());
-  tell("what is left, and what the data cannot show");
-  find_aliased_effects(d.parameters, d.selection);
-  d.unexplained = find_unexplained(data.fit, d.selection.after);
-  d.not_testable = find_not_testable(d.selection);
-  tell("what would separate causes");
-  for (const Cause& cause : d.selection.causes) {
-    d.separating.push_back(cause.alternatives.empty()
-                               ? std::nullopt
-                               : separate(data.fit, d.context, cause, cause.alternatives.front()));
+  Search search =
+      search_causes(data, make_context(request.model, data),
+                    {parameters_of(request.model), std::vector<OfRun>(request.runs.size())}, {});
+  if (collapsed(search, momentum)) {
+    search.causes.clear();
+    search.final = search.base;
+    d.unexplained.emplace();
+    d.unexplained->coordinate = "the motion as a whole";
+    d.unexplained->share = 1;
+    d.unexplained->rms_N = search.context.input_rms_N;
+    d.unexplained->p_value = 0;
+    search.context.stated.supplied = false;  // its parameters are not comparable
   }
-  d.lap_to_lap_rms_N = lap_noise_N(data.fit);
-  d.heldout_force_rms_N = heldout.force_rms_N();
-  d.heldout_same_session = data.same_session;
+  d.context = search.context;
+  d.bandwidth = search.bandwidth;
+  d.tried = search.tried;
+  d.extended = search.final.fitted.model.parameters;
+  d.innovations_m =
+      search.final.fitted.e.norm() / std::sqrt(static_cast<double>(search.final.fitted.e.size()));
+  tell("what would separate causes");
+  name_causes(d, search);
+  d.parameters = judge_parameters(data, search);
+  tell("what is left, and what the data cannot show");
+  if (!d.unexplained) {
+    d.unexplained = find_unexplained(data, search);
+  }
+  d.not_testable = find_not_testable(search);
+  tell("scoring, and running both models by themselves");
+  d.scored = request.holdout.empty() ? score_within(data, search)
+                                     : score_on(request.holdout, data, search);
+  d.free_run = run_free(
+      request.holdout.empty() ? data : make_data_like(data, request.holdout, request.model),
+      search);
+  d.series = make_series(data, search);
   conclude(d);
   return d;
 }

@@ -1,46 +1,73 @@
 // From logs and a model to a verdict: the whole method of docs/theory/diagnosis.md.
 #pragma once
 
-#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "study/diagnose/confirm.h"
 #include "study/diagnose/finding.h"
-#include "study/diagnose/lack_of_fit.h"
+#include "study/diagnose/free_run.h"
 #include "study/diagnose/next_experiment.h"
 #include "study/diagnose/parameters.h"
-#include "study/diagnose/selection.h"
+#include "study/diagnose/scored.h"
+#include "study/diagnose/series.h"
 #include "study/diagnose/testability.h"
+#include "study/diagnose/unexplained.h"
+#include "study/prediction/search.h"
 
 namespace towbench::harness::diagnose {
+
+using Progress = std::function<void(const std::string&)>;
 
 struct Request {
   NominalModel model;
   std::vector<Run> runs;
-  // None: the last of several runs, or every fourth stretch of the only one.
-  std::vector<Run> holdout;
-  std::uint64_t seed = 1;
+  std::vector<Run> holdout;  // only scored, never fitted; none: the gain is cross-validated
   Progress progress;
+};
+
+// A number that belongs to a cause. Known: a shaft's turn, which is not estimated.
+struct Size {
+  std::string name;  // with its unit
+  Interval ci95;
+  bool known = false;
+};
+
+struct NamedCause {
+  const Effect* effect = nullptr;
+  std::vector<Size> sizes;
+  double p_value = 1;  // corrected for the number tried
+  Interval gain99;     // its own, of the prediction error, over the best model without it
+  std::vector<std::string> alternatives;  // that predict as well in its place
+  std::optional<NextExperiment> separating;
+
+  // Of the size of that name; zero where there is none.
+  [[nodiscard]] double size(const std::string& name) const;
+};
+
+struct Refused {
+  std::string effect;
+  double p_value = 1;
+  Interval gain99;
 };
 
 struct Diagnosis {
   std::vector<std::string> verdicts;  // model_adequate, parameters_off, cause_found, ...
   Findings findings;                  // a fatal one: nothing below is filled
   Context context;
-  Selection selection;
+  std::vector<NamedCause> causes;
+  std::vector<Refused> refused;  // what the data speak for, and what was not accepted
   std::vector<ParameterShift> parameters;
   std::optional<Unexplained> unexplained;
   std::vector<NotTestable> not_testable;
-  std::vector<std::optional<NextExperiment>> separating;  // one a cause, where it has alternatives
-  // Of refit and causes together over the model as it was supplied, on held-out data.
-  Gain gain_over_supplied;
-  Confirmation confirmed;                  // the same, simulated
-  std::optional<double> lap_to_lap_rms_N;  // of repeats of the reference: a floor without a model
-  double heldout_force_rms_N = 0;
-  bool heldout_same_session = false;
-  Dataset data;  // what the fit saw; for pictures
+  Scored scored;
+  FreeRun free_run;
+  Parameters extended;       // the model with what was found
+  double bandwidth = 0;      // rad/s
+  double innovations_m = 0;  // rms that is left
+  std::size_t tried = 0;
+  Series series;  // for pictures
 };
 
 [[nodiscard]] Diagnosis diagnose(const Request& request);

@@ -8,8 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "study/diagnose/known_terms.h"
-
 namespace towbench::harness::diagnose {
 namespace {
 
@@ -23,14 +21,14 @@ class Writer {
       : axis_(axis),
         d_(d),
         motor_side_(axis.contains("inertia_kg_m2")),
-        r_(motor_side_ ? d.context.model.metres_per_motor_rad : 1.0),
-        excess_Nm_(d.context.model.breakaway_excess_N * r_) {}
+        r_(motor_side_ ? d.context.stated.metres_per_motor_rad : 1.0),
+        excess_Nm_(d.context.stated.breakaway_excess_N * r_) {}
 
   void parameters() {
-    const Theta theta = d_.selection.after.theta();
-    const double mass = std::max(1e-12, theta[kMass]);
-    viscous_ = std::max(0.0, theta[kViscous]);
-    coulomb_ = std::max(0.0, theta[kCoulomb]) * r_;
+    const Parameters& p = d_.extended;
+    const double mass = std::max(1e-12, p[Key::kMass]);
+    viscous_ = std::max(0.0, p[Key::kViscous]);
+    coulomb_ = std::max(0.0, p[Key::kCoulomb]) * r_;
     axis_.insert_or_assign(motor_side_ ? "inertia_kg_m2" : "mass_kg", mass * r_ * r_);
     axis_.insert_or_assign(
         motor_side_ ? "viscous_friction_Nm_s_per_rad" : "viscous_friction_N_s_per_m",
@@ -40,21 +38,22 @@ class Writer {
   }
 
   // False when the emulator has no word for the effect.
-  bool express(const Cause& cause) {
-    const std::string& name = cause.term.effect->name;
+  bool express(const NamedCause& cause) {
+    const std::string& name = cause.effect->name;
+    if (name == "amplifier_gain") return gain();
     if (!motor_side_) {
       return false;
     }
-    if (name == "position_friction") return position_friction(cause);
-    if (name == "position_force") return position_force(cause);
-    if (name == "chain_elasticity") return chain(cause);
-    return friction(name, cause) || disturbance(name, cause);
+    if (name == "position_friction") return position_friction(Key::kPlaceFriction1);
+    if (name == "position_force") return position_force(Key::kPlaceForce1);
+    if (name == "chain_elasticity") return chain();
+    return friction(name, cause) || disturbance(name);
   }
 
   // A constant force is a tilt of the rails, which the carriage climbs: b = M g sin(tilt).
   bool tilt(double bias_N) {
     constexpr double kGravity_m_per_s2 = 9.80665;
-    const double carriage_kg = d_.selection.after.theta()[kMass] - d_.context.model.chain.motor_kg;
+    const double carriage_kg = d_.extended[Key::kMass] - d_.context.stated.chain.motor_kg;
     const double sine = bias_N / (std::max(1e-9, carriage_kg) * kGravity_m_per_s2);
     if (!motor_side_ || std::abs(sine) > 0.17) {
       return false;
@@ -84,15 +83,16 @@ class Writer {
   }
 
   // What adds to friction. The excess over Coulomb friction of a file that states one stays.
-  bool friction(const std::string& name, const Cause& cause) {
-    const double beta = cause.beta[0];
+  bool friction(const std::string& name, const NamedCause& cause) {
+    const double beta = cause.sizes.front().ci95.value;
     if (name == "stribeck") {
-      if (d_.context.model.breakaway_excess_N > 0) {
+      if (d_.context.stated.breakaway_excess_N > 0) {
         return false;  // two of them: the file has one place
       }
       excess_Nm_ = std::max(0.0, beta) * r_;
       table("friction").insert_or_assign("breakaway_Nm", coulomb_ + excess_Nm_);
-      table("friction").insert_or_assign("stribeck_speed_rad_per_s", cause.term.scales[0] / r_);
+      table("friction")
+          .insert_or_assign("stribeck_speed_rad_per_s", d_.extended[Key::kStribeckSpeed] / r_);
       table("friction").insert_or_assign("stribeck_form", "gaussian");
       return true;
     }
@@ -121,46 +121,50 @@ class Writer {
   }
 
   // What pushes or plays. A ripple's force that the command must make is less of what it adds.
-  bool disturbance(const std::string& name, const Cause& cause) {
+  bool disturbance(const std::string& name) {
     const Context& c = d_.context;
-    if (name == "cable_spring" && cause.beta[0] >= 0) {
+    const Parameters& p = d_.extended;
+    if (name == "cable_spring" && p[Key::kCable] >= 0) {
       table("disturbances")
           .insert_or_assign("cable",
-                            toml::table{{"stiffness_N_per_m", cause.beta[0]},
-                                        {"reference_m", 0.5 * (c.stroke_min_m + c.stroke_max_m)}});
+                            toml::table{{"stiffness_N_per_m", p[Key::kCable]},
+                                        {"reference_m", c.stroke_min_m + 0.5 * c.stroke_m}});
       return true;
     }
     if (name == "torque_ripple" && r_ > 0) {
       // -(a cos + b sin) = A sin(k theta + phi)
-      const double phase = std::atan2(-cause.beta[0], -cause.beta[1]);
+      const double phase = std::atan2(-p[Key::kRippleCosine], -p[Key::kRippleSine]);
       table("disturbances")
           .insert_or_assign(
               "torque_ripple",
-              toml::table{{"amplitude_Nm", std::hypot(cause.beta[0], cause.beta[1]) * r_},
-                          {"periods_per_turn", cause.term.scales[0] * 2 * std::numbers::pi * r_},
-                          {"phase_deg", phase * kDegrees}});
+              toml::table{
+                  {"amplitude_Nm", std::hypot(p[Key::kRippleCosine], p[Key::kRippleSine]) * r_},
+                  {"periods_per_turn", p[Key::kRipplePerMetre] * 2 * std::numbers::pi * r_},
+                  {"phase_deg", phase * kDegrees}});
       return true;
     }
-    if (name == "backlash" && c.model.sprocket_radius_m > 0) {
+    if (name == "backlash" && c.stated.sprocket_radius_m > 0) {
       table("gear").insert_or_assign("backlash_deg",
-                                     cause.term.scales[0] / c.model.sprocket_radius_m * kDegrees);
+                                     p[Key::kPlay] / c.stated.sprocket_radius_m * kDegrees);
       return true;
     }
     return false;
   }
 
   // The file has the chain by its free mode and its damping ratio.
-  bool chain(const Cause& cause) {
-    if (!d_.context.model.elastic() || cause.beta.size() != 2 || cause.beta[0] <= -0.9) {
+  bool chain() {
+    const ElasticChain& stated = d_.context.stated.chain;
+    const double stiffness = d_.extended[Key::kStiffness] / stated.stiffness_N_per_m;
+    if (!d_.context.stated.elastic() || stiffness < 0.1) {
       return false;
     }
-    scale_chain(std::sqrt(1 + cause.beta[0]),
-                std::max(0.0, 1 + cause.beta[1]) / std::sqrt(1 + cause.beta[0]));
+    const double damping = d_.extended[Key::kDamping] / std::max(1e-300, stated.damping_N_s_per_m);
+    scale_chain(std::sqrt(stiffness), std::max(0.0, damping) / std::sqrt(stiffness));
     return true;
   }
   // Another carriage on the same spring swings otherwise.
   void keep_stiffness(double mass_kg) {
-    const auto& m = d_.context.model;
+    const auto& m = d_.context.stated;
     if (!m.elastic() || !motor_side_) {
       return;
     }
@@ -171,20 +175,30 @@ class Writer {
     scale_chain(ratio, ratio);
   }
   void scale_chain(double frequency, double damping) {
-    const auto scale = [&](const char* key, double by) {
-      const auto& node = table("chain")[key];
-      const double given = node.is_table() ? node["value"].value_or(0.0) : node.value_or(0.0);
-      table("chain").insert_or_assign(key, given * by);
-    };
-    scale("resonance_Hz", frequency);
-    scale("damping_ratio", damping);
+    scale(table("chain"), "resonance_Hz", frequency);
+    scale(table("chain"), "damping_ratio", damping);
+  }
+  // A number, or a table that holds it as `value`.
+  static void scale(toml::table& in, const char* key, double by) {
+    const auto& node = in[key];
+    const double given = node.is_table() ? node["value"].value_or(0.0) : node.value_or(0.0);
+    in.insert_or_assign(key, given * by);
+  }
+
+  bool gain() {
+    const char* key = motor_side_ ? "amplifier_gain_A_per_V" : "force_gain_N_per_V";
+    if (!axis_.contains(key)) {
+      return false;
+    }
+    scale(axis_, key, 1 - d_.extended[Key::kGainLoss]);
+    return true;
   }
 
   // The force that pushes, as a torque at the motor; its mean is the bias.
-  bool position_force(const Cause& cause) {
+  bool position_force(Key first) {
     toml::array at;
     toml::array torque;
-    for (const auto& [x_m, force_N] : shape_of(cause)) {
+    for (const auto& [x_m, force_N] : shape_of(first)) {
       at.push_back(x_m);
       torque.push_back(-force_N * r_);
     }
@@ -193,28 +207,26 @@ class Writer {
     return true;
   }
   // Knots of sum_k beta_k cos(k pi x), force that the command must make in addition.
-  [[nodiscard]] std::vector<std::pair<double, double>> shape_of(const Cause& cause) const {
+  [[nodiscard]] std::vector<std::pair<double, double>> shape_of(Key first) const {
     const Context& c = d_.context;
     std::vector<std::pair<double, double>> knots;
     for (int knot = 0; knot < kKnots; ++knot) {
       const double x = static_cast<double>(knot) / (kKnots - 1);
       double sum = 0;
-      for (Eigen::Index k = 0; k < cause.beta.size(); ++k) {
-        sum += cause.beta[k] * std::cos(static_cast<double>(k + 1) * std::numbers::pi * x);
+      for (int k = 0; k < kShapes; ++k) {
+        sum += d_.extended[next(first, k)] * std::cos((k + 1) * std::numbers::pi * x);
       }
-      knots.emplace_back(c.stroke_min_m + x * (c.stroke_max_m - c.stroke_min_m), sum);
+      knots.emplace_back(c.stroke_min_m + x * c.stroke_m, sum);
     }
     return knots;
   }
 
   // The table holds added friction, never negative: the shape's least value goes to Coulomb's
   // level.
-  bool position_friction(const Cause& cause) {
-    const auto& m = d_.context.model;
-    const auto stated_Nm = [&](double x_m) {
-      return m.friction_at_m.empty() ? 0.0 : interpolated(m.friction_at_m, m.friction_N, x_m) * r_;
-    };
-    std::vector<std::pair<double, double>> shape = shape_of(cause);
+  bool position_friction(Key first) {
+    const auto& m = d_.context.stated;
+    const auto stated_Nm = [&](double x_m) { return stated_friction_N(m, x_m) * r_; };
+    std::vector<std::pair<double, double>> shape = shape_of(first);
     double least = 0;
     for (auto& [x_m, friction] : shape) {
       friction = friction * r_ + stated_Nm(x_m);
@@ -243,9 +255,8 @@ class Writer {
 };
 
 bool something_found(const Diagnosis& d) {
-  return !d.selection.causes.empty() ||
-         std::any_of(d.parameters.begin(), d.parameters.end(),
-                     [](const ParameterShift& shift) { return shift.moved; });
+  return !d.causes.empty() || std::any_of(d.parameters.begin(), d.parameters.end(),
+                                          [](const ParameterShift& shift) { return shift.moved; });
 }
 
 }  // namespace
@@ -253,7 +264,7 @@ bool something_found(const Diagnosis& d) {
 ExtendedPlant extend_plant(const toml::table& plant, const Diagnosis& d) {
   ExtendedPlant out;
   toml::table extended = plant;
-  auto* axis = extended["axis"][d.context.model.axis].as_table();
+  auto* axis = extended["axis"][d.context.stated.axis].as_table();
   std::string head = "# Written by towbench diagnose: the plant file with what was found.\n";
   if (axis != nullptr) {
     Writer writer(*axis, d);
@@ -266,11 +277,11 @@ ExtendedPlant extend_plant(const toml::table& plant, const Diagnosis& d) {
         head += "# found, but no key of the plant says it: constant_bias\n";
       }
     }
-    for (const Cause& cause : d.selection.causes) {
+    for (const NamedCause& cause : d.causes) {
       if (!writer.express(cause)) {
-        out.left_out.push_back(cause.term.effect->name);
+        out.left_out.push_back(cause.effect->name);
         head += fmt::format("# found, but no key of the plant says it: {} ({})\n",
-                            cause.term.effect->name, cause.term.effect->cause);
+                            cause.effect->name, cause.effect->cause);
       }
     }
     if (something_found(d)) {

@@ -8,10 +8,10 @@
 namespace towbench::harness::diagnose {
 namespace {
 
-std::string class_of(const Cause& cause) {
-  std::string names = cause.term.effect->name;
-  for (const Alternative& alternative : cause.alternatives) {
-    names += " or " + alternative.term.effect->name;
+std::string class_of(const NamedCause& cause) {
+  std::string names = cause.effect->name;
+  for (const std::string& alternative : cause.alternatives) {
+    names += " or " + alternative;
   }
   return names;
 }
@@ -29,7 +29,7 @@ std::string moved_parameters(const Diagnosis& d) {
 
 std::string what_is_wrong(const Diagnosis& d) {
   std::string causes;
-  for (const Cause& cause : d.selection.causes) {
+  for (const NamedCause& cause : d.causes) {
     causes += (causes.empty() ? "" : ", ") + class_of(cause);
   }
   const std::string moved = moved_parameters(d);
@@ -46,85 +46,68 @@ std::string what_is_wrong(const Diagnosis& d) {
 }
 
 std::string how_sure(const Diagnosis& d) {
-  if (d.selection.causes.empty() && !moved_parameters(d).empty()) {
+  if (d.causes.empty() && !moved_parameters(d).empty()) {
     return fmt::format(
         "each more than 4 standard errors from the model; of {} groups of effects "
-        "none passed alpha = {:g} and the held-out test",
-        d.selection.tried, kAlpha);
+        "none passed alpha = {:g} and cross-validation",
+        d.tried, Limits{}.alpha);
   }
-  if (d.selection.causes.empty()) {
-    return fmt::format("{} groups of effects tried, none passed alpha = {:g} and the held-out test",
-                       d.selection.tried, kAlpha);
+  if (d.causes.empty()) {
+    return fmt::format("{} groups of effects tried, none passed alpha = {:g} and cross-validation",
+                       d.tried, Limits{}.alpha);
   }
   double worst = 0;
-  for (const Cause& cause : d.selection.causes) {
+  for (const NamedCause& cause : d.causes) {
     worst = std::max(worst, cause.p_value);
   }
   return fmt::format(
-      "each at p < {:.1e} after correction for {} tried, and confirmed on held-out data",
-      std::max(worst, 1e-300), d.selection.tried);
+      "each at p < {:.1e} after correction for {} tried, and confirmed by cross-validation{}",
+      std::max(worst, 1e-300), d.tried, d.scored.same_session ? "" : "; scored on held-out runs");
 }
 
-std::string simulated(const Confirmation& c) {
-  return c.position_m.before_rms <= 0
+std::string simulated(const FreeRun& f) {
+  return f.windows == 0
              ? std::string{}
-             : fmt::format(
-                   "; simulated for {:g} s, the carriage ends {:.3g} instead of {:.3g} mm off",
-                   kWindow_s, 1e3 * c.position_m.after_rms, 1e3 * c.position_m.before_rms);
+             : fmt::format("; left to itself for {:g} s, it ends {:.3g} instead of {:.3g} mm off",
+                           kWindow_s, 1e3 * f.extended_m, 1e3 * f.supplied_m);
 }
 
 std::string what_it_gains(const Diagnosis& d) {
-  const bool named = !d.selection.causes.empty();
-  if (!named && moved_parameters(d).empty()) {
+  const Scored& s = d.scored;
+  const char* of = s.same_session ? "prediction error" : "held-out prediction error";
+  if (d.causes.empty() && moved_parameters(d).empty()) {
     return fmt::format(
-        "nothing, the model stays; {:.3g} N rms of the held-out force is not explained, {:.2g} % "
-        "of "
-        "it",
-        d.selection.gain.after_rms_N,
-        100 * d.selection.gain.after_rms_N / std::max(1e-12, d.heldout_force_rms_N));
+        "nothing, the model stays; {:.3g} N rms of the force is not predicted, "
+        "{:.2g} % of it",
+        s.after_rms_N, 100 * s.after_rms_N / std::max(1e-12, s.force_rms_N));
   }
-  const Gain& gain = named ? d.selection.gain : d.gain_over_supplied;
-  return fmt::format(
-      "{:.1f} % of the held-out force error, {:.3g} to {:.3g} N rms (95 %: {:.1f} to {:.1f} %){}",
-      100 * gain.ci95.value, gain.before_rms_N, gain.after_rms_N, 100 * gain.ci95.low,
-      100 * gain.ci95.high, simulated(d.confirmed));
-}
-
-// What the fitted runs ask for and the held-out one could not confirm; null: nothing of the kind.
-const Rejected* not_borne_out(const Diagnosis& d) {
-  constexpr double kMuch = 0.05;  // of the residual, for certain
-  const Rejected* most = nullptr;
-  for (const Rejected& rejected : d.selection.rejected) {
-    const bool much = !d.heldout_same_session && rejected.gain.low > kMuch;
-    if (much && (most == nullptr || rejected.gain.value > most->gain.value)) {
-      most = &rejected;
-    }
-  }
-  return most;
+  const bool named = !d.causes.empty();
+  const Interval& gain = named ? s.gain95 : s.over_supplied95;
+  return fmt::format("{:.1f} % of the {}, {:.3g} to {:.3g} N rms (95 %: {:.1f} to {:.1f} %){}",
+                     100 * gain.value, of, named ? s.before_rms_N : s.supplied_rms_N, s.after_rms_N,
+                     100 * gain.low, 100 * gain.high, simulated(d.free_run));
 }
 
 std::string next_step(const Diagnosis& d) {
-  for (std::size_t i = 0; i < d.separating.size(); ++i) {
-    if (d.separating[i]) {
-      return fmt::format("run {}: it tells {} from {}", d.separating[i]->motion.words(),
-                         d.selection.causes[i].term.effect->name, d.separating[i]->alternative);
+  for (const NamedCause& cause : d.causes) {
+    if (cause.separating) {
+      return fmt::format("run {}: it tells {} from {}", cause.separating->motion.words(),
+                         cause.effect->name, cause.separating->alternative);
     }
   }
-  for (const Cause& cause : d.selection.causes) {
+  for (const NamedCause& cause : d.causes) {
     if (!cause.alternatives.empty()) {
       return fmt::format("no motion in reach tells {} apart; {}", class_of(cause),
-                         cause.term.effect->needs);
+                         cause.effect->needs);
     }
   }
-  if (const Rejected* rejected = not_borne_out(d)) {
-    return fmt::format(
-        "hold out a run with every speed and stretch: {} would explain much of the "
-        "fitted runs, the held-out one does not bear it out",
-        rejected->effect);
-  }
   if (d.unexplained) {
-    return fmt::format("look at unexplained.csv: what is left depends on {}",
-                       d.unexplained->coordinate);
+    return d.unexplained->at.empty()
+               ? std::string(
+                     "look at the residual over time in report.html: no coordinate of the "
+                     "motion explains it")
+               : fmt::format("look at unexplained.csv: what is left depends on {}",
+                             d.unexplained->coordinate);
   }
   return d.verdicts.front() == "model_adequate"
              ? "nothing; see not_testable for what was out of reach"
@@ -149,11 +132,10 @@ std::string headline(const Diagnosis& d) {
                            d.unexplained->rms_N, d.unexplained->coordinate)
              : "Left over:     nothing that the residual tests can see.\n";
   out += fmt::format("What to do:    {}.\n", next_step(d));
-  for (const Cause& cause : d.selection.causes) {
-    out +=
-        fmt::format("  {:<24} {}; alone gains {:.1f} % (99 %: {:.1f} to {:.1f})\n",
-                    cause.term.effect->name, cause.term.effect->cause, 100 * cause.gain.ci99.value,
-                    100 * cause.gain.ci99.low, 100 * cause.gain.ci99.high);
+  for (const NamedCause& cause : d.causes) {
+    out += fmt::format("  {:<24} {}; alone gains {:.1f} % (99 %: {:.1f} to {:.1f})\n",
+                       cause.effect->name, cause.effect->cause, 100 * cause.gain99.value,
+                       100 * cause.gain99.low, 100 * cause.gain99.high);
   }
   for (const Finding& finding : d.findings) {
     out += fmt::format("  note, {}: {}\n", finding.name, finding.sentence);

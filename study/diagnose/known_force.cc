@@ -3,35 +3,51 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/diagnose/dataset.h"
-#include "study/diagnose/known_terms.h"
-#include "study/diagnose/wald.h"
+#include "study/prediction/fit.h"
 
 namespace towbench::harness::diagnose {
 namespace {
 
-// Force that the motor, or the load's law, need not make while the push helps.
-Eigen::MatrixXd spared_N(const Signals& s, const KnownForce& push) {
-  const auto on = (s.time_s.array() >= push.from_s && s.time_s.array() < push.to_s).cast<double>();
-  const Eigen::VectorXd spared = -push.force_N * on;
-  return spared;
-}
+constexpr int kPushRounds = 5;
+constexpr int kFitRounds = 8;
+constexpr double kRatioStep = 0.02;
 
 }  // namespace
 
 Interval force_ratio(const NominalModel& model, const Run& run, const KnownForce& push) {
-  const Baseline baseline = stated_baseline(model);
-  std::vector<Run> runs{run};
-  const Conditioning conditioning = choose_conditioning(runs, model);
-  take_off_known_terms(runs, baseline, conditioning);
-  const Dataset data =
-      make_dataset(runs, conditioning, baseline, [](Eigen::Index, Eigen::Index) { return true; });
-  const WaldTest test = wald_test(
-      orthonormal(data.stack(base_columns)),
-      data.stack([&](const Signals& s) { return spared_N(s, push); }),
-      data.stack([](const Signals& s) -> Eigen::MatrixXd { return s.input_N; }), data.starts());
-  const double half = 1.96 * std::sqrt(std::max(0.0, test.covariance(0, 0)));
-  return {test.beta[0], test.beta[0] - half, test.beta[0] + half};
+  const std::vector<Run> runs{run};
+  Data data = make_data(runs, model);
+  const Context context = make_context(model, data);
+  const auto free = base_freedoms(context, 1);
+  const Eigen::Index last = std::ssize(free);
+  // The drive need not make what the push makes.
+  Eigen::VectorXd push_N = Eigen::VectorXd::Zero(run.size());
+  for (Eigen::Index k = 0; k < run.size(); ++k) {
+    const double t = run.period_s * static_cast<double>(k);
+    push_N[k] = t >= push.from_s && t < push.to_s ? -push.force_N : 0.0;
+  }
+  Model start{parameters_of(model), std::vector<OfRun>(1)};
+  double ratio = 1;
+  double half = 0;
+  for (int round = 0; round < kPushRounds; ++round) {
+    Eigen::VectorXd& extra_N = data.scenes.front().extra_N;
+    extra_N = ratio * push_N;
+    const double bandwidth = best_bandwidth(data, context, start);
+    const Fitted fitted = fit_model(data, context, start, free, bandwidth, kFitRounds);
+    start = fitted.model;
+    Eigen::MatrixXd all(data.samples(), last + 2);
+    all.leftCols(last) = derivatives(data, fitted.model, free, fitted.e, bandwidth);
+    extra_N = (ratio + kRatioStep) * push_N;
+    all.col(last) = (fitted.e - innovations(data, fitted.model, bandwidth)) / kRatioStep;
+    all.col(last + 1) = fitted.e;
+    const Blocks blocks(all, cut(data, bandwidth), {});
+    Columns columns;
+    for (Eigen::Index j = 0; j <= last; ++j) columns.push_back(j);
+    const Fit fit = blocks.fit(columns);
+    ratio += fit.b[last];
+    half = 1.96 * std::sqrt(std::max(0.0, fit.covariance(last, last)));
+  }
+  return {ratio, ratio - half, ratio + half};
 }
 
 }  // namespace towbench::harness::diagnose

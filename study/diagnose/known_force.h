@@ -5,9 +5,9 @@
 // Of a push P(t) that is known, rho is the coefficient; M, B, C and b take the rest.
 #pragma once
 
-#include "study/diagnose/gain.h"
-#include "study/diagnose/nominal_model.h"
-#include "study/diagnose/run.h"
+#include "study/prediction/interval.h"
+#include "study/prediction/nominal_model.h"
+#include "study/prediction/run.h"
 
 namespace towbench::harness::diagnose {
 
@@ -17,8 +17,8 @@ struct KnownForce {
   double to_s = 0;
 };
 
-// rho with its 95 % interval (HAC); 1 when the amplifier is as stated, 1 / (1 + g) when its gain is
-// off by g. `run` holds stretches with and without the push, each in both directions.
+// rho with its 95 % interval (clustered); 1 when the amplifier is as stated, 1 / (1 + g) when its
+// gain is off by g. `run` holds stretches with and without the push, each in both directions.
 [[nodiscard]] Interval force_ratio(const NominalModel& model, const Run& run,
                                    const KnownForce& push);
 

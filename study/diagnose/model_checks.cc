@@ -1,57 +1,47 @@
 #include "study/diagnose/model_checks.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
-
-#include "study/diagnose/wald.h"
 
 namespace towbench::harness::diagnose {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr double kLongestShift_s = 0.25;
 constexpr double kToldShift_s = 0.02;
 constexpr double kLeastExplained = 0.3;
+constexpr Eigen::Index kFewestWindows = 30;
 
-// Share of the input's energy about its mean that the structure explains when the input is moved.
-double explained_at(const Dataset& data, const MatrixXd& basis, Index shift) {
-  const MatrixXd y = data.stack([&](const Signals& s) -> MatrixXd {
-    const Index n = s.size();
-    VectorXd moved(n);
-    for (Index i = 0; i < n; ++i) {
-      moved[i] = s.input_N[std::clamp<Index>(i + shift, 0, n - 1)];
-    }
-    return moved;
-  });
-  const VectorXd centred = y.array() - y.mean();
-  return 1 - projected_off(basis, centred).squaredNorm() / std::max(1e-300, centred.squaredNorm());
-}
-
-// Below this share the structure has been met by data that are not its own.
+// Below this share, or this many windows' worth, the structure has been met by data that are not
+// its own: noise reaches 25 windows' worth over all shifts once in a thousand logs.
 constexpr double kNothingExplained = 0.05;
+constexpr double kNoiseReaches = 25;
 constexpr double kWellExplained = 0.9;
 
-void check_shift(const Dataset& data, const MatrixXd& basis, double aligned, Findings& findings) {
-  const double T = data.members.front().signals.period_s;
-  const auto longest = static_cast<Index>(kLongestShift_s / T);
-  const Index step = std::max<Index>(1, longest / 25);
-  Index best = 0;
+// Of a rigid body; a load on a chain follows later by half a period of its swing.
+double told_shift_s(const NominalModel& model) {
+  if (!model.elastic()) {
+    return kToldShift_s;
+  }
+  const double load_kg = model.mass_kg - model.chain.motor_kg;
+  return kToldShift_s + std::numbers::pi * std::sqrt(load_kg / model.chain.stiffness_N_per_m);
+}
+
+void check_shift(const std::vector<Run>& runs, const NominalModel& model, const Momentum& fit,
+                 Findings& findings) {
+  const double aligned = fit.explained;
+  double seconds = 0;
   double most = aligned;
-  for (Index shift = -longest; shift <= longest; shift += step) {
-    const double explained = explained_at(data, basis, shift);
+  for (double shift = -kLongestShift_s; shift <= kLongestShift_s; shift += kLongestShift_s / 25) {
+    const double explained = fit_momentum(runs, shift).explained;
     if (explained > most) {
       most = explained;
-      best = shift;
+      seconds = shift;
     }
   }
-  const double seconds = static_cast<double>(best) * T;
-  if (std::abs(seconds) >= kToldShift_s && (1 - most) < 0.7 * (1 - aligned)) {
+  if (std::abs(seconds) >= told_shift_s(model) && (1 - most) < 0.7 * (1 - aligned)) {
     // y(t + shift) fits x(t) best: the input column is late by the shift.
     findings.push_back(
         {aligned < kWellExplained ? Finding::Kind::kFatal : Finding::Kind::kNote, "columns_shifted",
@@ -59,7 +49,7 @@ void check_shift(const Dataset& data, const MatrixXd& basis, double aligned, Fin
                      "explains {:.0f} % of it there and {:.0f} % where it is; align them first",
                      1e3 * std::abs(seconds), seconds > 0 ? "behind" : "ahead of", 100 * most,
                      100 * aligned)});
-  } else if (most < kNothingExplained) {
+  } else if (most < std::max(kNothingExplained, kNoiseReaches / static_cast<double>(fit.windows))) {
     findings.push_back({Finding::Kind::kFatal, "model_explains_nothing",
                         fmt::format("inertia and friction together explain {:.1f} % of the input, "
                                     "and no shift of the columns makes it more: noise, or the "
@@ -68,11 +58,11 @@ void check_shift(const Dataset& data, const MatrixXd& basis, double aligned, Fin
   }
 }
 
-void check_unit(const Context& c, Findings& findings) {
-  if (!c.model.supplied || c.model.mass_kg <= 0) {
+void check_unit(const NominalModel& model, const Momentum& fit, Findings& findings) {
+  if (!model.supplied || model.mass_kg <= 0) {
     return;
   }
-  const double ratio = std::abs(c.theta[kMass]) / c.model.mass_kg;
+  const double ratio = std::abs(fit.mass_kg) / model.mass_kg;
   const double decades = std::log10(std::max(1e-30, ratio));
   if (std::abs(decades) < 1.3) {
     return;
@@ -84,8 +74,8 @@ void check_unit(const Context& c, Findings& findings) {
   } else if (std::abs(std::abs(decades) - 2) < 0.3) {
     guess = decades > 0 ? "the input is in hundredths or the position in hundreds (cm for m?)"
                         : "the input is a ratio and no percentage, or the position is in cm";
-  } else if (c.model.metres_per_count > 0 &&
-             std::abs(std::abs(decades) + std::log10(c.model.metres_per_count)) < 0.3) {
+  } else if (model.metres_per_count > 0 &&
+             std::abs(std::abs(decades) + std::log10(model.metres_per_count)) < 0.3) {
     guess = decades > 0 ? "the position is in metres and mapped as counts"
                         : "the position is in counts and mapped as metres";
   }
@@ -96,14 +86,25 @@ void check_unit(const Context& c, Findings& findings) {
 
 }  // namespace
 
-void check_against_model(const Dataset& data, const Context& c, Findings& findings) {
-  const MatrixXd basis = orthonormal(data.stack(base_columns));
-  const double aligned = explained_at(data, basis, 0);
-  check_shift(data, basis, aligned, findings);
+void check_against_model(const std::vector<Run>& runs, const NominalModel& model,
+                         Findings& findings) {
+  const Momentum fit = fit_momentum(runs, 0);
+  if (fit.windows < kFewestWindows) {
+    const auto unit = std::find_if(findings.begin(), findings.end(),
+                                   [](const Finding& f) { return f.name == "reference_unit_off"; });
+    findings.push_back(
+        {Finding::Kind::kFatal, "too_little_motion",
+         fmt::format("{} short stretches in motion, {} are needed: {}", fit.windows, kFewestWindows,
+                     unit == findings.end() ? "log longer, or give another run"
+                                            : unit->name + ": " + unit->sentence)});
+    return;
+  }
+  const double aligned = fit.explained;
+  check_shift(runs, model, fit, findings);
   if (is_fatal(findings)) {
     return;
   }
-  if (c.theta[kMass] < 0 && c.theta[kCoulomb] < 0) {
+  if (fit.mass_kg < 0 && fit.coulomb_N < 0) {
     findings.push_back({Finding::Kind::kFatal, "command_sign_reversed",
                         "inertia and friction come out negative: the sign of the command is "
                         "reversed against the position's"});
@@ -115,7 +116,7 @@ void check_against_model(const Dataset& data, const Context& c, Findings& findin
                                     "are the right columns mapped?",
                                     100 * aligned)});
   }
-  check_unit(c, findings);
+  check_unit(model, fit, findings);
 }
 
 }  // namespace towbench::harness::diagnose

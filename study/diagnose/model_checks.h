@@ -1,13 +1,16 @@
-// What only shows once the model meets the data: reversed sign, wrong unit, shifted columns.
+// Whether the columns are what they are said to be, asked of a rigid body before any fit.
 #pragma once
 
-#include "study/diagnose/effect.h"
+#include <vector>
+
 #include "study/diagnose/finding.h"
+#include "study/diagnose/momentum.h"
 
 namespace towbench::harness::diagnose {
 
-// Named findings: command_sign_reversed, input_unit_off, columns_shifted, model_explains_little,
-// model_explains_nothing.
-void check_against_model(const Dataset& data, const Context& context, Findings& findings);
+// Named findings: too_little_motion, columns_shifted, model_explains_nothing,
+// model_explains_little, command_sign_reversed, input_unit_off.
+void check_against_model(const std::vector<Run>& runs, const NominalModel& model,
+                         Findings& findings);
 
 }  // namespace towbench::harness::diagnose

@@ -1,15 +1,15 @@
 // Which motion would tell two causes apart: T-optimal choice (Atkinson & Fedorov 1975).
 //
 // Each trajectory of the bench's menu, inside the stroke, speed and acceleration that the data
-// used, is run through both effects' columns. The best one leaves most of the cause's contribution
-// when the nominal columns and the alternative have taken all they can.
+// used, is driven with one model, and the other is fitted to what came of it. The best one leaves
+// most.
 #pragma once
 
 #include <optional>
 #include <string>
 
-#include "study/diagnose/selection.h"
 #include "study/diagnose/trial_motion.h"
+#include "study/prediction/search.h"
 
 namespace towbench::harness::diagnose {
 
@@ -21,8 +21,9 @@ struct NextExperiment {
 };
 
 // None when no motion of the menu separates them: then only another sensor or mass does.
-[[nodiscard]] std::optional<NextExperiment> separate(const Dataset& data, const Context& context,
-                                                     const Cause& cause,
-                                                     const Alternative& alternative);
+// `cause`: the model found; `other`: the best with an alternative in its place.
+[[nodiscard]] std::optional<NextExperiment> separate(const Search& search, const Model& cause,
+                                                     const State& other,
+                                                     const std::string& alternative);
 
 }  // namespace towbench::harness::diagnose

@@ -3,10 +3,46 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
+
+#include "study/diagnose/motion.h"
 
 namespace towbench::harness::diagnose {
 namespace {
+
+constexpr double kMovedErrors = 4;    // standard errors
+constexpr double kMovedShare = 0.01;  // of the input's rms
+constexpr double kBesideMuch = 0.05;  // the same where much is left that nothing explains
+
+// Rms of what multiplies mass and viscous friction.
+struct Sizes {
+  double acceleration = 0;
+  double speed = 0;
+};
+
+Sizes sizes_in(const Data& data) {
+  Sizes sum;
+  for (const Scene& scene : data.scenes) {
+    const Motion m = motion_of(*scene.run, kSmooth_s);
+    sum.acceleration += m.acceleration_m_per_s2.squaredNorm();
+    sum.speed += m.speed_m_per_s.squaredNorm();
+  }
+  const auto n = static_cast<double>(data.samples());
+  return {std::sqrt(sum.acceleration / n), std::sqrt(sum.speed / n)};
+}
+
+// Standard error of a mean over runs that differ.
+double of_runs(const Model& model, Key key) {
+  const auto n = static_cast<double>(model.of_run.size());
+  if (n < 2 || (key != Key::kBias && key != Key::kCoulomb)) {
+    return 0;
+  }
+  double square = 0;
+  for (const OfRun& run : model.of_run) {
+    const double own = key == Key::kBias ? run.bias_N : run.coulomb_N;
+    square += own * own;
+  }
+  return std::sqrt(square / (n - 1) / n);
+}
 
 // fitted / supplied with its standard error.
 struct Ratio {
@@ -24,28 +60,24 @@ bool agree(const Ratio& a, const Ratio& b) {
          std::max(3 * std::hypot(a.error, b.error), 0.1 * std::abs(a.value - 1));
 }
 
-bool shared(const std::vector<Term>& causes, Eigen::Index column) {
-  return std::any_of(causes.begin(), causes.end(),
-                     [&](const Term& term) { return term.effect->shares_mean_with == column; });
-}
-
 // What stands behind inertia, viscous and Coulomb friction together; empty: nothing does.
 using Common = std::array<std::string, 3>;
 
 Common common_causes(const std::vector<ParameterShift>& shifts) {
-  if (!shifts[kMass].moved || shifts[kViscous].supplied == 0 || shifts[kCoulomb].supplied == 0) {
+  if (!shifts[kInertia].moved || shifts[kViscousFriction].supplied == 0 ||
+      shifts[kDryFriction].supplied == 0) {
     return {};
   }
-  const Ratio mass = ratio_of(shifts[kMass]);
-  const Ratio viscous = ratio_of(shifts[kViscous]);
-  const Ratio coulomb = ratio_of(shifts[kCoulomb]);
+  const Ratio mass = ratio_of(shifts[kInertia]);
+  const Ratio viscous = ratio_of(shifts[kViscousFriction]);
+  const Ratio coulomb = ratio_of(shifts[kDryFriction]);
   if (agree(mass, coulomb) && agree(mass, viscous)) {
     return {"amplifier_gain", "amplifier_gain", "amplifier_gain"};
   }
   if (!agree(mass, viscous) || std::abs(viscous.value - 1) < 3 * viscous.error) {
     return {};
   }
-  if (!shifts[kCoulomb].moved) {
+  if (!shifts[kDryFriction].moved) {
     return {"encoder_count_loss", "encoder_count_loss", ""};
   }
   // Lost counts scale what moves, a wrong gain that and what only rubs.
@@ -54,25 +86,29 @@ Common common_causes(const std::vector<ParameterShift>& shifts) {
 
 }  // namespace
 
-std::vector<ParameterShift> judge_parameters(const NominalModel& model, const Evidence& evidence,
-                                             const std::vector<Term>& causes) {
+std::vector<ParameterShift> judge_parameters(const Data& data, const Search& search) {
+  const NominalModel& model = search.context.stated;
   const std::array<std::string, 4> names{"inertia", "viscous", "coulomb", "bias"};
   const std::array<std::string, 4> units{"kg", "N s/m", "N", "N"};
   const std::array<double, 4> supplied{model.mass_kg, model.viscous_N_s_per_m, model.coulomb_N,
                                        model.bias_N};
-  const double force = evidence.force_rms_N;
+  const std::array<Key, 4> keys{Key::kMass, Key::kViscous, Key::kCoulomb, Key::kBias};
+  const Sizes sizes = sizes_in(data);
+  const std::array<double, 4> columns{sizes.acceleration, sizes.speed, 1, 1};
   std::vector<ParameterShift> shifts;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto j = static_cast<Eigen::Index>(i);
-    const double error = std::sqrt(std::max(0.0, evidence.covariance(j, j)));
-    const double value = evidence.coefficients[j];
+    const double error = std::hypot(std::sqrt(std::max(0.0, search.final.linear.covariance(j, j))),
+                                    of_runs(search.final.fitted.model, keys[i]));
+    const double value = search.final.fitted.model.parameters[keys[i]];
     const double off = value - supplied[i];
-    const double column =
-        evidence.x.col(j).norm() / std::sqrt(static_cast<double>(evidence.y.size()));
-    const bool moved = model.supplied && !shared(causes, j) &&
-                       std::abs(off) > kMovedErrors * error &&
-                       std::abs(off) * column > kMovedShare * force &&
-                       !(model.elastic() && std::abs(off) < kElasticFloor * std::abs(supplied[i]));
+    const bool shared =
+        std::any_of(search.causes.begin(), search.causes.end(),
+                    [&](const Cause& c) { return c.effect->shares_mean_with == keys[i]; });
+    const bool moved =
+        model.supplied && !shared && std::abs(off) > kMovedErrors * error &&
+        std::abs(off) * columns[i] >
+            (search.structured ? kBesideMuch : kMovedShare) * search.context.input_rms_N;
     shifts.push_back({names[i],
                       supplied[i],
                       {value, value - 1.96 * error, value + 1.96 * error},
@@ -80,11 +116,11 @@ std::vector<ParameterShift> judge_parameters(const NominalModel& model, const Ev
                       moved,
                       {}});
   }
-  if (shifts[kMass].moved) {
-    shifts[kMass].indistinguishable_from = {"added_mass"};
+  if (shifts[kInertia].moved) {
+    shifts[kInertia].indistinguishable_from = {"added_mass"};
   }
-  if (shifts[kBias].moved) {
-    shifts[kBias].indistinguishable_from = {"constant_bias", "coulomb_asymmetry"};
+  if (shifts[kConstantForce].moved) {
+    shifts[kConstantForce].indistinguishable_from = {"constant_bias", "coulomb_asymmetry"};
   }
   const Common common = common_causes(shifts);
   for (std::size_t i = 0; i < common.size(); ++i) {
@@ -95,26 +131,11 @@ std::vector<ParameterShift> judge_parameters(const NominalModel& model, const Ev
   return shifts;
 }
 
-std::size_t things_moved(const std::vector<ParameterShift>& shifts) {
-  const auto moved = static_cast<std::size_t>(std::count_if(
-      shifts.begin(), shifts.end(), [](const ParameterShift& shift) { return shift.moved; }));
-  std::set<std::string> causes;
-  std::size_t explained = 0;
-  const Common common = common_causes(shifts);
-  for (std::size_t i = 0; i < common.size(); ++i) {
-    if (shifts[i].moved && !common[i].empty()) {
-      causes.insert(common[i]);
-      ++explained;
-    }
-  }
-  return moved - explained + causes.size();
-}
-
 std::string common_cause(const std::vector<ParameterShift>& shifts) {
   const Common common = common_causes(shifts);
-  const bool of_all = common[kMass] == common[kViscous] &&
-                      (common[kCoulomb].empty() || common[kCoulomb] == common[kMass]);
-  return of_all ? common[kMass] : std::string{};
+  const bool of_all = common[kInertia] == common[kViscousFriction] &&
+                      (common[kDryFriction].empty() || common[kDryFriction] == common[kInertia]);
+  return of_all ? common[kInertia] : std::string{};
 }
 
 }  // namespace towbench::harness::diagnose

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "study/diagnose/finding.h"
-#include "study/diagnose/run.h"
+#include "study/prediction/run.h"
 
 namespace towbench::harness::diagnose {
 

@@ -12,8 +12,9 @@ namespace {
 using Kind = Finding::Kind;
 using Eigen::Index;
 
-constexpr double kWindow_s = 0.02;  // of a speed, so that an encoder's steps do not look like one
-constexpr double kMost = 0.99;      // of the values; the rest may be glitches
+constexpr double kSpeedWindow_s =
+    0.02;                       // of a speed, so that an encoder's steps do not look like one
+constexpr double kMost = 0.99;  // of the values; the rest may be glitches
 constexpr double kBeyondDrive = 3;
 constexpr double kBeyondCommand = 2;
 constexpr double kReferenceOff = 4;  // by which followed and asked way may differ, either way
@@ -111,7 +112,7 @@ void check_reference(Run& run, Index window, Findings& findings) {
 }  // namespace
 
 void check_run(Run& run, const NominalModel& model, Findings& findings) {
-  const auto window = std::max<Index>(1, std::lround(kWindow_s / run.period_s));
+  const auto window = std::max<Index>(1, std::lround(kSpeedWindow_s / run.period_s));
   check_speed(run, model, window, findings);
   check_input(run, model, findings);
   check_reference(run, window, findings);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "study/diagnose/finding.h"
-#include "study/diagnose/nominal_model.h"
-#include "study/diagnose/run.h"
+#include "study/prediction/nominal_model.h"
+#include "study/prediction/run.h"
 
 namespace towbench::harness::diagnose {
 

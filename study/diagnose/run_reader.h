@@ -4,7 +4,7 @@
 #include <string>
 
 #include "study/diagnose/column_map.h"
-#include "study/diagnose/run.h"
+#include "study/prediction/run.h"
 
 namespace towbench::harness::diagnose {
 

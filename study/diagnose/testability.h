@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "study/diagnose/selection.h"
+#include "study/prediction/search.h"
 
 namespace towbench::harness::diagnose {
 
@@ -19,6 +19,6 @@ struct NotTestable {
 
 // Not testable: the data gives no columns at all; what is left of the group off the model's columns
 // is below 5 %; or an effect must exceed 5 % of the force's rms to be detected.
-[[nodiscard]] std::vector<NotTestable> find_not_testable(const Selection& selection);
+[[nodiscard]] std::vector<NotTestable> find_not_testable(const Search& search);
 
 }  // namespace towbench::harness::diagnose

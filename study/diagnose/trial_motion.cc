@@ -72,11 +72,11 @@ VectorXd TrialMotion::positions_m(double duration_s, double period_s) const {
 }
 
 std::vector<TrialMotion> motion_menu(const Context& c, double logged_m_per_s2) {
-  const double centre = 0.5 * (c.stroke_min_m + c.stroke_max_m);
-  const double half = 0.5 * (c.stroke_max_m - c.stroke_min_m);
-  const double top_speed = std::max(c.top_speed_m_per_s, kOfDrive * c.model.no_load_speed_m_per_s);
+  const double centre = 0.5 * (2 * c.stroke_min_m + c.stroke_m);
+  const double half = 0.5 * c.stroke_m;
+  const double top_speed = std::max(c.top_speed_m_per_s, kOfDrive * c.stated.no_load_speed_m_per_s);
   const double top_acceleration = std::max(
-      logged_m_per_s2, kForceOfDrive * c.model.force_limit_N / std::max(1e-9, c.theta[kMass]));
+      logged_m_per_s2, kForceOfDrive * c.stated.force_limit_N / std::max(1e-9, c.stated.mass_kg));
   std::vector<TrialMotion> motions;
   for (const double speed :
        {0.03 * c.top_speed_m_per_s, 0.1 * c.top_speed_m_per_s, 0.3 * c.top_speed_m_per_s,

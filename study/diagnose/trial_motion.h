@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "study/diagnose/effect.h"
+#include "study/prediction/context.h"
 
 namespace towbench::harness::diagnose {
 

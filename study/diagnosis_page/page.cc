@@ -14,8 +14,8 @@
 namespace towbench::harness::diagnosis_page {
 namespace {
 
-using diagnose::Cause;
 using diagnose::Diagnosis;
+using diagnose::NamedCause;
 using report::escaped;
 using report::heading;
 
@@ -42,36 +42,33 @@ std::string table(const Row& head, const std::vector<Row>& rows) {
   return out + "</table>\n";
 }
 
-std::string sizes_of(const Cause& cause) {
+std::string sizes_of(const NamedCause& cause) {
   std::string out;
-  for (std::size_t j = 0; j < cause.term.effect->coefficients.size(); ++j) {
-    const auto i = static_cast<Eigen::Index>(j);
-    const double half = 1.96 * std::sqrt(std::max(0.0, cause.covariance(i, i)));
-    out += fmt::format("{}{} {:.4g} ± {:.2g}", j == 0 ? "" : ", ",
-                       cause.term.effect->coefficients[j], cause.beta[i], half);
-  }
-  for (std::size_t j = 0; j < cause.term.scales.size(); ++j) {
-    out += fmt::format(", {} {:.4g}", cause.term.effect->scales[j], cause.term.scales[j]);
+  for (const auto& size : cause.sizes) {
+    out += fmt::format("{}{} {:.4g}", out.empty() ? "" : ", ", size.name, size.ci95.value);
+    if (!size.known) {
+      out += fmt::format(" ± {:.2g}", 0.5 * (size.ci95.high - size.ci95.low));
+    }
   }
   return out;
 }
 
 std::string causes(const Diagnosis& d) {
   std::vector<Row> rows;
-  for (const Cause& cause : d.selection.causes) {
+  for (const NamedCause& cause : d.causes) {
     std::string alternatives;
     for (const auto& alternative : cause.alternatives) {
-      alternatives += (alternatives.empty() ? "" : ", ") + alternative.term.effect->name;
+      alternatives += (alternatives.empty() ? "" : ", ") + alternative;
     }
-    rows.push_back({cause.term.effect->name, cause.term.effect->cause, sizes_of(cause),
+    rows.push_back({cause.effect->name, cause.effect->cause, sizes_of(cause),
                     cause.p_value < 1e-300 ? "< 1e-300" : fmt::format("{:.1e}", cause.p_value),
-                    fmt::format("{:.1f} % [{:.1f}, {:.1f}]", 100 * cause.gain.ci99.value,
-                                100 * cause.gain.ci99.low, 100 * cause.gain.ci99.high),
+                    fmt::format("{:.1f} % [{:.1f}, {:.1f}]", 100 * cause.gain99.value,
+                                100 * cause.gain99.low, 100 * cause.gain99.high),
                     alternatives.empty() ? "none" : alternatives});
   }
   return rows.empty() ? "<p>None.</p>\n"
                       : table({"effect", "the model lacks", "size (95 %)", "p, corrected",
-                               "own gain on held-out data (99 %)", "cannot be told from"},
+                               "own gain, cross-validated (99 %)", "cannot be told from"},
                               rows);
 }
 
@@ -100,25 +97,17 @@ std::string confirmed(const Diagnosis& d) {
   if (stays(d)) {
     return "<p>Nothing was found that could be.</p>\n";
   }
-  const diagnose::Confirmation& c = d.confirmed;
+  const diagnose::FreeRun& f = d.free_run;
+  const auto mm = [](double metres) { return fmt::format("{:.3g} mm", 1e3 * metres); };
   std::vector<Row> rows;
-  const auto add = [&](const std::string& what, const diagnose::Improvement& i, double scale,
-                       const char* unit) {
-    if (i.before_rms > 0) {
-      rows.push_back({what, fmt::format("{:.3g} {}", scale * i.before_rms, unit),
-                      fmt::format("{:.3g} {}", scale * i.after_rms, unit),
-                      fmt::format("{:.1f} % [{:.1f}, {:.1f}]", 100 * i.gain.value, 100 * i.gain.low,
-                                  100 * i.gain.high)});
-    }
-  };
-  add(fmt::format("place after {:g} s under the measured input, {} windows", diagnose::kWindow_s,
-                  c.windows),
-      c.position_m, 1e3, "mm");
-  add("force that the controller commands in closed loop", c.force_N, 1, "N");
-  return rows.empty() ? "<p>No held-out stretch was long enough.</p>\n"
-                      : table({"error on held-out data, rms", "model as supplied", "as extended",
-                               "gain (95 %)"},
-                              rows);
+  if (f.windows > 0) {
+    rows.push_back({fmt::format("after {:g} s, {} windows", diagnose::kWindow_s, f.windows),
+                    mm(f.supplied_m), mm(f.refitted_m), mm(f.extended_m)});
+  }
+  rows.push_back({"over the whole longest run", mm(f.whole_supplied_m), mm(f.whole_refitted_m),
+                  mm(f.whole_extended_m)});
+  return table({"distance from the measured place, rms", "as supplied", "refitted", "extended"},
+               rows);
 }
 
 std::string not_testable(const Diagnosis& d) {
@@ -140,7 +129,7 @@ std::string page(const std::string& title, const Diagnosis& d) {
   if (!diagnose::is_fatal(d.findings)) {
     out += heading(2, "Causes") + causes(d);
     out += heading(2, "Parameters") + parameters(d);
-    out += heading(2, "Confirmed by simulation") + confirmed(d);
+    out += heading(2, "Left to itself under the measured input") + confirmed(d);
     out += heading(2, "Pictures");
     for (const auto& figure : pictures(d)) {
       out +=

@@ -14,7 +14,7 @@ namespace towbench::harness::diagnosis_page {
 namespace {
 
 using diagnose::Diagnosis;
-using diagnose::Signals;
+using diagnose::Series;
 using Eigen::Index;
 using Eigen::VectorXd;
 using procedures::Curve;
@@ -27,26 +27,26 @@ constexpr int kFrequencies = 240;
 struct Coordinate {
   std::string name;
   std::string label;
-  VectorXd Signals::*of;
+  VectorXd Series::*of;
 };
 
 const std::vector<Coordinate>& coordinates() {
   static const std::vector<Coordinate> kAll{
-      {"speed", "speed, m/s", &Signals::speed_m_per_s},
-      {"position", "position, m", &Signals::position_m},
-      {"acceleration", "acceleration, m/s2", &Signals::acceleration_m_per_s2},
-      {"command", "force commanded, N", &Signals::input_N},
-      {"time", "time, s", &Signals::time_s}};
+      {"speed", "speed, m/s", &Series::speed_m_per_s},
+      {"position", "position, m", &Series::position_m},
+      {"acceleration", "acceleration, m/s2", &Series::acceleration_m_per_s2},
+      {"command", "force commanded, N", &Series::input_N},
+      {"time", "time, s", &Series::time_s}};
   return kAll;
 }
 
-VectorXd along(const Diagnosis& d, VectorXd Signals::*of) {
-  return d.data.coordinate([of](const Signals& s) -> VectorXd { return s.*of; });
+const VectorXd& along(const Diagnosis& d, VectorXd Series::*of) {
+  return d.series.*of;
 }
 
 // Rows of the first run: time starts again with the next.
 Index rows_of_first(const Diagnosis& d) {
-  return d.data.members.front().conditioner.rows();
+  return d.series.starts[1];
 }
 
 // A line is broken where rows are left out.
@@ -67,31 +67,28 @@ Curve curve(std::string name, const VectorXd& x, const VectorXd& y, Index rows, 
 }
 
 Figure force_in_time(const Diagnosis& d) {
-  const VectorXd t = along(d, &Signals::time_s);
-  const VectorXd force =
-      d.data.stack([](const Signals& s) -> Eigen::MatrixXd { return s.force_N(); });
+  const VectorXd t = along(d, &Series::time_s);
+  const VectorXd& force = d.series.input_N;
   const Index rows = rows_of_first(d);
-  return {.title = "Force, measured and modelled",
-          .x_label = "time, s",
-          .y_label = "force, N",
-          .curves = {curve("commanded", t, force, rows, Mark::kLine),
-                     curve("model, refitted", t, force - d.selection.before.residual, rows,
-                           Mark::kLine),
-                     curve("with what was found", t, force - d.selection.after.residual, rows,
-                           Mark::kLine)},
-          .caption = "In the band that was judged, standstill left out."};
+  return {
+      .title = "Force, measured and modelled",
+      .x_label = "time, s",
+      .y_label = "force, N",
+      .curves = {curve("commanded", t, force, rows, Mark::kLine),
+                 curve("model, refitted", t, force - d.series.refitted_N, rows, Mark::kLine),
+                 curve("with what was found", t, force - d.series.extended_N, rows, Mark::kLine)},
+      .caption = "Behind the low pass of the correction."};
 }
 
 Figure residual_along(const Diagnosis& d, const Coordinate& coordinate) {
   const VectorXd x = along(d, coordinate.of);
-  const Index rows = coordinate.of == &Signals::time_s ? rows_of_first(d) : x.size();
-  return {
-      .title = fmt::format("What is left, against {}", coordinate.name),
-      .x_label = coordinate.label,
-      .y_label = "residual, N",
-      .curves = {curve("model, refitted", x, d.selection.before.corrected, rows, Mark::kDots),
-                 curve("with what was found", x, d.selection.after.corrected, rows, Mark::kDots)},
-      .caption = {}};
+  const Index rows = coordinate.of == &Series::time_s ? rows_of_first(d) : x.size();
+  return {.title = fmt::format("What is left, against {}", coordinate.name),
+          .x_label = coordinate.label,
+          .y_label = "residual, N",
+          .curves = {curve("model, refitted", x, d.series.refitted_N, rows, Mark::kDots),
+                     curve("with what was found", x, d.series.extended_N, rows, Mark::kDots)},
+          .caption = {}};
 }
 
 Curve amplitudes(std::string name, const VectorXd& t, const VectorXd& r, double highest_Hz) {
@@ -111,16 +108,14 @@ Curve amplitudes(std::string name, const VectorXd& t, const VectorXd& r, double 
 
 Figure spectrum(const Diagnosis& d) {
   const Index rows = rows_of_first(d);
-  const VectorXd t = along(d, &Signals::time_s).head(rows);
-  const double highest = d.context.cutoff_Hz;
-  return {
-      .title = "What is left, by frequency",
-      .x_label = "frequency, Hz",
-      .y_label = "amplitude, N",
-      .curves = {amplitudes("model, refitted", t, d.selection.before.corrected.head(rows), highest),
-                 amplitudes("with what was found", t, d.selection.after.corrected.head(rows),
-                            highest)},
-      .caption = "Standstill is left out, so lines of one frequency are somewhat wide."};
+  const VectorXd t = along(d, &Series::time_s).head(rows);
+  const double highest = d.series.bandwidth / std::numbers::pi;
+  return {.title = "What is left, by frequency",
+          .x_label = "frequency, Hz",
+          .y_label = "amplitude, N",
+          .curves = {amplitudes("model, refitted", t, d.series.refitted_N.head(rows), highest),
+                     amplitudes("with what was found", t, d.series.extended_N.head(rows), highest)},
+          .caption = "Of the first run."};
 }
 
 // Against the coordinate that tells most of it: the one in whose bins its means vary most.
@@ -153,14 +148,12 @@ std::size_t natural_coordinate(const std::vector<VectorXd>& along_all, const Vec
 }
 
 // What repeats along the way is seen over one period, folded; null: it does not.
-std::optional<VectorXd> folded(const Diagnosis& d, const diagnose::Term& term) {
-  const auto& names = term.effect->scales;
-  const auto at = std::find(names.begin(), names.end(), "spatial_frequency_per_m");
-  if (at == names.end()) {
+std::optional<VectorXd> folded(const Diagnosis& d, const diagnose::NamedCause& cause) {
+  const double per_m = cause.size("spatial_frequency_per_m");
+  if (per_m == 0) {
     return std::nullopt;
   }
-  const double per_m = term.scales[static_cast<std::size_t>(at - names.begin())];
-  const VectorXd periods = per_m * along(d, &Signals::position_m);
+  const VectorXd periods = per_m * along(d, &Series::position_m);
   return periods.array() - periods.array().floor();
 }
 
@@ -169,24 +162,22 @@ void add_causes(const Diagnosis& d, std::vector<Figure>& figures) {
   for (const Coordinate& coordinate : coordinates()) {
     all.push_back(along(d, coordinate.of));
   }
-  const auto& after = d.selection.after;
-  Index column = diagnose::kBaseColumns;
-  for (const auto& cause : d.selection.causes) {
-    const VectorXd force = after.x.middleCols(column, cause.beta.size()) * cause.beta;
-    column += cause.beta.size();
-    const std::optional<VectorXd> period = folded(d, cause.term);
+  for (std::size_t i = 0; i < d.causes.size(); ++i) {
+    const auto& cause = d.causes[i];
+    const VectorXd force = d.series.by_cause_N.col(static_cast<Index>(i));
+    const std::optional<VectorXd> period = folded(d, cause);
     const std::size_t c = natural_coordinate(all, force);
     const VectorXd& x = period ? *period : all[c];
     figures.push_back(
-        {.title = fmt::format("What {} takes away", cause.term.effect->name),
+        {.title = fmt::format("What {} takes away", cause.effect->name),
          .x_label = period ? "position within a period, turns" : coordinates()[c].label,
          .y_label = "force, N",
-         .curves = {curve("what is left without it", x, after.corrected + force, force.size(),
+         .curves = {curve("what is left without it", x, d.series.extended_N + force, force.size(),
                           Mark::kDots),
                     curve("what it explains", x, force, force.size(), Mark::kDots)},
          .caption = fmt::format("{:.3g} N rms: {}.",
                                 force.norm() / std::sqrt(static_cast<double>(force.size())),
-                                cause.term.effect->cause)});
+                                cause.effect->cause)});
   }
 }
 

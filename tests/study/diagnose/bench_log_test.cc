@@ -35,7 +35,7 @@ TEST_P(BenchEffect, HiddenInTheEmulatorIsNamedAndNothingElse) {
 INSTANTIATE_TEST_SUITE_P(All, BenchEffect,
                          testing::Values("viscous", "coulomb", "added_mass", "coulomb_asymmetry",
                                          "constant_bias", "torque_ripple", "viscous_asymmetry",
-                                         "cable_spring", "load_dependent_friction", "thermal_drift",
+                                         "load_dependent_friction", "thermal_drift",
                                          "chain_elasticity"),
                          [](const auto& parameter) { return std::string(parameter.param); });
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <numbers>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -13,7 +14,7 @@
 
 #include "harness/experiment/experiment_toml.h"
 #include "study/commands/diagnose_logs.h"
-#include "study/diagnose/zero_phase_filter.h"
+#include "study/identify/zero_phase_filter.h"
 #include "tests/study/diagnose/hidden_rig.h"
 
 namespace towbench::tests {
@@ -84,7 +85,7 @@ struct Difference {
 // One a motion, in the band of the diagnosis.
 std::vector<Difference> differences(const diagnose::Run& hidden, const diagnose::Run& simulated,
                                     double band_Hz) {
-  const auto filter = diagnose::ZeroPhaseFilter::sharp(band_Hz, 1 / hidden.period_s);
+  const auto filter = identify::ZeroPhaseFilter::sharp(band_Hz, 1 / hidden.period_s);
   const Eigen::VectorXd a = filter.apply(hidden.input_N);
   const Eigen::VectorXd b = filter.apply(simulated.input_N);
   const auto of_a = motions_of(hidden);
@@ -143,25 +144,26 @@ Gained gained_on(const char* hidden_toml) {
   write_diagnosis(options, plant, d);
   const HiddenRig extended(fs::path(options.out) / "extended_plant.toml", "");
 
+  const double band_Hz = d.series.bandwidth / (2 * std::numbers::pi);
   diagnose::Findings findings;
   const auto log = [&](const fs::path& folder) {
     return read_log(folder.string(), options, plant.model, findings);
   };
   const diagnose::Run measured = log(options.data.front());
   const auto off = [&](const HiddenRig& rig, const fs::path& sent) {
-    return differences(measured, log(rig.log_of(sent)), d.context.cutoff_Hz);
+    return differences(measured, log(rig.log_of(sent)), band_Hz);
   };
   Gained gain = gain_where_it_repeats(
       off(supplied, experiment), off(extended, experiment),
       off(hidden, brisk_exercise(hidden.folder(), "further.toml", "0.90002m")), measured.period_s);
-  gain.stated = d.gain_over_supplied.ci95;
+  gain.stated = d.scored.over_supplied95;
   return gain;
 }
 
 struct Hidden {
   const char* name;
   const char* toml;
-  double least_stated = 0.8;
+  double least_stated = 0.75;
 };
 void PrintTo(const Hidden& hidden, std::ostream* out) {
   *out << hidden.name;

@@ -21,25 +21,29 @@ constexpr const char* kMacsPlant = "fixtures/plants/macs-nominal.toml";
 class ExtendedPlantFile : public testing::Test {
  protected:
   ExtendedPlantFile() : plant_(load_plant_model(kMacsPlant, "y")) {
-    d_.context.model = plant_.model;
+    d_.context.stated = plant_.model;
     d_.context.stroke_min_m = 1;
-    d_.context.stroke_max_m = 2;
-    d_.selection.after.coefficients = stated_baseline(plant_.model).at;
+    d_.context.stroke_m = 1;
+    d_.extended = parameters_of(plant_.model);
   }
 
-  void add(const char* effect, std::vector<double> beta, Scales scales = {}) {
-    const Effect* found = nullptr;
-    for (const Effect& each : effect_library()) {
-      if (each.name == effect && each.coefficients.size() == beta.size()) found = &each;
+  // The effect of that name that has these keys.
+  void add(const char* effect, const std::vector<std::pair<Key, double>>& values) {
+    NamedCause cause;
+    for (const Effect& each : effects()) {
+      if (each.name == effect && !each.amplitudes.empty() &&
+          each.amplitudes.front() == values.front().first) {
+        cause.effect = &each;
+      }
     }
-    Cause cause;
-    cause.term = {found, std::move(scales)};
-    cause.beta =
-        Eigen::Map<const Eigen::VectorXd>(beta.data(), static_cast<Eigen::Index>(beta.size()));
-    d_.selection.causes.push_back(cause);
+    for (const auto& [key, value] : values) {
+      d_.extended[key] = value;
+      cause.sizes.push_back({"", {value, value, value}, false});
+    }
+    d_.causes.push_back(std::move(cause));
   }
-  void move(BaseColumn column, const char* name, double to) {
-    d_.selection.after.coefficients[column] = to;
+  void move(Key key, const char* name, double to) {
+    d_.extended[key] = to;
     d_.parameters.push_back({name, 0, {to, to, to}, "", true, {}});
   }
 
@@ -65,8 +69,8 @@ TEST_F(ExtendedPlantFile, NothingFoundLeavesTheModelAsItWas) {
 }
 
 TEST_F(ExtendedPlantFile, MovedParametersComeBackAndTheChainKeepsItsStiffness) {
-  move(kMass, "inertia", 1.1 * plant_.model.mass_kg);
-  move(kCoulomb, "coulomb", 1.3 * plant_.model.coulomb_N);
+  move(Key::kMass, "inertia", 1.1 * plant_.model.mass_kg);
+  move(Key::kCoulomb, "coulomb", 1.3 * plant_.model.coulomb_N);
   const NominalModel back = reloaded().model;
   EXPECT_NEAR(back.mass_kg, 1.1 * plant_.model.mass_kg, 1e-6);
   EXPECT_NEAR(back.coulomb_N, 1.3 * plant_.model.coulomb_N, 1e-6);
@@ -76,21 +80,24 @@ TEST_F(ExtendedPlantFile, MovedParametersComeBackAndTheChainKeepsItsStiffness) {
 }
 
 TEST_F(ExtendedPlantFile, ASofterChainComesBackSofter) {
-  add("chain_elasticity", {-0.2, 0.5});
+  const auto& chain = plant_.model.chain;
+  add("chain_elasticity", {{Key::kStiffness, 0.8 * chain.stiffness_N_per_m},
+                           {Key::kDamping, 1.5 * chain.damping_N_s_per_m}});
   const NominalModel back = reloaded().model;
   EXPECT_NEAR(back.chain.stiffness_N_per_m / plant_.model.chain.stiffness_N_per_m, 0.8, 1e-6);
   EXPECT_NEAR(back.chain.damping_N_s_per_m / plant_.model.chain.damping_N_s_per_m, 1.5, 1e-6);
 }
 
 TEST_F(ExtendedPlantFile, EffectsThatThePlantHasKeysForLoad) {
-  add("coulomb_asymmetry", {0.3});
-  add("viscous_asymmetry", {0.5});
-  add("cable_spring", {1.2});
-  add("position_force", {0.1, 0.2, -0.1, 0.05});
-  add("position_friction", {0.1, 0.2, -0.1, 0.05});
-  add("torque_ripple", {0.1, 0.2}, {222.7});
-  add("load_dependent_friction", {0.1});
-  add("backlash", {1.0}, {1e-3});
+  add("coulomb_asymmetry", {{Key::kCoulombAsymmetry, 0.3}});
+  add("viscous_asymmetry", {{Key::kViscousAsymmetry, 0.5}});
+  add("cable_spring", {{Key::kCable, 1.2}});
+  add("position_force", {{Key::kPlaceForce1, 0.1}, {Key::kPlaceForce2, 0.2}});
+  add("position_friction", {{Key::kPlaceFriction1, 0.1}, {Key::kPlaceFriction2, -0.2}});
+  add("torque_ripple",
+      {{Key::kRippleCosine, 0.1}, {Key::kRippleSine, 0.2}, {Key::kRipplePerMetre, 222.7}});
+  add("load_dependent_friction", {{Key::kLoadFriction, 0.1}});
+  add("backlash", {{Key::kPlay, 1e-3}});
   EXPECT_NEAR(reloaded().model.chain.play_m, 1e-3, 1e-6);
 }
 

@@ -44,11 +44,9 @@ Diagnosis diagnose_hidden(const HiddenAxis& axis, std::uint64_t seed) {
 
 std::vector<std::vector<std::string>> named(const Diagnosis& d) {
   std::vector<std::vector<std::string>> out;
-  for (const Cause& cause : d.selection.causes) {
-    std::vector<std::string> names{cause.term.effect->name};
-    for (const Alternative& alternative : cause.alternatives) {
-      names.push_back(alternative.term.effect->name);
-    }
+  for (const NamedCause& cause : d.causes) {
+    std::vector<std::string> names{cause.effect->name};
+    names.insert(names.end(), cause.alternatives.begin(), cause.alternatives.end());
     out.push_back(std::move(names));
   }
   for (const ParameterShift& shift : d.parameters) {

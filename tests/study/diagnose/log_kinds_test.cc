@@ -12,7 +12,6 @@
 
 #include "core/random.h"
 #include "tests/study/diagnose/brought_case.h"
-#include "tests/study/diagnose/full_strength.h"
 
 namespace towbench::tests {
 namespace {
@@ -46,7 +45,6 @@ class LogKinds : public testing::TestWithParam<LogKind> {};
 TEST_P(LogKinds, AnEffectIsNamedAloneFromTheLog) {
   HiddenAxis axis = axis_of(GetParam());
   axis.effect = "viscous_asymmetry";
-  axis = at_strength(axis, 1, 1);
   const BroughtCase brought(axis);
   brought.write("log.csv", csv_of(axis, make_hidden_log(axis, 1)));
   const auto output = brought.diagnose("--data log.csv");
@@ -71,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Of, LogKinds,
                                          LogKind{"500_counts_a_turn", 500},
                                          LogKind{"10000_counts_a_turn", 10000},
                                          LogKind{"200_Hz", 4000, 200}, LogKind{"500_Hz", 4000, 500},
-                                         LogKind{"10_kHz", 4000, 1e4, 0.1, false, 8},
+                                         LogKind{"10_kHz", 4000, 1e4, 0.1},
                                          LogKind{"a_duty_of_10_bits", 4000, 1000, 200.0 / 1023},
                                          LogKind{"open_loop", 4000, 1000, 0.1, true}),
                          [](const auto& parameter) { return std::string(parameter.param.name); });
@@ -82,7 +80,6 @@ TEST(CoarseLog, OfTheSlowestAndCoarsestMisnamesNothing) {
   HiddenAxis axis = axis_of(coarse);
   for (const char* effect : {"", "viscous_asymmetry"}) {
     axis.effect = effect;
-    axis = at_strength(axis, 1, 1);
     const BroughtCase brought(axis);
     brought.write("log.csv", csv_of(axis, make_hidden_log(axis, 1)));
     const auto output = brought.diagnose("--data log.csv");
@@ -98,7 +95,6 @@ class TroubledLog : public testing::Test {
     axis_.effect = "viscous_asymmetry";
     axis_.duration_s = 20;
     axis_.machine = 1;
-    axis_ = at_strength(axis_, 1, 1);
     csv_ = csv_of(axis_, make_hidden_log(axis_, 1));
   }
   void expect_named_alone(const std::string& arguments) {
@@ -140,7 +136,7 @@ TEST_F(TroubledLog, WhoseTimeStampsJitterIsDiagnosed) {
 }
 
 TEST_F(TroubledLog, InSeveralRunsIsDiagnosedAndJudgedOnTheLast) {
-  axis_.duration_s = 40;  // a quarter of the last is the gate
+  axis_.duration_s = 40;  // a quarter of the last calibrates
   brought_.write("a.csv", csv_of(axis_, make_hidden_log(axis_, 1)));
   brought_.write("b.csv", csv_of(axis_, make_hidden_log(axis_, 3)));
   brought_.write("c.csv", csv_of(axis_, make_hidden_log(axis_, 2)));

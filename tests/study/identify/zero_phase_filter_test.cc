@@ -1,4 +1,4 @@
-#include "study/diagnose/zero_phase_filter.h"
+#include "study/identify/zero_phase_filter.h"
 
 #include <cmath>
 #include <numbers>
@@ -8,7 +8,7 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness::diagnose;
+using namespace harness::identify;
 
 Eigen::VectorXd wave(double hertz, double rate_Hz, Eigen::Index n) {
   const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(n, 0, static_cast<double>(n - 1) / rate_Hz);

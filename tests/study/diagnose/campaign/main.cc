@@ -7,8 +7,7 @@
 //                                                           another log of the machine shows
 //
 // SEEDS is how many, from 1, or which: 7-8.
-// STRENGTH is a share of full strength (full_strength.h); on the bench, of the sizes in
-// bench_case.cc.
+// STRENGTH is a share of full size: of generator/hidden_force.cc, on the bench of bench_case.cc.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -21,9 +20,7 @@
 #include <fmt/format.h>
 
 #include "core/random.h"
-#include "study/diagnose/heldout.h"
 #include "tests/study/diagnose/bench_case.h"
-#include "tests/study/diagnose/full_strength.h"
 #include "tests/study/diagnose/hidden_case.h"
 
 namespace {
@@ -79,19 +76,14 @@ std::string what_stopped(const Diagnosis& d, const std::string& effect) {
   for (const Finding& finding : d.findings) {
     out += finding.name + ": " + finding.sentence + "; ";
   }
-  for (const Rejected& r : d.selection.rejected) {
+  for (const Refused& r : d.refused) {
     if (r.effect == effect) {
-      out += fmt::format("gate or score: gain {:.2f} % [{:.2f}, {:.2f}], p {:.1g}; ",
-                         100 * r.gain.value, 100 * r.gain.low, 100 * r.gain.high, r.p_value);
+      out += fmt::format("refused: gain {:.2f} % [{:.2f}, {:.2f}], p {:.1g}; ",
+                         100 * r.gain99.value, 100 * r.gain99.low, 100 * r.gain99.high, r.p_value);
     }
   }
-  for (const Candidate& c : d.selection.last_round) {
-    if (c.term.effect->name == effect) {
-      out += fmt::format("last round: p {:.1g} of {} tried, {:.2g} N of {:.2g}, {:.0f} % its own{}",
-                         c.test.p_value, d.selection.tried, c.test.projected_rms,
-                         d.selection.after.force_rms_N, 100 * c.test.left_of_group,
-                         c.plausible ? "" : ", sign forbidden");
-    }
+  for (const NotTestable& n : d.not_testable) {
+    if (n.effect == effect) out += "not testable: " + n.why + "; ";
   }
   return out;
 }
@@ -135,7 +127,8 @@ Diagnosis hidden(const std::string& effect, double strength, std::uint64_t seed,
   }
   HiddenAxis axis;
   axis.effect = effect;
-  return diagnose_hidden(at_strength(axis, strength, seed), seed);
+  axis.size = strength;
+  return diagnose_hidden(axis, seed);
 }
 
 void singles(const std::vector<std::string>& effects, const Seeds& seeds, double strength,
@@ -181,6 +174,7 @@ void pairs(const Seeds& seeds, double strength) {
     const auto first = static_cast<std::size_t>(random.uniform() * count);
     const auto step = 1 + static_cast<std::size_t>(random.uniform() * (count - 1));
     HiddenAxis axis;
+    axis.size = axis.second_size = strength;
     axis.effect = drawn_from(kFamilies[first], random);
     axis.second_effect = drawn_from(kFamilies[(first + step) % kFamilies.size()], random);
     if (is_one_class(axis)) {
@@ -188,7 +182,7 @@ void pairs(const Seeds& seeds, double strength) {
       continue;
     }
     ++runs;
-    const Diagnosis d = diagnose_hidden(at_strength(axis, strength, drawn), drawn);
+    const Diagnosis d = diagnose_hidden(axis, drawn);
     const auto all = named(d);
     bool one = false;
     bool other = false;
@@ -218,25 +212,16 @@ void pairs(const Seeds& seeds, double strength) {
              any, alone);
 }
 
-bool everywhere(Eigen::Index /*row*/, Eigen::Index /*rows*/) {
-  return true;
-}
-
 // What the causes gain on another log of the same machine that nobody has seen.
-double gain_elsewhere(const HiddenAxis& axis, std::uint64_t seed, const Diagnosis& d) {
-  using namespace towbench::harness::diagnose;
+double gain_elsewhere(const HiddenAxis& axis, std::uint64_t seed) {
   constexpr std::uint64_t kFarAway = 1'000'000;
   HiddenAxis same = axis;
   same.machine = seed;
-  const Dataset other = make_dataset({run_of(same, make_hidden_log(same, seed + kFarAway))},
-                                     d.data.conditioning, d.data.baseline, everywhere);
-  const HeldOut there(other, d.context, kSameSession);
-  const auto left = [&](const std::vector<Term>& terms, const Evidence& evidence) {
-    return there.residual({terms, evidence.fitted});
-  };
-  return there
-      .gain(left({}, d.selection.before), left(d.selection.terms(), d.selection.after), seed)
-      .ci99.value;
+  towbench::harness::diagnose::Request request;
+  request.model = nominal_of(axis);
+  request.runs = {run_of(axis, make_hidden_log(axis, seed))};
+  request.holdout = {run_of(same, make_hidden_log(same, seed + kFarAway))};
+  return towbench::harness::diagnose::diagnose(request).scored.gain99.value;
 }
 
 void honest(const Seeds& seeds, double strength) {
@@ -245,13 +230,13 @@ void honest(const Seeds& seeds, double strength) {
   for (const auto& effect : all_effects()) {
     HiddenAxis axis;
     axis.effect = effect;
+    axis.size = strength;
     for (int i = seeds.first; i <= seeds.last; ++i) {
       const auto seed = static_cast<std::uint64_t>(i);
-      const HiddenAxis sized = at_strength(axis, strength, seed);
-      const Diagnosis d = diagnose_hidden(sized, seed);
-      if (!d.selection.causes.empty()) {
-        const double here = d.selection.gain.ci99.value;
-        const double there = gain_elsewhere(sized, seed, d);
+      const Diagnosis d = diagnose_hidden(axis, seed);
+      if (!d.causes.empty()) {
+        const double here = d.scored.gain99.value;
+        const double there = gain_elsewhere(axis, seed);
         flattery.push_back(here - there);
         stated += here;
         fmt::print("| {} | {} | {:.2f} % | {:.2f} % |\n", effect, seed, 100 * here, 100 * there);

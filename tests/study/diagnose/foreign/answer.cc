@@ -10,6 +10,7 @@ namespace towbench::tests::foreign {
 namespace {
 
 using Json = nlohmann::json;
+using namespace nlohmann::literals;
 
 Named named(const std::string& name, const Json& entry) {
   Named out{{name}, 1};
@@ -54,7 +55,7 @@ Answer answer_of(const harness::diagnose::Diagnosis& diagnosis) {
   const Json& verdicts = json.at("verdict");
   answer.unexplained = !json.at("unexplained").is_null();
   answer.adequate = std::find(verdicts.begin(), verdicts.end(), "model_adequate") != verdicts.end();
-  const Json& gain = json.at("heldout").at("gain_pct").at("value");
+  const Json gain = json.value("/heldout/gain_pct/value"_json_pointer, Json());
   answer.gain_pct = gain.is_number() ? gain.get<double>() : 0;
   return answer;
 }

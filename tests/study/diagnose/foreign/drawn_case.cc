@@ -144,7 +144,6 @@ DrawnCase draw_case(const Wish& wish, std::uint64_t seed) {
 harness::diagnose::Request request_of(const DrawnCase& one) {
   harness::diagnose::Request request;
   request.model = nominal_model(one.machine);
-  request.seed = one.seed;
   for (const Recording& run : one.runs) {
     (run.plan.held_out ? request.holdout : request.runs).push_back(run_of(one.machine, run));
   }

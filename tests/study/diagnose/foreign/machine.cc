@@ -119,6 +119,7 @@ harness::diagnose::NominalModel nominal_model(const Machine& machine) {
   model.newton_per_volt = machine.input == "volt" ? machine.newton_per_unit : 0;
   model.force_limit_N = machine.limit_N();
   model.no_load_speed_m_per_s = machine.no_load_speed_m_per_s;
+  model.rotary = machine.kind == "joint";
   if (machine.chain_Hz > 0) {
     const double pulsation = kTurn * machine.chain_Hz;
     model.chain.motor_kg = machine.motor_share * machine.mass_kg;

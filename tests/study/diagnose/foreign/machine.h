@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "study/diagnose/nominal_model.h"
+#include "study/prediction/nominal_model.h"
 #include "tests/study/diagnose/foreign/dice.h"
 
 namespace towbench::tests::foreign {

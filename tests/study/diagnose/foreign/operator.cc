@@ -220,12 +220,15 @@ class Pushed : public Follower {
   Pushed(const RunPlan& run, const Machine& machine, const Loop& loop)
       : Follower(run, machine, loop),
         size_N_(machine.coulomb_N * dice_.between(0.4, 1)),
-        every_s_(run.duration_s / 3) {}
+        every_s_(run.duration_s / 4) {}
+  // From one side and from the other, or it were a bias.
   [[nodiscard]] double hand_N(double t_s, double /*x_m*/, double /*v_m_per_s*/) const override {
     constexpr double kLasts_s = 1.5;
     const double since_s = std::fmod(t_s, every_s_) - 0.4 * every_s_;
-    return since_s > 0 && since_s < kLasts_s ? size_N_ * std::sin(0.5 * kTurn * since_s / kLasts_s)
-                                             : 0;
+    const double side = std::fmod(t_s, 2 * every_s_) < every_s_ ? 1 : -1;
+    return since_s > 0 && since_s < kLasts_s
+               ? side * size_N_ * std::sin(0.5 * kTurn * since_s / kLasts_s)
+               : 0;
   }
 
  private:

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "study/diagnose/run.h"
+#include "study/prediction/run.h"
 #include "tests/study/diagnose/foreign/effect.h"
 #include "tests/study/diagnose/foreign/plan.h"
 

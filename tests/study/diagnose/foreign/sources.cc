@@ -6,7 +6,6 @@
 
 #include "study/commands/plant_model.h"
 #include "tests/study/diagnose/bench_case.h"
-#include "tests/study/diagnose/full_strength.h"
 #include "tests/study/diagnose/hidden_case.h"
 
 namespace towbench::tests::foreign {
@@ -81,7 +80,7 @@ Posed pose_hidden_axis(const Wish& wish, std::uint64_t seed) {
       axis.second_effect = dice.pick(kHiddenAxis);
     } while (find(axis.second_effect)->family == find(axis.effect)->family);
   }
-  axis = at_strength(axis, wish.strength, seed);
+  axis.size = axis.second_size = wish.strength;
   Posed posed;
   posed.machine = "hidden_axis";
   posed.plan = axis.open_loop ? "open_loop" : "drawn_reference";
@@ -91,7 +90,6 @@ Posed pose_hidden_axis(const Wish& wish, std::uint64_t seed) {
   }
   posed.request.model = nominal_of(axis);
   posed.request.runs = {run_of(axis, make_hidden_log(axis, seed))};
-  posed.visible = posed.hidden.empty() ? 0 : kFull * wish.strength;
   return posed;
 }
 

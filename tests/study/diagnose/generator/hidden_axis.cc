@@ -64,23 +64,11 @@ class Body {
     load_m_ = s_.x_m;
   }
 
-  // Returns what the nominal law leaves of the command; where the axis stands friction takes what
-  // it must, and nothing is left.
-  double hold(double command_N, double duration_s) {
+  void hold(double command_N, double duration_s) {
     const auto steps = static_cast<int>(std::lround(duration_s / kStep_s));
-    const double speed_before = read_m_per_s();
-    const double read_before = read_m();
-    double direction = 0;
-    bool stood = false;
     for (int i = 0; i < steps; ++i) {
       step(delayed(command_N));
-      stood = stood || s_.v_m_per_s == 0;
-      direction += std::copysign(1.0 / steps, s_.v_m_per_s);
     }
-    const double nominal_N = axis_.mass_kg * (read_m_per_s() - speed_before) / duration_s +
-                             axis_.viscous_N_s_per_m * (read_m() - read_before) / duration_s +
-                             axis_.coulomb_N * direction;
-    return stood ? 0 : command_N - nominal_N;
   }
   [[nodiscard]] double read_m() const { return read_at(s_.x_m); }
 
@@ -99,12 +87,6 @@ class Body {
       x_m += reading_m - read_at(x_m);
     }
     return x_m;
-  }
-  // At this instant: the mean over a step would be half a step old.
-  [[nodiscard]] double read_m_per_s() const {
-    constexpr double kReach_m = 1e-6;
-    return s_.v_m_per_s * (read_at(s_.x_m + kReach_m) - read_at(s_.x_m - kReach_m)) /
-           (2 * kReach_m);
   }
 
   double delayed(double command_N) {
@@ -149,7 +131,7 @@ class Body {
   }
 
   // Motor with a fifth of the mass, the rest behind a spring or a gap. Behind a gap the flanks are
-  // stiff in the diagnosis' band: with none left they hide nothing (FullStrength tests).
+  // stiff in the diagnosis' band: with none left they hide nothing.
   void two_bodies(double push, double hidden) {
     const double motor = 0.21 * axis_.mass_kg;
     const double load = axis_.mass_kg - motor;
@@ -214,7 +196,7 @@ HiddenLog make_hidden_log(const HiddenAxis& axis, std::uint64_t seed) {
     log.time_s.push_back(t_s);
     log.position_m.push_back(read);
     log.duty_pct.push_back(duty);
-    log.lacking_N.push_back(body.hold(duty * axis.newton_per_duty_pct, axis.period_s));
+    body.hold(duty * axis.newton_per_duty_pct, axis.period_s);
   }
   return log;
 }

@@ -33,9 +33,6 @@ struct HiddenAxis {
 
 struct HiddenLog {
   std::vector<double> time_s, position_m, duty_pct, reference_m;
-  // The truth, which no bench would log: what the nominal law leaves of each held command along the
-  // motion as an encoder without steps would read it. Nothing where the axis stands.
-  std::vector<double> lacking_N;
 };
 
 // Draws the motion, the signs and the phases from the seed.

@@ -1,0 +1,113 @@
+#include "study/diagnose/free_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "study/diagnose/series.h"
+#include "study/prediction/axis.h"
+
+namespace towbench::harness::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr Index kFewest = 12;
+constexpr double kStart_s = 0.02;  // whose line is the speed that a whole run begins with
+
+// Squares of the distances at the windows' ends: the state at a start is the corrected one.
+std::vector<double> windows_of(const Data& data, const Model& model, double bandwidth) {
+  std::vector<double> squares;
+  for (std::size_t i = 0; i < data.scenes.size(); ++i) {
+    const Scene& scene = data.scenes[i];
+    const Run& run = *scene.run;
+    const auto length = static_cast<Index>(std::lround(kWindow_s / run.period_s));
+    const auto between = std::max<Index>(1, std::lround(kBetweenStarts_s / run.period_s));
+    const auto settled = static_cast<Index>(std::ceil(6 / (bandwidth * run.period_s)));
+    const double r = std::exp(-bandwidth * run.period_s);
+    Axis axis(model.in_run(i), scene);
+    axis.place(run.position_m[0], 0);
+    for (Index k = 0; k + length < run.size(); ++k) {
+      const double off = run.position_m[k] - axis.reading_m();
+      axis.shift((1 - r * r) * off, (1 - r) * (1 - r) / run.period_s * off);
+      if (k >= settled && k % between == 0) {
+        Axis free = axis;
+        for (Index j = k; j < k + length; ++j) free.step(j);
+        const double end = run.position_m[k + length] - free.reading_m();
+        squares.push_back(end * end);
+      }
+      axis.step(k);
+    }
+  }
+  return squares;
+}
+
+double whole(const Data& data, const Model& model) {
+  std::size_t longest = 0;
+  for (std::size_t i = 0; i < data.scenes.size(); ++i) {
+    if (data.scenes[i].run->size() > data.scenes[longest].run->size()) longest = i;
+  }
+  const Scene& scene = data.scenes[longest];
+  const Run& run = *scene.run;
+  const auto reach = std::clamp<Index>(std::lround(kStart_s / run.period_s), 1, run.size() - 1);
+  Axis axis(model.in_run(longest), scene);
+  axis.place(run.position_m[0], (run.position_m[reach] - run.position_m[0]) /
+                                    (static_cast<double>(reach) * run.period_s));
+  double sum = 0;
+  for (Index k = 0; k < run.size(); ++k) {
+    const double off = run.position_m[k] - axis.reading_m();
+    sum += off * off;
+    axis.step(k);
+  }
+  return std::sqrt(sum / static_cast<double>(run.size()));
+}
+
+VectorXd blocks_of(const std::vector<double>& squares) {
+  constexpr std::size_t kInBlock = 10;  // windows overlap
+  VectorXd out(std::ssize(squares) / static_cast<std::ptrdiff_t>(kInBlock));
+  for (Index i = 0; i < out.size(); ++i) {
+    out[i] = 0;
+    for (std::size_t j = 0; j < kInBlock; ++j) {
+      out[i] += squares[static_cast<std::size_t>(i) * kInBlock + j];
+    }
+  }
+  return out;
+}
+
+double rms(const std::vector<double>& squares) {
+  double sum = 0;
+  for (const double s : squares) sum += s;
+  return std::sqrt(sum / static_cast<double>(squares.size()));
+}
+
+}  // namespace
+
+FreeRun run_free(const Data& data, const Search& search) {
+  const Model supplied{parameters_of(search.context.stated),
+                       std::vector<OfRun>(data.scenes.size())};
+  const auto fits = [&](const Model& model) {
+    return model.of_run.size() == data.scenes.size()
+               ? model
+               : Model{model.parameters, std::vector<OfRun>(data.scenes.size())};
+  };
+  const Model refitted = fits(search.base.fitted.model);
+  const Model extended = fits(search.final.fitted.model);
+  FreeRun out;
+  const double w = force_bandwidth(search.context, extended.parameters[Key::kMass]);
+  const auto before = windows_of(data, supplied, w);
+  const auto after = windows_of(data, extended, w);
+  out.whole_supplied_m = whole(data, supplied);
+  out.whole_refitted_m = whole(data, refitted);
+  out.whole_extended_m = whole(data, extended);
+  if (std::ssize(before) < kFewest) return out;
+  out.windows = std::ssize(before);
+  out.supplied_m = rms(before);
+  out.refitted_m = rms(windows_of(data, refitted, w));
+  out.extended_m = rms(after);
+  const Comparison gain = compare(blocks_of(before), blocks_of(after), 1.96);
+  out.gain95 = {gain.gain, gain.low, gain.high};
+  return out;
+}
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,69 @@
+#include "study/diagnose/momentum.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "study/diagnose/motion.h"
+
+namespace towbench::harness::diagnose {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kImpulse_s = 0.04;
+constexpr double kSteps = 8;  // of the encoder, that a window's way at top speed must exceed
+
+// Longer where the encoder is coarse beside the motion.
+double window_of(const Run& run) {
+  const double way = (run.position_m.maxCoeff() - run.position_m.minCoeff()) /
+                     (run.period_s * static_cast<double>(run.size()));
+  return std::clamp(kSteps * run.resolution_m / std::max(1e-300, 4 * way), kImpulse_s, 0.3);
+}
+
+}  // namespace
+
+Momentum fit_momentum(const std::vector<Run>& runs, double shift_s) {
+  std::vector<std::array<double, 5>> rows;
+  for (const Run& run : runs) {
+    const double window_s = std::max(window_of(run), 4 * run.period_s);
+    const Motion m = motion_of(run, std::max(kSmooth_s, 0.25 * window_s));
+    const auto w = static_cast<Index>(std::lround(window_s / run.period_s));
+    const auto shift = static_cast<Index>(std::lround(shift_s / run.period_s));
+    for (Index from = 0; from + w < run.size(); from += w) {
+      double impulse = 0;
+      double direction = 0;
+      for (Index i = from; i < from + w; ++i) {
+        impulse += run.input_N[std::clamp<Index>(i + shift, 0, run.size() - 1)];
+        impulse -= run.known_N.size() > 0 ? run.known_N[i] : 0;
+        const double v = m.speed_m_per_s[i];
+        direction += v > 0 ? 1 : v < 0 ? -1 : 0;
+      }
+      const double T = run.period_s;
+      const double way = run.position_m[from + w] - run.position_m[from];
+      if (std::abs(way) <= 2 * run.resolution_m) continue;  // it may stand
+      rows.push_back({m.speed_m_per_s[from + w] - m.speed_m_per_s[from], way, direction * T,
+                      static_cast<double>(w) * T, impulse * T});
+    }
+  }
+  Momentum out;
+  out.windows = std::ssize(rows);
+  if (out.windows < 12) return out;
+  Eigen::MatrixXd x(out.windows, 4);
+  Eigen::VectorXd y(out.windows);
+  for (Index i = 0; i < out.windows; ++i) {
+    const auto& row = rows[static_cast<std::size_t>(i)];
+    x.row(i) << row[0], row[1], row[2], row[3];
+    y[i] = row[4];
+  }
+  const Eigen::VectorXd b = x.colPivHouseholderQr().solve(y);
+  const double about = (y.array() - y.mean()).square().sum();
+  out.mass_kg = b[0];
+  out.viscous_N_s_per_m = b[1];
+  out.coulomb_N = b[2];
+  out.bias_N = b[3];
+  out.explained = 1 - (y - x * b).squaredNorm() / std::max(1e-300, about);
+  return out;
+}
+
+}  // namespace towbench::harness::diagnose

@@ -1,0 +1,24 @@
+// Momentum over windows: M dv + B dq + C [direction] dt + b dt = sum of the input. A first fit
+// without a simulation, and what tells whether the columns are what they are said to be.
+#pragma once
+
+#include <vector>
+
+#include "study/prediction/nominal_model.h"
+#include "study/prediction/run.h"
+
+namespace towbench::harness::diagnose {
+
+struct Momentum {
+  double mass_kg = 0;
+  double viscous_N_s_per_m = 0;
+  double coulomb_N = 0;
+  double bias_N = 0;
+  double explained = 0;  // share of the impulse's energy about its mean
+  Eigen::Index windows = 0;
+};
+
+// With the input moved by `shift_s` against the position.
+[[nodiscard]] Momentum fit_momentum(const std::vector<Run>& runs, double shift_s);
+
+}  // namespace towbench::harness::diagnose

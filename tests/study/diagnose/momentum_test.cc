@@ -1,0 +1,51 @@
+// The first fit without a simulation, on a motion whose force is known in closed form.
+#include "study/diagnose/momentum.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace towbench::tests {
+namespace {
+
+using namespace harness::diagnose;
+
+// x = A (1 - cos w t) / 2; each input is the force in the middle of its period.
+Run swinging_body() {
+  constexpr double kAmplitude_m = 0.6;
+  constexpr double kSpeed_rad_per_s = 2 * std::numbers::pi * 0.4;
+  Run run;
+  run.period_s = 1e-3;
+  run.position_m.resize(20'000);
+  run.input_N.resize(20'000);
+  for (Eigen::Index i = 0; i < run.size(); ++i) {
+    const double phase = kSpeed_rad_per_s * run.period_s * static_cast<double>(i);
+    const double mid = phase + 0.5 * kSpeed_rad_per_s * run.period_s;
+    const double v = 0.5 * kAmplitude_m * kSpeed_rad_per_s * std::sin(mid);
+    const double a = 0.5 * kAmplitude_m * kSpeed_rad_per_s * kSpeed_rad_per_s * std::cos(mid);
+    run.position_m[i] = 0.5 * kAmplitude_m * (1 - std::cos(phase));
+    run.input_N[i] = 8 * a + 5 * v + 2 * (v > 0 ? 1 : -1) + 0.4;
+  }
+  run.missing.assign(20'000, 0);
+  return run;
+}
+
+TEST(Momentum, HasTheFourParametersOfTheClosedForm) {
+  const Momentum fit = fit_momentum({swinging_body()}, 0);
+  EXPECT_NEAR(fit.mass_kg, 8, 0.08);
+  EXPECT_NEAR(fit.viscous_N_s_per_m, 5, 0.1);
+  EXPECT_NEAR(fit.coulomb_N, 2, 0.04);
+  EXPECT_NEAR(fit.bias_N, 0.4, 0.02);
+  EXPECT_GT(fit.explained, 0.999);
+}
+
+TEST(Momentum, ExplainsLessWhereTheInputIsLate) {
+  const harness::diagnose::Run run = swinging_body();
+  // A sine that is late is a sum of its speed and acceleration; dry friction is not.
+  const double aligned = fit_momentum({run}, 0).explained;
+  EXPECT_LT(1 - aligned, 0.5 * (1 - fit_momentum({run}, 0.2).explained));
+}
+
+}  // namespace
+}  // namespace towbench::tests
