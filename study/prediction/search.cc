@@ -20,11 +20,10 @@ constexpr double kBeyondDoubt = 1e-12;          // a p-value that needs no count
 constexpr double kLeastForce = 0.001;           // of the input's rms
 constexpr double kLeastOfStated = 0.03;         // by which what the model states must be off
 constexpr double kStructured = 0.1;             // that innovations predict of themselves
-constexpr double kFreeGain = 0.5;               // least own gain of a free shape or a clip there
-constexpr double kLeastOfStructured = 1.0 / 3;  // least gain of all together there
-constexpr double kPlainGain = 0.05;             // of any other, two standard errors below it
-constexpr double kSwap = 1;   // standard errors by which another cause must be better
-constexpr double kAlias = 2;  // below which two are told apart by nothing
+constexpr double kMuch = 1.0 / 3;    // least gain there of all, and of a free shape or a clip
+constexpr double kPlainGain = 0.05;  // of any other, two standard errors below it
+constexpr double kSwap = 1;          // standard errors by which another cause must be better
+constexpr double kAlias = 2;         // below which two are told apart by nothing
 
 class Searcher {
  public:
@@ -78,8 +77,7 @@ class Searcher {
       return false;
     }
     const State base = make_state(frame_, {}, out_.base.fitted.model);
-    const bool little =
-        !out_.causes.empty() && compare(base.loss, now.loss, 2).gain < kLeastOfStructured;
+    const bool little = !out_.causes.empty() && compare(base.loss, now.loss, 2).gain < kMuch;
     if (little) {
       drop(now, weakest());
       return true;
@@ -89,7 +87,7 @@ class Searcher {
       for (std::size_t i = 0; i < out_.causes.size(); ++i) {
         const Cause& cause = out_.causes[i];
         const bool shape = is_free(cause) || cause.effect->whole != 0;
-        if (shape == free && (free ? cause.gain.gain < kFreeGain : cause.gain.low < kPlainGain)) {
+        if (shape == free && (free ? cause.gain.gain < kMuch : cause.gain.low < kPlainGain)) {
           drop(now, i);
           return true;
         }
