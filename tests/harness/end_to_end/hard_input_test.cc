@@ -102,7 +102,8 @@ TEST(HardInput, AHangUpEndsARunInOrder) {
   TemporaryFixtures files;
   const auto output = tests::output_of(
       "bash -c '" + std::string(TOWBENCH_PROGRAM) + " run circles-20min --no-report -q --out " +
-      files.folder().string() + " & sleep 0.3; kill -HUP $!; wait $!'");
+      files.folder().string() + " & until ls " + files.folder().string() +
+      "/*/log.csv; do sleep 0.02; done >/dev/null 2>&1; kill -HUP $!; wait $!'");
   EXPECT_EQ(output.code, kExitRuntime) << output.text;
   for (const auto& entry : std::filesystem::directory_iterator(files.folder())) {
     EXPECT_EQ(json_of(entry.path() / "result.json").at("reason"), "interrupted");
