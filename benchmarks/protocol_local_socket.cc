@@ -1,5 +1,5 @@
 // A lockstep exchange over the local socket against a bare ping-pong of the same bytes on the same
-// kind of socket, between two processes on one core.
+// kind of socket, between two processes on one core, and on as many as there are.
 #include <array>
 #include <cstdlib>
 
@@ -16,10 +16,12 @@
 namespace towbench::protocol {
 namespace {
 
-void pin_to_one_core() {
+void pin_to(std::int64_t cores) {
   cpu_set_t set;
   CPU_ZERO(&set);
-  CPU_SET(0, &set);
+  for (std::size_t core = 0; core < static_cast<std::size_t>(cores); ++core) {
+    CPU_SET(core, &set);
+  }
   sched_setaffinity(0, sizeof(set), &set);
 }
 
@@ -45,7 +47,7 @@ class AnsweringPlant final : public MessageSink {
 
 void lockstep_exchange(benchmark::State& state) {
   const auto edges = static_cast<std::size_t>(state.range(0));
-  pin_to_one_core();
+  pin_to(state.range(1));
   auto ends = LocalSocket::pair();
   const pid_t child = fork();
   if (child == 0) {
@@ -84,7 +86,7 @@ void bare_ping_pong(benchmark::State& state) {
   const auto edges = static_cast<std::size_t>(state.range(0));
   const std::size_t out = 2 * (13 + 6) + 9 + 6;
   const std::size_t in = 2 * (kEdgesHeaderSize + 4 * edges + 6) + 9 + 6;
-  pin_to_one_core();
+  pin_to(state.range(1));
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0) {
     state.SkipWithError("no socket pair");
@@ -113,8 +115,17 @@ void bare_ping_pong(benchmark::State& state) {
   waitpid(child, nullptr, 0);
 }
 
-BENCHMARK(bare_ping_pong)->Arg(0)->Arg(27)->Arg(265)->UseRealTime();
-BENCHMARK(lockstep_exchange)->Arg(0)->Arg(27)->Arg(265)->UseRealTime();
+void edges_and_cores(benchmark::internal::Benchmark* b) {
+  for (const std::int64_t cores : {1, 2}) {
+    for (const std::int64_t edges : {0, 27, 265}) {
+      b->Args({edges, cores});
+    }
+  }
+  b->UseRealTime();
+}
+
+BENCHMARK(bare_ping_pong)->Apply(edges_and_cores);
+BENCHMARK(lockstep_exchange)->Apply(edges_and_cores);
 
 }  // namespace
 }  // namespace towbench::protocol
