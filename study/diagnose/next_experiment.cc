@@ -41,6 +41,7 @@ Run driven(const Scene& like, const Model& model, const TrialMotion& motion) {
     run.input_N[k] = mass * (w * w * (run.reference_m[k] - run.position_m[k]) +
                              2 * w * (speed - axis.speed_m_per_s()));
     scene.impulse_Ns[k] = impulse;
+    scene.set_means(k);
     impulse += run.input_N[k] * run.period_s;
     axis.step(k);
   }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "study/diagnose/motion.h"
+#include "study/prediction/in_parallel.h"
 
 namespace towbench::harness::diagnose {
 namespace {

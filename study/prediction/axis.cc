@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 namespace towbench::harness::diagnose {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kLongestStep_s = 5e-4;
 constexpr double kStepsPerMode = 25;  // substeps in a period of the chain's mode
 
 double sign(double x) {
@@ -17,6 +17,8 @@ double sign(double x) {
 
 double wave(double cosine, double sine, double turns) {
   const double angle = kTurn * turns;
+  if (sine == 0) return cosine * std::cos(angle);
+  if (cosine == 0) return sine * std::sin(angle);
   return cosine * std::cos(angle) + sine * std::sin(angle);
 }
 
@@ -32,6 +34,10 @@ double shape(const Parameters& p, Key first, double cosine) {
     now = after;
   }
   return sum;
+}
+
+bool any(const Parameters& p, std::initializer_list<Key> keys) {
+  return std::any_of(keys.begin(), keys.end(), [&](Key key) { return p[key] != 0; });
 }
 
 bool any_shape(const Parameters& p) {
@@ -51,17 +57,39 @@ Axis::Axis(const Parameters& parameters, const Scene& scene)
       middle_m_(0.5 * (scene.stroke_min_m + scene.stroke_max_m)),
       per_stroke_(std::numbers::pi / (scene.stroke_max_m - scene.stroke_min_m)),
       shapes_(any_shape(parameters)),
-      two_(parameters[Key::kMotorMass] > 0) {
-  double longest = kLongestStep_s;
+      two_(parameters[Key::kMotorMass] > 0),
+      drive_(any(p_, {Key::kDeadband, Key::kClipShare, Key::kStallShare, Key::kLag,
+                      Key::kOutOfRoundPerMetre})),
+      on_motor_(any(p_, {Key::kRipplePerMetre, Key::kPeriodicHertz, Key::kOtherMass,
+                         Key::kOtherViscous}) ||
+                scene.run->known_N.size() > 0 || scene.extra_N.size() > 0),
+      on_load_(shapes_ || any(p_, {Key::kViscousAsymmetry, Key::kDrag, Key::kCubic, Key::kCable,
+                                   Key::kGravityCosine, Key::kGravitySine})),
+      dry_(any(p_, {Key::kCoulombAsymmetry, Key::kStribeck, Key::kRolloff, Key::kPresliding,
+                    Key::kWarming, Key::kBreakaway, Key::kWorkWarming})) {
+  const double load = p_[Key::kMass] - p_[Key::kMotorMass];
+  substeps_ = scene.substeps;
   if (two_) {
-    const double load = p_[Key::kMass] - p_[Key::kMotorMass];
     const double reduced = load * p_[Key::kMotorMass] / p_[Key::kMass];
-    longest = std::min(longest, kTurn * std::sqrt(reduced / p_[Key::kStiffness]) / kStepsPerMode);
+    const double longest =
+        std::min(kLongestStep_s, kTurn * std::sqrt(reduced / p_[Key::kStiffness]) / kStepsPerMode);
+    substeps_ = std::max(1, static_cast<int>(std::ceil(scene.run->period_s / longest - 1e-9)));
   }
-  substeps_ = std::max(1, static_cast<int>(std::ceil(scene.run->period_s / longest - 1e-9)));
+  h_ = scene.run->period_s / substeps_;
+  if (two_) {
+    motor_slides_ = sliding(p_[Key::kMotorMass], 1 - p_[Key::kLoadShare], false);
+    load_slides_ = sliding(load, p_[Key::kLoadShare], true);
+  } else {
+    motor_slides_ = sliding(p_[Key::kMass], 1, true);
+  }
   if (p_[Key::kWarming] != 0) {
     warm_end_ = 1 - std::exp(-scene.session_length_s / p_[Key::kWarmingTime]);
   }
+}
+
+Axis::Sliding Axis::sliding(double mass_kg, double share, bool load) const {
+  const double per_newton = h_ / mass_kg;
+  return {per_newton, 1 / (1 + per_newton * share * p_[Key::kViscous]), share, load};
 }
 
 void Axis::place(double position_m, double speed_m_per_s) {
@@ -88,14 +116,24 @@ double Axis::reading_m() const {
 }
 
 void Axis::step(Eigen::Index k) {
-  const double h = scene_.run->period_s / substeps_;
+  const bool at_once = p_[Key::kDelay] == 0 && substeps_ == scene_.substeps;
   for (int i = 0; i < substeps_; ++i) {
-    substep(static_cast<double>(k) * scene_.run->period_s + i * h, h, k);
+    const double t_s = static_cast<double>(k) * scene_.run->period_s + i * h_;
+    const double mean_N =
+        at_once ? scene_.mean_N[k * substeps_ + i] : scene_.mean_input_N(t_s - p_[Key::kDelay], h_);
+    if (two_) {
+      substep<true>(t_s, mean_N, k);
+    } else {
+      substep<false>(t_s, mean_N, k);
+    }
   }
 }
 
-double Axis::driven_N(double input_N, double h) {
+double Axis::driven_N(double input_N) {
   double drive = (1 - p_[Key::kGainLoss]) * input_N;
+  if (!drive_) {
+    return drive;
+  }
   if (p_[Key::kDeadband] > 0) {
     drive = sign(drive) * std::max(0.0, std::abs(drive) - p_[Key::kDeadband]);
   }
@@ -109,8 +147,8 @@ double Axis::driven_N(double input_N, double h) {
     drive -= p_[Key::kStallShare] * sign(drive) * std::max(0.0, std::abs(drive) - level);
   }
   if (p_[Key::kLag] > 0) {
-    const double gone = 1 - std::exp(-h / p_[Key::kLag]);
-    const double mean = drive + (lagged_N_ - drive) * gone * p_[Key::kLag] / h;
+    const double gone = 1 - std::exp(-h_ / p_[Key::kLag]);
+    const double mean = drive + (lagged_N_ - drive) * gone * p_[Key::kLag] / h_;
     lagged_N_ += (drive - lagged_N_) * gone;
     drive = mean;
   }
@@ -124,6 +162,9 @@ double Axis::driven_N(double input_N, double h) {
 double Axis::on_motor_N(double t_s, Eigen::Index k) const {
   const double x = motor_.x;
   double force = 0;
+  if (!on_motor_) {
+    return force;
+  }
   if (p_[Key::kRipplePerMetre] != 0) {
     force += wave(p_[Key::kRippleCosine], p_[Key::kRippleSine], p_[Key::kRipplePerMetre] * x);
   }
@@ -146,6 +187,9 @@ double Axis::on_motor_N(double t_s, Eigen::Index k) const {
 double Axis::on_load_N(const Body& body) const {
   const double x = body.x;
   const double v = body.v;
+  if (!on_load_) {
+    return p_[Key::kBias];
+  }
   const double speed = std::abs(v);
   double force = p_[Key::kBias] + p_[Key::kViscousAsymmetry] * speed + p_[Key::kDrag] * v * speed +
                  p_[Key::kCubic] * v * v * v + p_[Key::kCable] * (x - middle_m_);
@@ -160,6 +204,9 @@ double Axis::on_load_N(const Body& body) const {
 }
 
 double Axis::shared_dry_N(const Body& body, double direction, double t_s) const {
+  if (!dry_) {
+    return p_[Key::kCoulomb];
+  }
   const double speed = std::abs(body.v);
   double asymmetry_N = p_[Key::kCoulombAsymmetry] * direction;
   double level = p_[Key::kCoulomb];
@@ -200,42 +247,39 @@ double Axis::load_dry_N(const Body& body, double drive_N) const {
   return level;
 }
 
-void Axis::slide(Body& body, double force_N, const Sliding& with, double drive_N, double t_s,
-                 double h) const {
-  const double viscous = with.share * p_[Key::kViscous];
-  const double free = (body.v + h * force_N / with.mass_kg) / (1 + h * viscous / with.mass_kg);
+void Axis::slide(Body& body, const Sliding& how, double force_N, double drive_N, double t_s) const {
+  const double free = (body.v + how.per_newton * force_N) * how.left;
   const double direction = body.v != 0 && !body.stands ? sign(body.v) : sign(free);
   const double dry =
-      with.share * shared_dry_N(body, direction, t_s) + (with.load ? load_dry_N(body, drive_N) : 0);
-  const double loss = h * std::max(0.0, dry) / with.mass_kg;
+      how.share * shared_dry_N(body, direction, t_s) + (how.load ? load_dry_N(body, drive_N) : 0);
+  const double loss = how.per_newton * std::max(0.0, dry);
   const double before = std::abs(body.v);
   body.stands = std::abs(free) <= loss;
-  body.v = body.stands ? 0.0 : free - sign(free) * loss;
+  body.v = body.stands ? 0.0 : free - std::copysign(loss, free);
   body.leaves = std::abs(body.v) >= before;
 }
 
 // Forces act in the middle of the step's way (leapfrog): second order, and no phase of its own.
-void Axis::substep(double t_s, double h, Eigen::Index k) {
-  const double drive = driven_N(scene_.mean_input_N(t_s - p_[Key::kDelay], h), h);
-  motor_.x += 0.5 * h * motor_.v;
-  load_.x += 0.5 * h * load_.v;
+template <bool two>
+void Axis::substep(double t_s, double mean_N, Eigen::Index k) {
+  const double drive = driven_N(mean_N);
+  motor_.x += 0.5 * h_ * motor_.v;
+  if constexpr (two) load_.x += 0.5 * h_ * load_.v;
   const double on_motor = drive - on_motor_N(t_s, k);
-  if (!two_) {
-    slide(motor_, on_motor - on_load_N(motor_), {p_[Key::kMass], 1, true}, drive, t_s, h);
-  } else {
+  if constexpr (two) {
     const double chain = chain_N();
-    const double share = p_[Key::kLoadShare];
-    const double motor_kg = p_[Key::kMotorMass];
-    slide(motor_, on_motor - chain, {motor_kg, 1 - share, false}, drive, t_s, h);
-    slide(load_, chain - on_load_N(load_), {p_[Key::kMass] - motor_kg, share, true}, chain, t_s, h);
+    slide(motor_, motor_slides_, on_motor - chain, drive, t_s);
+    slide(load_, load_slides_, chain - on_load_N(load_), chain, t_s);
+  } else {
+    slide(motor_, motor_slides_, on_motor - on_load_N(motor_), drive, t_s);
   }
-  motor_.x += 0.5 * h * motor_.v;
-  load_.x += 0.5 * h * load_.v;
+  motor_.x += 0.5 * h_ * motor_.v;
+  if constexpr (two) load_.x += 0.5 * h_ * load_.v;
   if (p_[Key::kWorkWarming] != 0) {
     // What friction dissipates, beside cold Coulomb friction at top speed.
     const double power =
         std::abs(motor_.v) / scene_.top_speed_m_per_s * (1 - p_[Key::kWorkWarming] * warmth_);
-    warmth_ += h / p_[Key::kWorkWarmingTime] * (power - warmth_);
+    warmth_ += h_ / p_[Key::kWorkWarmingTime] * (power - warmth_);
   }
   if (p_[Key::kPresliding] != 0) {
     follow_reversals();

@@ -30,32 +30,43 @@ class Axis {
     bool leaves = false;  // faster than a step ago
   };
 
+  // How a body slides: constant over a prediction.
+  struct Sliding {
+    double per_newton = 0;  // m/s that a newton gives in a substep
+    double left = 1;        // of the speed, by viscous friction in a substep
+    double share = 1;       // of dry friction
+    bool load = true;       // has the load's own friction
+  };
+  [[nodiscard]] Sliding sliding(double mass_kg, double share, bool load) const;
+  template <bool two>
+  void substep(double t_s, double mean_N, Eigen::Index k);
   [[nodiscard]] double chain_N() const;
-  void substep(double t_s, double h, Eigen::Index k);
-  [[nodiscard]] double driven_N(double input_N, double h);
+  [[nodiscard]] double driven_N(double input_N);
   // What resists whatever the direction: where the motor is felt, and at the load.
   [[nodiscard]] double on_motor_N(double t_s, Eigen::Index k) const;
   [[nodiscard]] double on_load_N(const Body& body) const;
   // Dry friction: of both bodies by their shares, and of the load alone.
   [[nodiscard]] double shared_dry_N(const Body& body, double direction, double t_s) const;
   [[nodiscard]] double load_dry_N(const Body& body, double drive_N) const;
-  struct Sliding {
-    double mass_kg;
-    double share;  // of viscous and dry friction
-    bool load;     // has the load's own friction
-  };
-  void slide(Body& body, double force_N, const Sliding& with, double drive_N, double t_s,
-             double h) const;
+  void slide(Body& body, const Sliding& how, double force_N, double drive_N, double t_s) const;
   void follow_reversals();
 
   Parameters p_;
   const Scene& scene_;
   int substeps_ = 1;
+  double h_ = 0;  // of a substep, s
   double middle_m_;
   double per_stroke_;  // radians of the slowest shape a metre
   double warm_end_ = 1;
   bool shapes_ = false;
   bool two_ = false;
+  // Whether anything beyond the base parameters acts there.
+  bool drive_ = false;
+  bool on_motor_ = false;
+  bool on_load_ = false;
+  bool dry_ = false;
+  Sliding motor_slides_;
+  Sliding load_slides_;
   Body motor_;
   Body load_;
   double lagged_N_ = 0;

@@ -7,6 +7,8 @@
 
 #include <boost/math/distributions/fisher_f.hpp>
 
+#include "study/prediction/in_parallel.h"
+
 namespace towbench::harness::diagnose {
 namespace {
 
@@ -19,16 +21,6 @@ constexpr double kMemories = 8;  // time constants of the correction in a block,
 constexpr double kShortest_s = 0.2;
 constexpr Index kMostBlocks = 120;
 constexpr double kNothing = 1e-12;  // of a column's square: depends on the others
-
-MatrixXd part(const MatrixXd& gram, const Columns& rows, const Columns& columns) {
-  MatrixXd out(std::ssize(rows), std::ssize(columns));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (std::size_t j = 0; j < columns.size(); ++j) {
-      out(static_cast<Index>(i), static_cast<Index>(j)) = gram(rows[i], columns[j]);
-    }
-  }
-  return out;
-}
 
 // Columns differ in size by their units.
 VectorXd solve_scaled(MatrixXd gram, const VectorXd& right) {
@@ -44,6 +36,19 @@ MatrixXd inverse_scaled(MatrixXd gram) {
   gram.diagonal().array() += kNothing;
   return scale.asDiagonal() * gram.ldlt().solve(MatrixXd::Identity(gram.rows(), gram.cols())) *
          scale.asDiagonal();
+}
+
+// What is left of a block's squared error.
+double left_of(const MatrixXd& gram, Index error, const Columns& of, const VectorXd& b) {
+  double left = gram(error, error);
+  for (std::size_t j = 0; j < of.size(); ++j) {
+    double row = -2 * gram(of[j], error);
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      row += gram(of[i], of[j]) * b[static_cast<Index>(i)];
+    }
+    left += row * b[static_cast<Index>(j)];
+  }
+  return std::max(0.0, left);
 }
 
 double survival(double f, double k, double rest) {
@@ -88,32 +93,40 @@ Blocks::Blocks(const MatrixXd& all, const std::vector<Span>& spans, VectorXd rid
     ridge_ = VectorXd::Zero(error_);
   }
   samples_ = static_cast<double>((all.col(error_).array() != 0).count());
-  gram_.reserve(spans.size());
-  for (const Span& span : spans) {
-    const auto rows = all.middleRows(span.from, span.to - span.from);
-    gram_.emplace_back(rows.transpose() * rows);
-    sum_ += gram_.back();
+  gram_.resize(spans.size());
+  in_parallel(spans.size(), [&](std::size_t i) {
+    const auto rows = all.middleRows(spans[i].from, spans[i].to - spans[i].from);
+    MatrixXd& gram = gram_[i];
+    gram = MatrixXd::Zero(all.cols(), all.cols());
+    gram.selfadjointView<Eigen::Upper>().rankUpdate(rows.transpose());
+    gram.triangularView<Eigen::StrictlyLower>() = gram.transpose();
+  });
+  for (const MatrixXd& gram : gram_) sum_ += gram;
+  const Index folds = std::min<Index>(kFolds, std::ssize(gram_));
+  without_.assign(static_cast<std::size_t>(folds), sum_);
+  for (std::size_t i = 0; i < gram_.size(); ++i) {
+    without_[i % without_.size()] -= gram_[i];
   }
 }
 
 VectorXd Blocks::solve(const MatrixXd& gram, const Columns& of) const {
-  MatrixXd a = part(gram, of, of);
+  MatrixXd a = gram(of, of);
   for (std::size_t j = 0; j < of.size(); ++j) {
     a(static_cast<Index>(j), static_cast<Index>(j)) += ridge_[of[j]];
   }
-  return solve_scaled(a, part(gram, of, {error_}).col(0));
+  return solve_scaled(a, gram(of, error_));
 }
 
 Fit Blocks::fit(const Columns& of) const {
   Fit out;
   out.b = solve(sum_, of);
-  MatrixXd a = part(sum_, of, of);
+  MatrixXd a = sum_(of, of);
   for (std::size_t j = 0; j < of.size(); ++j) {
     a(static_cast<Index>(j), static_cast<Index>(j)) += ridge_[of[j]];
   }
   MatrixXd meat = MatrixXd::Zero(a.rows(), a.cols());
   for (const MatrixXd& gram : gram_) {
-    const VectorXd score = part(gram, of, {error_}).col(0) - part(gram, of, of) * out.b;
+    const VectorXd score = gram(of, error_) - gram(of, of) * out.b;
     meat += score * score.transpose();
   }
   const auto n = static_cast<double>(gram_.size());
@@ -130,8 +143,8 @@ GroupTest Blocks::test(const Columns& others, const Columns& group) const {
   // What of each column the others cannot make.
   out.own_share = 1;
   for (const Index g : group) {
-    const VectorXd by = solve_scaled(part(sum_, others, others), part(sum_, others, {g}).col(0));
-    const double left = sum_(g, g) - by.dot(part(sum_, others, {g}).col(0));
+    const VectorXd by = solve_scaled(sum_(others, others), sum_(others, g));
+    const double left = sum_(g, g) - by.dot(sum_(others, g));
     out.own_share =
         std::min(out.own_share, std::sqrt(std::max(0.0, left) / std::max(1e-300, sum_(g, g))));
   }
@@ -140,11 +153,12 @@ GroupTest Blocks::test(const Columns& others, const Columns& group) const {
   const MatrixXd v = fitted.covariance.bottomRightCorner(k, k);
   out.p_value = wald(b, v, gram_.size());
   out.statistic = b.dot(solve_scaled(v, b));
+  out.b = b;
   // b' (what the group has of its own) b, by Schur's complement.
-  const MatrixXd cross = part(sum_, others, group);
+  const MatrixXd cross = sum_(others, group);
   VectorXd taken(std::ssize(others));
-  taken = solve_scaled(part(sum_, others, others), cross * b);
-  const double square = b.dot(part(sum_, group, group) * b) - taken.dot(cross * b);
+  taken = solve_scaled(sum_(others, others), cross * b);
+  const double square = b.dot(sum_(group, group) * b) - taken.dot(cross * b);
   out.rms = std::sqrt(std::max(0.0, square) / std::max(1.0, samples_));
   return out;
 }
@@ -152,28 +166,17 @@ GroupTest Blocks::test(const Columns& others, const Columns& group) const {
 VectorXd Blocks::squared(const Columns& of, const VectorXd& b) const {
   VectorXd out(std::ssize(gram_));
   for (std::size_t i = 0; i < gram_.size(); ++i) {
-    const MatrixXd& g = gram_[i];
-    out[static_cast<Index>(i)] =
-        std::max(0.0, g(error_, error_) - 2 * b.dot(part(g, of, {error_}).col(0)) +
-                          b.dot(part(g, of, of) * b));
+    out[static_cast<Index>(i)] = left_of(gram_[i], error_, of, b);
   }
   return out;
 }
 
 VectorXd Blocks::predicted(const Columns& of) const {
-  const auto n = std::ssize(gram_);
-  const Index folds = std::min<Index>(kFolds, n);
-  VectorXd out(n);
-  for (Index fold = 0; fold < folds; ++fold) {
-    MatrixXd rest = sum_;
-    for (Index i = fold; i < n; i += folds) {
-      rest -= gram_[static_cast<std::size_t>(i)];
-    }
-    const VectorXd b = solve(rest, of);
-    for (Index i = fold; i < n; i += folds) {
-      const MatrixXd& g = gram_[static_cast<std::size_t>(i)];
-      out[i] = std::max(0.0, g(error_, error_) - 2 * b.dot(part(g, of, {error_}).col(0)) +
-                                 b.dot(part(g, of, of) * b));
+  VectorXd out(std::ssize(gram_));
+  for (std::size_t fold = 0; fold < without_.size(); ++fold) {
+    const VectorXd b = solve(without_[fold], of);
+    for (std::size_t i = fold; i < gram_.size(); i += without_.size()) {
+      out[static_cast<Index>(i)] = left_of(gram_[i], error_, of, b);
     }
   }
   return out;

@@ -36,6 +36,7 @@ struct GroupTest {
   double statistic = 0;  // b' V^-1 b
   double rms = 0;        // of what the group explains beside the others, a sample
   double own_share = 0;  // of the group's columns, what the others cannot make; the least of them
+  Eigen::VectorXd b;     // the group's coefficients beside the others
 };
 
 class Blocks {
@@ -58,6 +59,7 @@ class Blocks {
 
   std::vector<Eigen::MatrixXd> gram_;
   Eigen::MatrixXd sum_;
+  std::vector<Eigen::MatrixXd> without_;  // a fold
   Eigen::VectorXd ridge_;
   Eigen::Index error_;
   double samples_ = 0;  // of which something can be said

@@ -2,9 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <thread>
+
+#include "study/prediction/in_parallel.h"
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -45,22 +45,6 @@ Model moved(const Model& from, const std::vector<Freedom>& free, const VectorXd&
 }
 
 }  // namespace
-
-void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next{0};
-  const auto take = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
-      work(i);
-    }
-  };
-  const std::size_t workers =
-      std::min<std::size_t>(count, std::max(1U, std::thread::hardware_concurrency()));
-  std::vector<std::jthread> others;
-  for (std::size_t w = 1; w < workers; ++w) {
-    others.emplace_back(take);
-  }
-  take();
-}
 
 std::vector<Freedom> base_freedoms(const Context& c, std::size_t runs) {
   const double force = 0.01 * c.input_rms_N;

@@ -2,7 +2,6 @@
 // one more prediction each.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "study/prediction/blocks.h"
@@ -43,8 +42,5 @@ struct Fitted {
 
 // Of the correction, where the innovations are least; rad/s.
 [[nodiscard]] double best_bandwidth(const Data& data, const Context& context, const Model& model);
-
-// Calls `work` for 0 .. count-1 on the processors there are.
-void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work);
 
 }  // namespace towbench::harness::diagnose

@@ -24,7 +24,10 @@ VectorXd speed_of(const VectorXd& x, double period_s, Index reach) {
 }  // namespace
 
 Scene::Scene(const Run& given, const NominalModel& model)
-    : run(&given), stated(&model), held(model.input_is_held) {
+    : run(&given),
+      stated(&model),
+      held(model.input_is_held),
+      substeps(std::max(1, static_cast<int>(std::ceil(given.period_s / kLongestStep_s - 1e-9)))) {
   const VectorXd& u = run->input_N;
   impulse_Ns.resize(u.size());
   double sum = 0;
@@ -33,10 +36,20 @@ Scene::Scene(const Run& given, const NominalModel& model)
     const double next = i + 1 < u.size() ? u[i + 1] : u[i];
     sum += run->period_s * (held ? u[i] : 0.5 * (u[i] + next));
   }
+  mean_N.resize(u.size() * substeps);
+  for (Index i = 0; i < u.size(); ++i) set_means(i);
   if (run->other_position_m.size() == run->size()) {
     const auto reach = std::max<Index>(2, std::lround(0.01 / run->period_s));
     other_m_per_s = speed_of(run->other_position_m, run->period_s, reach);
     other_m_per_s2 = speed_of(other_m_per_s, run->period_s, reach);
+  }
+}
+
+void Scene::set_means(Index k) noexcept {
+  const double h = run->period_s / substeps;
+  for (int i = 0; i < substeps; ++i) {
+    mean_N[k * substeps + i] =
+        mean_input_N(static_cast<double>(k) * run->period_s + static_cast<double>(i) * h, h);
   }
 }
 

@@ -11,6 +11,8 @@ namespace towbench::harness::diagnose {
 // Dry friction that the stated model has at a place, (3.34); zero where it has none.
 [[nodiscard]] double stated_friction_N(const NominalModel& stated, double at_m) noexcept;
 
+inline constexpr double kLongestStep_s = 5e-4;
+
 struct Scene {
   Scene(const Run& run, const NominalModel& stated);
 
@@ -18,6 +20,8 @@ struct Scene {
   const NominalModel* stated;
   bool held;  // the input keeps its value to the next sample; else it is a line between samples
   Eigen::VectorXd impulse_Ns;     // of the input, from the start to each sample
+  int substeps;                   // of a rigid axis in a sample's period
+  Eigen::VectorXd mean_N;         // of the input, over each of them
   Eigen::VectorXd other_m_per_s;  // of the other axis; empty: none
   Eigen::VectorXd other_m_per_s2;
   double stroke_min_m = 0;  // of all runs together
@@ -27,6 +31,8 @@ struct Scene {
   double session_start_s = 0;    // of the run's first sample, since the session began
   double session_length_s = 1;
 
+  // Of sample `k`, from the input and its impulse.
+  void set_means(Eigen::Index k) noexcept;
   // Mean of the input from `from_s` to `from_s` + `over_s` after the run's start.
   [[nodiscard]] double mean_input_N(double from_s, double over_s) const noexcept {
     return (impulse_at(from_s + over_s) - impulse_at(from_s)) / over_s;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "study/prediction/in_parallel.h"
 #include "study/prediction/lines.h"
 
 namespace towbench::harness::diagnose {
@@ -64,7 +65,7 @@ std::vector<Slot> slots_of(const Frame& frame, const State& s,
 MatrixXd columns_of(const Frame& frame, const State& s, const std::vector<Slot>& slots) {
   const Index p = s.derivatives.cols();
   const Index column = slots.empty() ? p : slots.back().from + slots.back().count;
-  MatrixXd all = MatrixXd::Zero(frame.data->samples(), column + 1);
+  MatrixXd all(frame.data->samples(), column + 1);
   all.leftCols(p) = s.derivatives;
   all.col(column) = s.fitted.e;
   in_parallel(slots.size(), [&](std::size_t i) {
@@ -94,7 +95,7 @@ Candidate judge(const Blocks& blocks, const Slot& slot, Index p, const VectorXd&
   Columns both = base;
   both.insert(both.end(), group.begin(), group.end());
   c.test = blocks.test(base, group);
-  c.b = blocks.fit(both).b.tail(slot.count);
+  c.b = c.test.b;
   const VectorXd after = blocks.predicted(both);
   c.gain = compare(before, after, 2);
   c.loss = after.sum();
@@ -137,14 +138,15 @@ Screened screen(Frame& frame, const State& s, const std::vector<const Effect*>& 
   ridge.head(p) = s.ridge;
   const Blocks blocks(all, frame.spans, ridge);
   const VectorXd before = blocks.predicted(up_to(p));
+  std::vector<Candidate> judged(slots.size());
+  in_parallel(slots.size(), [&](std::size_t i) { judged[i] = judge(blocks, slots[i], p, before); });
   Screened out;
   out.tried = slots.size();
-  for (const Slot& slot : slots) {
-    Candidate c = judge(blocks, slot, p, before);
+  for (Candidate& c : judged) {
     c.sought = is_sought(frame.context, c.scales);
     c.tried = static_cast<double>(slots.size()) + (c.sought ? frame.context.searched : 0);
     const auto same = std::find_if(out.best.begin(), out.best.end(), [&](const Candidate& other) {
-      return other.effect == slot.effect;
+      return other.effect == c.effect;
     });
     if (same == out.best.end()) {
       out.best.push_back(c);
