@@ -40,13 +40,10 @@ bool any(const Parameters& p, std::initializer_list<Key> keys) {
   return std::any_of(keys.begin(), keys.end(), [&](Key key) { return p[key] != 0; });
 }
 
-bool any_shape(const Parameters& p) {
-  for (const Key first : {Key::kPlaceFriction1, Key::kPlaceViscous1, Key::kPlaceForce1}) {
-    for (int k = 0; k < kShapes; ++k) {
-      if (p[next(first, k)] != 0) return true;
-    }
-  }
-  return false;
+bool any_shape(const Parameters& p, Key first) {
+  bool any = false;
+  for (int k = 0; k < kShapes; ++k) any = any || p[next(first, k)] != 0;
+  return any;
 }
 
 }  // namespace
@@ -56,15 +53,16 @@ Axis::Axis(const Parameters& parameters, const Scene& scene)
       scene_(scene),
       middle_m_(0.5 * (scene.stroke_min_m + scene.stroke_max_m)),
       per_stroke_(std::numbers::pi / (scene.stroke_max_m - scene.stroke_min_m)),
-      shapes_(any_shape(parameters)),
+      place_force_(any_shape(p_, Key::kPlaceForce1) || any_shape(p_, Key::kPlaceViscous1)),
+      place_friction_(any_shape(p_, Key::kPlaceFriction1)),
       two_(parameters[Key::kMotorMass] > 0),
       drive_(any(p_, {Key::kDeadband, Key::kClipShare, Key::kStallShare, Key::kLag,
                       Key::kOutOfRoundPerMetre})),
       on_motor_(any(p_, {Key::kRipplePerMetre, Key::kPeriodicHertz, Key::kOtherMass,
                          Key::kOtherViscous}) ||
                 scene.run->known_N.size() > 0 || scene.extra_N.size() > 0),
-      on_load_(shapes_ || any(p_, {Key::kViscousAsymmetry, Key::kDrag, Key::kCubic, Key::kCable,
-                                   Key::kGravityCosine, Key::kGravitySine})),
+      on_load_(place_force_ || any(p_, {Key::kViscousAsymmetry, Key::kDrag, Key::kCubic,
+                                        Key::kCable, Key::kGravityCosine, Key::kGravitySine})),
       dry_(any(p_, {Key::kCoulombAsymmetry, Key::kStribeck, Key::kRolloff, Key::kPresliding,
                     Key::kWarming, Key::kBreakaway, Key::kWorkWarming})) {
   const double load = p_[Key::kMass] - p_[Key::kMotorMass];
@@ -193,9 +191,8 @@ double Axis::on_load_N(const Body& body) const {
   const double speed = std::abs(v);
   double force = p_[Key::kBias] + p_[Key::kViscousAsymmetry] * speed + p_[Key::kDrag] * v * speed +
                  p_[Key::kCubic] * v * v * v + p_[Key::kCable] * (x - middle_m_);
-  if (shapes_) {
-    const double cosine = std::cos(per_stroke_ * (x - scene_.stroke_min_m));
-    force += shape(p_, Key::kPlaceForce1, cosine) + v * shape(p_, Key::kPlaceViscous1, cosine);
+  if (place_force_) {
+    force += shape(p_, Key::kPlaceForce1, cosine_) + v * shape(p_, Key::kPlaceViscous1, cosine_);
   }
   if (p_[Key::kGravitySine] != 0 || p_[Key::kGravityCosine] != 0) {
     force += p_[Key::kGravityCosine] * std::cos(x) + p_[Key::kGravitySine] * std::sin(x);
@@ -237,9 +234,8 @@ double Axis::shared_dry_N(const Body& body, double direction, double t_s) const 
 
 double Axis::load_dry_N(const Body& body, double drive_N) const {
   double level = p_[Key::kLoadFriction] * std::abs(drive_N);
-  if (shapes_) {
-    level +=
-        shape(p_, Key::kPlaceFriction1, std::cos(per_stroke_ * (body.x - scene_.stroke_min_m)));
+  if (place_friction_) {
+    level += shape(p_, Key::kPlaceFriction1, cosine_);
   }
   if (!scene_.stated->friction_at_m.empty()) {
     level += stated_friction_N(*scene_.stated, body.x);
@@ -265,6 +261,9 @@ void Axis::substep(double t_s, double mean_N, Eigen::Index k) {
   const double drive = driven_N(mean_N);
   motor_.x += 0.5 * h_ * motor_.v;
   if constexpr (two) load_.x += 0.5 * h_ * load_.v;
+  if (place_force_ || place_friction_) {
+    cosine_ = std::cos(per_stroke_ * ((two ? load_ : motor_).x - scene_.stroke_min_m));
+  }
   const double on_motor = drive - on_motor_N(t_s, k);
   if constexpr (two) {
     const double chain = chain_N();

@@ -58,7 +58,8 @@ class Axis {
   double middle_m_;
   double per_stroke_;  // radians of the slowest shape a metre
   double warm_end_ = 1;
-  bool shapes_ = false;
+  bool place_force_ = false;
+  bool place_friction_ = false;
   bool two_ = false;
   // Whether anything beyond the base parameters acts there.
   bool drive_ = false;
@@ -67,6 +68,7 @@ class Axis {
   bool dry_ = false;
   Sliding motor_slides_;
   Sliding load_slides_;
+  double cosine_ = 1;  // of the slowest shape, where the load is
   Body motor_;
   Body load_;
   double lagged_N_ = 0;
