@@ -87,14 +87,17 @@ CaseVerdict judge_candidate(const CandidateController& controller, const Experim
     return verdict;
   }
   verdict.fired = true;
+  std::optional<core::Nanoseconds> cause_ns;
   for (const auto& check : verdict.checks) {
-    if (check.name == "fault_fired") {
-      verdict.fired = check.verdict == Verdict::kPass;
-      verdict.figures.cause_ns = core::nanoseconds(check.value.value_or(0));
+    if (check.name.starts_with("fault_") && check.name.ends_with("_fired")) {
+      verdict.fired = verdict.fired && check.verdict == Verdict::kPass;
+      const auto fired_ns = core::nanoseconds(check.value.value_or(0));
+      cause_ns = cause_ns ? std::min(*cause_ns, fired_ns) : fired_ns;
     } else if (check.name == "kill_to_zero_duty") {
       verdict.figures.kill_to_zero_duty_s = check.value;
     }
   }
+  verdict.figures.cause_ns = cause_ns.value_or(0);
   verdict.detected = stops_earlier(run.folder, reference->files.path());
   verdict.handled = verdict.verdict() == Verdict::kPass;
   return verdict;

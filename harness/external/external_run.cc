@@ -136,6 +136,19 @@ void require_reference(const ExperimentFixture& fixture) {
   }
 }
 
+// In lockstep, into files that are not kept.
+std::shared_ptr<const ReferenceRun> play_aside(const ExperimentFixture& fixture,
+                                               const std::vector<LinkFault>& link_faults,
+                                               const ExternalPlay& how) {
+  auto run = std::make_shared<ReferenceRun>();
+  run->record.of_bbmc = false;
+  std::vector<std::string> unused;
+  std::unique_ptr<ExternalTiming> none;
+  run->record.outcome =
+      play_external({fixture, link_faults, how, &run->record, unused, none}, run->files.path());
+  return run;
+}
+
 void require_good_end(const RunOutcome& outcome) {
   if (!outcome.complete || !outcome.script_failure.empty()) {
     throw FixtureError({.file = "fault plan"},
@@ -152,14 +165,7 @@ std::shared_ptr<const ReferenceRun> run_external_reference(const ExperimentFixtu
                                                            std::uint64_t seed,
                                                            const LoopWatchers& watchers) {
   require_reference(sound);
-  auto run = std::make_shared<ReferenceRun>();
-  run->record.of_bbmc = false;
-  std::vector<std::string> unused;
-  std::unique_ptr<ExternalTiming> none;
-  const ExternalPlay how{.controller = controller, .seed = seed, .watchers = watchers};
-  run->record.outcome =
-      play_external({sound, {}, how, &run->record, unused, none}, run->files.path());
-  return run;
+  return play_aside(sound, {}, {.controller = controller, .seed = seed, .watchers = watchers});
 }
 
 ExternalRun::ExternalRun(const ExperimentFixture& fixture, const ExternalPlay& how,
@@ -170,6 +176,7 @@ ExternalRun::ExternalRun(const ExperimentFixture& fixture, const ExternalPlay& h
 }
 
 void ExternalRun::prepare_faults() {
+  without_.clear();
   if (fixture_.experiment.faults.empty()) {
     reference_.reset();
     return;
@@ -187,6 +194,12 @@ void ExternalRun::prepare_faults() {
   }
   fixture_ = with_faults(sound, prepared);
   link_faults_ = prepared.injection.link;
+  for (const auto& left_out : each_left_out(sound, prepared, reference_->record)) {
+    without_.push_back({left_out.fault, play_aside(left_out.fixture, left_out.link,
+                                                   {.controller = how_.controller,
+                                                    .seed = how_.seed,
+                                                    .watchers = how_.watchers})});
+  }
 }
 
 void ExternalRun::take_over(const ExperimentFixture& driven) {
@@ -221,7 +234,7 @@ void ExternalRun::judge_into(const std::filesystem::path& folder, const RunOutco
                                         [](const LinkFault& fault) { return fault.to_plant; });
   std::vector<Check> added;
   if (reference_) {
-    added = judge_beside_reference(folder, folder / kReferenceFolder);
+    added = judge_beside_reference(folder, folder / kReferenceFolder, without_);
   }
   added.push_back(stayed(outcome));
   if (!is_disturbed) {  // else what arrives is not what was sent

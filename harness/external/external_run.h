@@ -12,6 +12,7 @@
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/external/external_controller.h"
 #include "harness/external/external_timing.h"
+#include "harness/fault_cases/machine_faults.h"
 #include "harness/fault_cases/reference_run.h"
 #include "harness/judge/judge.h"
 #include "harness/link/link_faults.h"
@@ -34,8 +35,8 @@ struct ExternalPlay {
 class ExternalRun {
  public:
   // With faults in the experiment the controller runs once without them, here
-  // unless `reference` is that run. Throws FixtureError for a fault that
-  // cannot be here, or where the run without faults does not end well.
+  // unless `reference` is that run, and once without each of several. Throws FixtureError for a
+  // fault that cannot be here, or where the run without faults does not end well.
   ExternalRun(const ExperimentFixture& fixture, const ExternalPlay& how,
               std::shared_ptr<const ReferenceRun> reference = nullptr);
 
@@ -60,6 +61,7 @@ class ExternalRun {
   ExternalPlay how_;
   ExperimentFixture fixture_;
   std::shared_ptr<const ReferenceRun> reference_;
+  std::vector<RunWithout> without_;  // each of several faults
   std::vector<LinkFault> link_faults_;
   std::vector<std::string> refused_;  // of the run's messages, in words
   std::unique_ptr<ExternalTiming> timing_;

@@ -59,21 +59,36 @@ std::size_t contacts_in(const std::filesystem::path& folder) {
   return contacts;
 }
 
-Check fault_fired(const std::filesystem::path& folder, const std::filesystem::path& reference) {
+Check fault_fired(const std::string& name, const std::string& fault,
+                  const std::filesystem::path& folder, const std::filesystem::path& without) {
   double fired_s = -1;
-  for (const char* name : {"truth.csv", "log.csv"}) {
-    const double differs_s = first_difference_s(folder / name, reference / name);
+  for (const char* file : {"truth.csv", "log.csv"}) {
+    const double differs_s = first_difference_s(folder / file, without / file);
     fired_s = fired_s < 0 ? differs_s : differs_s < 0 ? fired_s : std::min(fired_s, differs_s);
   }
   Check fired;
-  fired.name = "fault_fired";
+  fired.name = name;
   fired.meaning = "the record differs from the same controller's run without the fault";
   fired.unit = "s";
   fired.verdict = fired_s >= 0 ? Verdict::kPass : Verdict::kInvalid;
   if (fired_s >= 0) {
     fired.value = fired_s;
   } else {
-    fired.reason = "no fault of the plan took effect";
+    fired.reason = fault + " took no effect";
+  }
+  return fired;
+}
+
+std::vector<Check> each_fired(const std::filesystem::path& folder,
+                              const std::filesystem::path& reference,
+                              const std::vector<RunWithout>& without) {
+  if (without.empty()) {
+    return {fault_fired("fault_fired", "the fault of the plan", folder, reference)};
+  }
+  std::vector<Check> fired;
+  for (const auto& [fault, run] : without) {
+    fired.push_back(fault_fired(fmt::format("fault_{}_fired", fired.size() + 1),
+                                fmt::format("\"{}\"", fault), folder, run->files.path()));
   }
   return fired;
 }
@@ -188,10 +203,31 @@ std::optional<ExperimentFixture> pressed_where_welded(const ExperimentFixture& s
   return pressed;
 }
 
+std::vector<LeftOut> each_left_out(const ExperimentFixture& sound, const PreparedPlan& prepared,
+                                   const CaseRecord& reference) {
+  std::vector<LeftOut> all;
+  const auto count = std::ssize(prepared.plan);
+  for (std::ptrdiff_t i = 0; count > 1 && i < count; ++i) {
+    auto plan = prepared.plan;
+    auto onsets_ns = prepared.onsets_ns;
+    const PreparedPlan alone{.plan = {plan[static_cast<std::size_t>(i)]},
+                             .onsets_ns = {onsets_ns[static_cast<std::size_t>(i)]}};
+    plan.erase(plan.begin() + i);
+    onsets_ns.erase(onsets_ns.begin() + i);
+    const auto others = prepare_at(plan, onsets_ns, sound, reference, prepared.injection.over_can);
+    const auto base = pressed_where_welded(sound, alone).value_or(sound);
+    all.push_back({describe(alone.plan[0]), with_faults(base, others), others.injection.link});
+  }
+  return all;
+}
+
 std::vector<Check> judge_beside_reference(const std::filesystem::path& folder,
-                                          const std::filesystem::path& reference) {
-  return {fault_fired(folder, reference), no_further_contact(folder, reference),
-          no_longer_at_limit(folder, reference)};
+                                          const std::filesystem::path& reference,
+                                          const std::vector<RunWithout>& without) {
+  auto checks = each_fired(folder, reference, without);
+  checks.push_back(no_further_contact(folder, reference));
+  checks.push_back(no_longer_at_limit(folder, reference));
+  return checks;
 }
 
 }  // namespace towbench::harness

@@ -5,11 +5,13 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "harness/checks/check.h"
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/fault_cases/fault_case.h"
+#include "harness/fault_cases/reference_run.h"
 
 namespace towbench::harness {
 
@@ -33,10 +35,27 @@ void refuse_faults_beyond(const FaultPlan& faults, FaultReach reach);
 [[nodiscard]] std::optional<ExperimentFixture> pressed_where_welded(const ExperimentFixture& sound,
                                                                     const PreparedPlan& prepared);
 
-// From the records of both runs: whether anything differs (INVALID when nothing does), whether the
-// carriage met a hard end that it did not meet without, and ANY-8: whether an axis is at its limit
-// for longer. INVALID when a record cannot be read.
+// What is run without one of several faults, everything else being equal: each of them must take
+// effect. Empty for a single one, which is judged beside the run without faults.
+struct LeftOut {
+  std::string fault;  // in words
+  ExperimentFixture fixture;
+  std::vector<LinkFault> link;
+};
+[[nodiscard]] std::vector<LeftOut> each_left_out(const ExperimentFixture& sound,
+                                                 const PreparedPlan& prepared,
+                                                 const CaseRecord& reference);
+
+struct RunWithout {
+  std::string fault;  // in words
+  std::shared_ptr<const ReferenceRun> run;
+};
+
+// From the records of the runs: whether each fault changed anything (INVALID where one did not),
+// whether the carriage met a hard end that it did not meet without any, and ANY-8: whether an axis
+// is at its limit for longer. INVALID when a record cannot be read.
 [[nodiscard]] std::vector<Check> judge_beside_reference(const std::filesystem::path& folder,
-                                                        const std::filesystem::path& reference);
+                                                        const std::filesystem::path& reference,
+                                                        const std::vector<RunWithout>& without);
 
 }  // namespace towbench::harness

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "harness/board_bench/firmware_run.h"
-#include "harness/fault_cases/machine_faults.h"
 #include "harness/fixtures/fixture_error.h"
 #include "harness/judge/safety_checks.h"
 
@@ -29,6 +28,10 @@ BoardRun::BoardRun(const ExperimentFixture& fixture, const RunOptions& options, 
       reference_ = run_reference_board(*pressed, options.firmware, seed);
     }
     fixture_ = with_faults(sound, prepared);
+    for (const auto& left_out : each_left_out(sound, prepared, reference_->record)) {
+      without_.push_back(
+          {left_out.fault, run_reference_board(left_out.fixture, options.firmware, seed)});
+    }
   }
 }
 
@@ -64,7 +67,7 @@ void BoardRun::judge_into(const std::filesystem::path& folder, const RunOutcome&
   }
   checks.insert(checks.begin(), checks_.begin(), checks_.end());
   if (reference_) {
-    const auto beside = judge_beside_reference(folder, folder / kReferenceFolder);
+    const auto beside = judge_beside_reference(folder, folder / kReferenceFolder, without_);
     checks.insert(checks.begin(), beside.begin(), beside.end());
   }
   const SafetyScope image{.reference_is_known = false,

@@ -9,6 +9,7 @@
 
 #include "harness/board_bench/board_truth.h"
 #include "harness/board_bench/reference_board.h"
+#include "harness/fault_cases/machine_faults.h"
 #include "harness/link/plant_end.h"
 #include "harness/run/experiment_run.h"
 
@@ -33,6 +34,7 @@ class BoardRun {
  private:
   const RunOptions& options_;
   std::shared_ptr<const ReferenceRun> reference_;  // of a machine with faults
+  std::vector<RunWithout> without_;                // each of several faults
   ExperimentFixture fixture_;
   std::vector<Check> checks_;
 };

@@ -95,6 +95,11 @@ def good() -> None:
     expect_pass("edges instead of the digest", TRAPEZOID, bad("takes_edges"))
     for fault in ("kill_switch pressed at=1.2s", "encoder.y frozen phase=cruise after=0.1s", "encoder.y dead_a at=1.3s", "kill_switch welded at=1s", "endstop.y_max stuck_closed at=1s", "link.to_controller loss at=1s", "link.to_plant corrupt_byte at=1s"):
         expect_pass(f"with {fault}", TRAPEZOID, C_PID, "--fault", fault)
+    kill, frozen = ("--fault", "kill_switch pressed at=1.2s"), ("--fault", "encoder.y frozen at=0.9s")
+    expect_pass("with two faults", TRAPEZOID, C_PID, *frozen, *kill)
+    code, result, error = run(TRAPEZOID, C_PID, *kill, "--fault", "encoder.y frozen at=30s")
+    fired = {c["name"]: c["verdict"] for c in result.get("checks", []) if c["name"].endswith("_fired")}
+    expect("one of two faults that never fires", code == 4 and fired.get("fault_1_fired") == "PASS" and fired.get("fault_2_fired") == "INVALID", (code, fired, error))
     replay = subprocess.run([program, "replay", str(one)], capture_output=True, text=True)
     expect("a run of a process replays", replay.returncode == 0, replay.stdout + replay.stderr)
 

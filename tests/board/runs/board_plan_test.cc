@@ -143,6 +143,24 @@ at_s = 1.8
   EXPECT_THROW((void)run_experiment(link, options_), FixtureError);
 }
 
+TEST_F(BoardPlanRun, EachOfTwoFaultsOfTheMachineMustTakeEffect) {
+  const auto second_at = [&](const char* time) {
+    auto fixture = servo(
+        "[[fault]]\ncomponent = \"encoder.y\"\nkind = \"frozen\"\nat_s = 1.8\n"
+        "[[fault]]\ncomponent = \"kill_switch\"\nkind = \"pressed\"\nat_s = " +
+        std::string(time) + "\n");
+    fixture.experiment.budgets_apply = false;
+    return run_experiment(fixture, options_);
+  };
+  const auto run = second_at("30.0");
+  ASSERT_NE(check_named(run, "fault_1_fired"), nullptr) << complaints_of(run);
+  ASSERT_NE(check_named(run, "fault_2_fired"), nullptr) << complaints_of(run);
+  EXPECT_EQ(check_named(run, "fault_1_fired")->verdict, Verdict::kPass);
+  EXPECT_EQ(check_named(run, "fault_2_fired")->verdict, Verdict::kInvalid);
+  EXPECT_EQ(run.judgement.verdict, Verdict::kInvalid);
+  EXPECT_EQ(check_named(second_at("1.9"), "fault_2_fired")->verdict, Verdict::kPass);
+}
+
 TEST_F(BoardPlanRun, MomentsAreFoundInTheSameImageWithoutTheFault) {
   const auto with = [&](const std::string& when) {
     auto fixture = servo("[[fault]]\ncomponent = \"encoder.y\"\nkind = \"frozen\"\n" + when + "\n");
