@@ -20,7 +20,7 @@ test_usage() {
   cat <<'TEXT'
 usage: ./towbench test [--quick | --all] [--only STAGE]... [--list]
 
-  (nothing)     what guards main: some 20 minutes on two cores, 8 where the compiler cache is warm
+  (nothing)     what guards main: 20 to 50 minutes on two cores, half where the compiler cache is warm
   --quick       lint, unit, integration and browser tests: before a commit
   --all         everything, for a release: some hours
   --only STAGE  this stage; may be repeated
