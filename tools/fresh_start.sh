@@ -10,8 +10,8 @@ root=$(CDPATH='' cd -- "${1:?usage: fresh_start.sh ROOT}" && pwd)
 source "$root/tools/bare_debian.sh"
 make_bare_debian
 
-# A host with neighbours is late without a fault of this project: a time is told beside its goal, which
-# `./towbench test --only build_times` is for, and judged only by its share of the first demo's.
+# A loaded host is slow, and that is no error of the project. So each time is printed beside its goal and judged
+# only as a share of the first demo's time. `./towbench test --only build_times` measures the goals.
 runs() { # runs GOAL_S MOST_PCT WHAT USER COMMAND
   timed_in_bare "$4" "timeout 1200 $5" || { echo "fresh_start: $3 FAILED"; exit 1; }
   echo "fresh_start: $3 took $took_s s (goal $1 s)"

@@ -180,7 +180,7 @@ _CRC_OF_CHECKED = 0x48674BC7  # of whatever is followed by its checksum
 
 
 def crc32c(data: bytes) -> int:
-    """CRC-32C. It is linear: of a short message every byte's share is looked up, and no byte waits for another's."""
+    """CRC-32C. It is linear: for a short message, each byte's contribution comes from a table by its place."""
     size = len(data)
     if size > _LONGEST_BY_PLACE:
         return _crc_step(0xFFFFFFFF, data) ^ 0xFFFFFFFF

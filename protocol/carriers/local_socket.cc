@@ -19,9 +19,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Falling asleep and being woken cost more than a peer on another core needs for its answer.
-constexpr std::chrono::microseconds kLook{40};
-constexpr int kLongestRest = 1024;  // reads that do not look, where looking has not paid
+// To block and to be woken takes longer than a peer on another core needs for its answer.
+constexpr core::Nanoseconds kSpin_ns = 40 * core::kNanosecondsPerMicrosecond;
+constexpr int kMostWithout = 1024;  // reads that do not spin, after spins in vain
 
 bool has_several_cores() noexcept {
   cpu_set_t cores;
@@ -56,7 +56,7 @@ std::filesystem::path default_socket_directory() {
   return std::filesystem::temp_directory_path() / ("towbench-" + std::to_string(::geteuid()));
 }
 
-LocalSocket::LocalSocket() : socket_(context_), looks_(has_several_cores()) {}
+LocalSocket::LocalSocket() : socket_(context_), spins_(has_several_cores()) {}
 
 CarrierResult<std::unique_ptr<LocalSocket>> LocalSocket::connect(const std::filesystem::path& path,
                                                                  core::Nanoseconds timeout_ns) {
@@ -151,7 +151,7 @@ core::Result<std::size_t> LocalSocket::read_some(std::span<std::byte> into,
   if (flags == 0 && timeout_ns != receive_timeout_ns_ && !set_receive_timeout(timeout_ns)) {
     return core::failure(core::ErrorCode::kTransportFailed);
   }
-  ssize_t received = flags == 0 && looks_ ? look(into) : -1;
+  ssize_t received = flags == 0 && spins_ ? spin(into, timeout_ns) : -1;
   if (received < 0) {
     received = ::recv(socket_.native_handle(), into.data(), into.size(), flags);
   }
@@ -168,19 +168,19 @@ core::Result<std::size_t> LocalSocket::read_some(std::span<std::byte> into,
   return core::failure(code_of(errno));
 }
 
-// As recv(), -1 where nothing has come. Rests the longer the more often that was so: the peer has
-// no core of its own.
-ssize_t LocalSocket::look(std::span<std::byte> into) noexcept {
-  if (--resting_ > 0) {
+// As recv() without blocking; -1 where nothing has come. Each spin in vain doubles how many reads
+// then go without one.
+ssize_t LocalSocket::spin(std::span<std::byte> into, core::Nanoseconds timeout_ns) noexcept {
+  if (--reads_left_ > 0) {
     return -1;
   }
-  const auto end = Clock::now() + kLook;
+  const auto end = Clock::now() + std::chrono::nanoseconds(std::min(kSpin_ns, timeout_ns));
   ssize_t received = -1;
   do {
     received = ::recv(socket_.native_handle(), into.data(), into.size(), MSG_DONTWAIT);
   } while (received < 0 && errno == EAGAIN && Clock::now() < end);
-  rest_ = received >= 0 ? 1 : std::min(2 * rest_, kLongestRest);
-  resting_ = rest_;
+  reads_without_ = received >= 0 ? 1 : std::min(2 * reads_without_, kMostWithout);
+  reads_left_ = reads_without_;
   return received;
 }
 

@@ -21,8 +21,8 @@ namespace towbench::protocol {
 inline constexpr core::Nanoseconds kDefaultSilence_ns = core::kNanosecondsPerSecond;
 
 // One connected end. A turn costs one send and one receive: the waiting time is the socket's own
-// (SO_RCVTIMEO), so no poll precedes the read. Before it sleeps, a read looks for some microseconds
-// whether a peer on another core has answered. SIGPIPE is never raised.
+// (SO_RCVTIMEO), so no poll precedes the read. Before it blocks, a read spins for some
+// microseconds, because a peer on another core answers sooner. SIGPIPE is never raised.
 class LocalSocket final : public ByteStream {
  public:
   // Waits until a server accepts or `timeout_ns` has passed: a server that is still starting up
@@ -59,15 +59,15 @@ class LocalSocket final : public ByteStream {
   void keep_from_children() noexcept;
   bool set_receive_timeout(core::Nanoseconds timeout_ns) noexcept;
   [[nodiscard]] bool wait_until_writable() noexcept;
-  [[nodiscard]] ssize_t look(std::span<std::byte> into) noexcept;
+  [[nodiscard]] ssize_t spin(std::span<std::byte> into, core::Nanoseconds timeout_ns) noexcept;
 
   boost::asio::io_context context_{1};
   Protocol::socket socket_;
   core::Nanoseconds silence_limit_ns_ = kDefaultSilence_ns;
   core::Nanoseconds receive_timeout_ns_ = 0;
-  bool looks_;    // where there is a core for the peer
-  int rest_ = 1;  // reads, after a look that found nothing
-  int resting_ = 0;
+  bool spins_;             // there is a core for the peer
+  int reads_without_ = 1;  // a spin, after the last one
+  int reads_left_ = 0;     // of those
 };
 
 // The end that waits. Holds a lock beside the socket for as long as it lives, so that a path is

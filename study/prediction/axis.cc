@@ -114,11 +114,11 @@ double Axis::reading_m() const {
 }
 
 void Axis::step(Eigen::Index k) {
-  const bool at_once = p_[Key::kDelay] == 0 && substeps_ == scene_.substeps;
+  const bool precomputed = p_[Key::kDelay] == 0 && substeps_ == scene_.substeps;
   for (int i = 0; i < substeps_; ++i) {
     const double t_s = static_cast<double>(k) * scene_.run->period_s + i * h_;
-    const double mean_N =
-        at_once ? scene_.mean_N[k * substeps_ + i] : scene_.mean_input_N(t_s - p_[Key::kDelay], h_);
+    const double mean_N = precomputed ? scene_.mean_N[k * substeps_ + i]
+                                      : scene_.mean_input_N(t_s - p_[Key::kDelay], h_);
     if (two_) {
       substep<true>(t_s, mean_N, k);
     } else {

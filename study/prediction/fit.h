@@ -24,7 +24,7 @@ struct Freedom {
 
 [[nodiscard]] double& value_in(Model& model, const Freedom& freedom);
 
-// Columns -de/dp, so that e = X (p_true - p) + rest; in `threads` of two processors.
+// Columns -de/dp, so that e = X (p_true - p) + rest; on all processors.
 [[nodiscard]] Eigen::MatrixXd derivatives(const Data& data, const Model& model,
                                           const std::vector<Freedom>& free,
                                           const Eigen::VectorXd& e, double bandwidth);

@@ -23,7 +23,7 @@ static const double kFilter = 0.5, kPeriod_s = 1e-3, kLargestError_m = 0.01, kBr
 /* More than friction takes, and no way made. */
 static const double kStallDuty = 0.04, kStall_s = 0.04;
 static const int64_t kStallCounts = 2;
-static const int kSilence_ms = 1000, kLooks = 32, kLongestRest = 1024;
+static const int kSilence_ms = 1000, kSpins = 32, kMostWithout = 1024;
 
 typedef struct {
   double integral, slope, before, stalled_s;
@@ -81,15 +81,17 @@ static int send_out(int line, tb_bench* bench) {
   return 1;
 }
 
-/* What comes next; 0 or less when nobody speaks any more. A bench on another core answers sooner
- * than a sleep ends: some looks come first, while they pay. */
+/* What comes next; 0 or less when nobody speaks any more. A bench on another core answers
+ * sooner than a blocked read is woken, so it spins first; each spin in vain doubles how many reads
+ * then go without one. */
 static ssize_t receive(int line, void* into, size_t size) {
-  static int rest = 1, resting;
+  static int reads_without = 1, reads_left;
   struct pollfd waiting = {.fd = line, .events = POLLIN};
   ssize_t got = -1;
-  if (--resting <= 0) {
-    for (int i = 0; got < 0 && i < kLooks; ++i) got = recv(line, into, size, MSG_DONTWAIT);
-    resting = rest = got >= 0 ? 1 : rest < kLongestRest ? 2 * rest : rest;
+  if (--reads_left <= 0) {
+    for (int i = 0; got < 0 && i < kSpins; ++i) got = recv(line, into, size, MSG_DONTWAIT);
+    reads_without = got >= 0 ? 1 : reads_without < kMostWithout ? 2 * reads_without : kMostWithout;
+    reads_left = reads_without;
   }
   if (got < 0 && poll(&waiting, 1, kSilence_ms) > 0) got = read(line, into, size);
   return got;
