@@ -2,10 +2,13 @@
 # The promise of the README, kept by a machine. In a bare Debian 12 (debootstrap, minimal) a clone of
 # HEAD, in a folder with a space, runs ./towbench demo from nothing and then again: as root; and as a
 # user with sudo in a clone of his own, through a link in the PATH.
-# usage: fresh_start.sh ROOT
+# usage: fresh_start.sh ROOT [CACHE]
+# CACHE: a folder of ccache. What is in it is not compiled again where the same compiler meets the same
+# headers; a package that is missing is an error as before.
 # Exit code 99, with the reason, where no such folder can be made (not root, no debootstrap, no mirror).
 set -euo pipefail
-root=$(CDPATH='' cd -- "${1:?usage: fresh_start.sh ROOT}" && pwd)
+root=$(CDPATH='' cd -- "${1:?usage: fresh_start.sh ROOT [CACHE]}" && pwd)
+cache=${2:-}
 # shellcheck source=tools/bare_debian.sh
 source "$root/tools/bare_debian.sh"
 make_bare_debian
@@ -23,7 +26,12 @@ runs() { # runs GOAL_S MOST_PCT WHAT USER COMMAND
 }
 
 bare_clone "$root" 'opt/tow bench' root
-runs 240 100 'the first demo, with packages and build,' root '"/opt/tow bench/towbench" demo'
+what='the first demo, with packages and build,'
+if [[ -n $cache && -d $cache ]]; then
+  mkdir -p "$bare$homes/root/.cache" && cp -r "$cache" "$bare$homes/root/.cache/ccache"
+  what='the first demo, with packages, built from the cache of the stages before,'
+fi
+runs 240 100 "$what" root '"/opt/tow bench/towbench" demo'
 runs 20 25 'the second demo' root '"/opt/tow bench/towbench" demo'
 runs 0.15 2 'a verb with nothing to build' root '"/opt/tow bench/towbench" list'
 

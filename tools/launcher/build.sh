@@ -13,7 +13,8 @@ study_program=$build/release/bin/towbench-study
 sources=(CMakeLists.txt CMakePresets.json cmake core protocol emulator board bbmc harness study reports)
 
 # What one clone has compiled serves the next one, and this one where it is moved.
-export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
+# Nor does the language of its messages matter.
+export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=locale
 
 # ready bench|study|panel|image: one look at time stamps when nothing has changed.
 ready() {

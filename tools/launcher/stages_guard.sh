@@ -146,6 +146,9 @@ stage_fresh_start() {
     skip_reason='launcher, build files and packages are as when it passed last'
     return 99
   fi
-  reported "$build/fresh_start.log" "$root/tools/fresh_start.sh" "$root" || return
+  # A release compiles from nothing, as a newcomer does; main's guard has compiled the same sources already.
+  local cache=()
+  if [[ $everything == false ]]; then cache=("$(ccache --get-config cache_dir 2>/dev/null || true)"); fi
+  reported "$build/fresh_start.log" "$root/tools/fresh_start.sh" "$root" "${cache[@]}" || return
   mkdir -p "$kept" && touch "$kept/$key"
 }
