@@ -209,16 +209,18 @@ void ExternalBench::ToPlant::handle(const protocol::Advance& advance) noexcept {
     bench.answers_->answered(advance.until_ns, now_ns);
     return;
   }
-  if (advance.until_ns > now_ns && now_ns > bench.row_ns_) {
-    bench.write_row(now_ns);
-    bench.row_ns_ = now_ns;
-  }
+  const bool is_new = advance.until_ns > now_ns && now_ns > bench.row_ns_;
+  const auto row = is_new ? bench.take_row(now_ns) : bbmc::TelemetryRow{};
   disturber.end_turn(now_ns);
   bench.until_ns_ = advance.until_ns;
   bench.plant_.node.on(advance);
+  if (is_new) {  // the controller has its inputs and is at work meanwhile
+    bench.record_.recorder.row(row);
+    bench.row_ns_ = now_ns;
+  }
 }
 
-void ExternalBench::write_row(Nanoseconds time_ns) noexcept {
+bbmc::TelemetryRow ExternalBench::take_row(Nanoseconds time_ns) noexcept {
   bbmc::TelemetryRow row;
   row.time_ns = time_ns;
   for (const auto which : core::kAxes) {
@@ -242,13 +244,13 @@ void ExternalBench::write_row(Nanoseconds time_ns) noexcept {
     commands_[which].edges_told = counter.edges;
     axis.mode = schedule_.begun(which, time_ns) ? bbmc::AxisMode::kPosition : bbmc::AxisMode::kIdle;
   }
-  record_.recorder.row(row);
   if (record_.rows != nullptr) {
     record_.rows->log.push_back(row);
   }
   if (record_.tap != nullptr) {
     record_.tap->row(row, {});
   }
+  return row;
 }
 
 void ExternalBench::send_reference(Nanoseconds time_ns) noexcept {

@@ -114,7 +114,8 @@ class ExternalBench final : public SteeredBench {
   template <typename Message>
   void note(const Message& /*message*/) noexcept {}
   void note(const protocol::PwmDuty& duty) noexcept;
-  void write_row(core::Nanoseconds time_ns) noexcept;
+  // The row of log.csv, told to whoever observes the run.
+  [[nodiscard]] bbmc::TelemetryRow take_row(core::Nanoseconds time_ns) noexcept;
   void send_reference(core::Nanoseconds time_ns) noexcept;
   [[nodiscard]] bool over(core::Nanoseconds time_ns) noexcept;
   // False when the plant refuses it.

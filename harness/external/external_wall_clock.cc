@@ -49,7 +49,7 @@ void ExternalBench::tick_until_over(TickLoop& loop, AnswerWatch& answers,
       if (hand_ != nullptr) {
         take_hand(now_ns);
       }
-      write_row(now_ns);
+      record_.recorder.row(take_row(now_ns));
     }
     until_ns_ = now_ns + core::kPlantTick_ns;
     plant_.node.on(protocol::Advance{until_ns_});

@@ -20,7 +20,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // To block and to be woken takes longer than a peer on another core needs for its answer.
-constexpr core::Nanoseconds kSpin_ns = 40 * core::kNanosecondsPerMicrosecond;
+constexpr core::Nanoseconds kSpin_ns = 80 * core::kNanosecondsPerMicrosecond;
 constexpr int kMostWithout = 1024;  // reads that do not spin, after spins in vain
 
 bool has_several_cores() noexcept {
