@@ -144,7 +144,7 @@ Diagnosis diagnose(const Request& given) {
   if (is_fatal(d.findings)) {
     return d;
   }
-  const Momentum momentum = fit_momentum(request.runs, 0);
+  const Momentum momentum = fit_momentum(request.runs, request.model.rotary, 0);
   if (!request.model.supplied) {
     begin_from_momentum(request.model, momentum);
   }

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "study/prediction/units.h"
+
 namespace towbench::harness::diagnose {
 namespace {
 
@@ -65,27 +67,28 @@ std::string how_sure(const Diagnosis& d) {
       std::max(worst, 1e-300), d.tried, d.scored.same_session ? "" : "; scored on held-out runs");
 }
 
-std::string simulated(const FreeRun& f) {
+std::string simulated(const FreeRun& f, const Units& units) {
   return f.windows == 0
              ? std::string{}
-             : fmt::format("; left to itself for {:g} s, it ends {:.3g} instead of {:.3g} mm off",
-                           kWindow_s, 1e3 * f.extended_m, 1e3 * f.supplied_m);
+             : fmt::format("; left to itself for {:g} s, it ends {:.3g} instead of {:.3g} {} off",
+                           kWindow_s, 1e3 * f.extended_m, 1e3 * f.supplied_m, units.thousandth);
 }
 
 std::string what_it_gains(const Diagnosis& d) {
   const Scored& s = d.scored;
+  const Units units = units_of(d.context.stated);
   const char* of = s.same_session ? "prediction error" : "held-out prediction error";
   if (d.causes.empty() && moved_parameters(d).empty()) {
     return fmt::format(
-        "nothing, the model stays; {:.3g} N rms of the force is not predicted, "
+        "nothing, the model stays; {:.3g} {} rms of the force is not predicted, "
         "{:.2g} % of it",
-        s.after_rms_N, 100 * s.after_rms_N / std::max(1e-12, s.force_rms_N));
+        s.after_rms_N, units.force, 100 * s.after_rms_N / std::max(1e-12, s.force_rms_N));
   }
   const bool named = !d.causes.empty();
   const Interval& gain = named ? s.gain95 : s.over_supplied95;
-  return fmt::format("{:.1f} % of the {}, {:.3g} to {:.3g} N rms (95 %: {:.1f} to {:.1f} %){}",
+  return fmt::format("{:.1f} % of the {}, {:.3g} to {:.3g} {} rms (95 %: {:.1f} to {:.1f} %){}",
                      100 * gain.value, of, named ? s.before_rms_N : s.supplied_rms_N, s.after_rms_N,
-                     100 * gain.low, 100 * gain.high, simulated(d.free_run));
+                     units.force, 100 * gain.low, 100 * gain.high, simulated(d.free_run, units));
 }
 
 std::string next_step(const Diagnosis& d) {
@@ -109,6 +112,12 @@ std::string next_step(const Diagnosis& d) {
                : fmt::format("look at unexplained.csv: what is left depends on {}",
                              d.unexplained->coordinate);
   }
+  for (const NamedCause& cause : d.causes) {
+    if (cause.effect->structural) {
+      return fmt::format("take the size of {} from diagnosis.json: no plant file can state it",
+                         cause.effect->name);
+    }
+  }
   return d.verdicts.front() == "model_adequate"
              ? "nothing; see not_testable for what was out of reach"
              : "use extended_plant.toml";
@@ -128,8 +137,9 @@ std::string headline(const Diagnosis& d) {
   out += fmt::format("How sure:      {}.\n", how_sure(d));
   out += fmt::format("What it gains: {}.\n", what_it_gains(d));
   out += d.unexplained
-             ? fmt::format("Left over:     {:.3g} N rms along {}, which no effect explains.\n",
-                           d.unexplained->rms_N, d.unexplained->coordinate)
+             ? fmt::format("Left over:     {:.3g} {} rms along {}, which no effect explains.\n",
+                           d.unexplained->rms_N, units_of(d.context.stated).force,
+                           d.unexplained->coordinate)
              : "Left over:     nothing that the residual tests can see.\n";
   out += fmt::format("What to do:    {}.\n", next_step(d));
   for (const NamedCause& cause : d.causes) {

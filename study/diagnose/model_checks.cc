@@ -35,7 +35,7 @@ void check_shift(const std::vector<Run>& runs, const NominalModel& model, const 
   double seconds = 0;
   double most = aligned;
   for (double shift = -kLongestShift_s; shift <= kLongestShift_s; shift += kLongestShift_s / 25) {
-    const double explained = fit_momentum(runs, shift).explained;
+    const double explained = fit_momentum(runs, model.rotary, shift).explained;
     if (explained > most) {
       most = explained;
       seconds = shift;
@@ -59,7 +59,8 @@ void check_shift(const std::vector<Run>& runs, const NominalModel& model, const 
 }
 
 void check_unit(const NominalModel& model, const Momentum& fit, Findings& findings) {
-  if (!model.supplied || model.mass_kg <= 0) {
+  // Where little is explained, noise in the acceleration makes the inertia too small.
+  if (!model.supplied || model.mass_kg <= 0 || fit.explained < kLeastExplained) {
     return;
   }
   const double ratio = std::abs(fit.mass_kg) / model.mass_kg;
@@ -67,7 +68,9 @@ void check_unit(const NominalModel& model, const Momentum& fit, Findings& findin
   if (std::abs(decades) < 1.3) {
     return;
   }
-  const char* guess = "a scale factor is missing, or the model is of another machine";
+  const char* guess =
+      "a scale factor is missing, the model is of another machine, or the motion is too slow to "
+      "tell";
   if (std::abs(std::abs(decades) - 3) < 0.3) {
     guess = decades > 0 ? "the input is in thousandths or the position in thousands (mm for m?)"
                         : "the input is in thousands or the position is in mm read as m";
@@ -88,7 +91,7 @@ void check_unit(const NominalModel& model, const Momentum& fit, Findings& findin
 
 void check_against_model(const std::vector<Run>& runs, const NominalModel& model,
                          Findings& findings) {
-  const Momentum fit = fit_momentum(runs, 0);
+  const Momentum fit = fit_momentum(runs, model.rotary, 0);
   if (fit.windows < kFewestWindows) {
     const auto unit = std::find_if(findings.begin(), findings.end(),
                                    [](const Finding& f) { return f.name == "reference_unit_off"; });
@@ -107,7 +110,8 @@ void check_against_model(const std::vector<Run>& runs, const NominalModel& model
   if (fit.mass_kg < 0 && fit.coulomb_N < 0) {
     findings.push_back({Finding::Kind::kFatal, "command_sign_reversed",
                         "inertia and friction come out negative: the sign of the command is "
-                        "reversed against the position's"});
+                        "reversed against the position's, or something else drives the axis, a "
+                        "hand perhaps"});
     return;
   }
   if (aligned < kLeastExplained) {

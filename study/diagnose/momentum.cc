@@ -23,8 +23,8 @@ double window_of(const Run& run) {
 
 }  // namespace
 
-Momentum fit_momentum(const std::vector<Run>& runs, double shift_s) {
-  std::vector<std::array<double, 5>> rows;
+Momentum fit_momentum(const std::vector<Run>& runs, bool rotary, double shift_s) {
+  std::vector<std::array<double, 7>> rows;
   for (const Run& run : runs) {
     const double window_s = std::max(window_of(run), 4 * run.period_s);
     const Motion m = motion_of(run, std::max(kSmooth_s, 0.25 * window_s));
@@ -33,28 +33,32 @@ Momentum fit_momentum(const std::vector<Run>& runs, double shift_s) {
     for (Index from = 0; from + w < run.size(); from += w) {
       double impulse = 0;
       double direction = 0;
+      double sine = 0;
+      double cosine = 0;
       for (Index i = from; i < from + w; ++i) {
         impulse += run.input_N[std::clamp<Index>(i + shift, 0, run.size() - 1)];
         impulse -= run.known_N.size() > 0 ? run.known_N[i] : 0;
         const double v = m.speed_m_per_s[i];
         direction += v > 0 ? 1 : v < 0 ? -1 : 0;
+        sine += std::sin(run.position_m[i]);
+        cosine += std::cos(run.position_m[i]);
       }
       const double T = run.period_s;
       const double way = run.position_m[from + w] - run.position_m[from];
       if (std::abs(way) <= 2 * run.resolution_m) continue;  // it may stand
       rows.push_back({m.speed_m_per_s[from + w] - m.speed_m_per_s[from], way, direction * T,
-                      static_cast<double>(w) * T, impulse * T});
+                      static_cast<double>(w) * T, sine * T, cosine * T, impulse * T});
     }
   }
   Momentum out;
   out.windows = std::ssize(rows);
   if (out.windows < 12) return out;
-  Eigen::MatrixXd x(out.windows, 4);
+  Eigen::MatrixXd x(out.windows, rotary ? 6 : 4);
   Eigen::VectorXd y(out.windows);
   for (Index i = 0; i < out.windows; ++i) {
     const auto& row = rows[static_cast<std::size_t>(i)];
-    x.row(i) << row[0], row[1], row[2], row[3];
-    y[i] = row[4];
+    for (Index j = 0; j < x.cols(); ++j) x(i, j) = row[static_cast<std::size_t>(j)];
+    y[i] = row.back();
   }
   const Eigen::VectorXd b = x.colPivHouseholderQr().solve(y);
   const double about = (y.array() - y.mean()).square().sum();

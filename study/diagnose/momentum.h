@@ -1,5 +1,6 @@
-// Momentum over windows: M dv + B dq + C [direction] dt + b dt = sum of the input. A first fit
-// without a simulation, and what tells whether the columns are what they are said to be.
+// Momentum over windows: M dv + B dq + C [direction] dt + b dt = sum of the input, and of a joint
+// G_s sum sin q dt + G_c sum cos q dt beside it. A first fit without a simulation, and what tells
+// whether the columns are what they are said to be.
 #pragma once
 
 #include <vector>
@@ -19,6 +20,6 @@ struct Momentum {
 };
 
 // With the input moved by `shift_s` against the position.
-[[nodiscard]] Momentum fit_momentum(const std::vector<Run>& runs, double shift_s);
+[[nodiscard]] Momentum fit_momentum(const std::vector<Run>& runs, bool rotary, double shift_s);
 
 }  // namespace towbench::harness::diagnose

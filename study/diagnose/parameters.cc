@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "study/diagnose/motion.h"
+#include "study/prediction/units.h"
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -89,7 +90,8 @@ Common common_causes(const std::vector<ParameterShift>& shifts) {
 std::vector<ParameterShift> judge_parameters(const Data& data, const Search& search) {
   const NominalModel& model = search.context.stated;
   const std::array<std::string, 4> names{"inertia", "viscous", "coulomb", "bias"};
-  const std::array<std::string, 4> units{"kg", "N s/m", "N", "N"};
+  const Units of = units_of(model);
+  const std::array<std::string_view, 4> units{of.mass, of.viscous, of.force, of.force};
   const std::array<double, 4> supplied{model.mass_kg, model.viscous_N_s_per_m, model.coulomb_N,
                                        model.bias_N};
   const std::array<Key, 4> keys{Key::kMass, Key::kViscous, Key::kCoulomb, Key::kBias};
@@ -112,7 +114,7 @@ std::vector<ParameterShift> judge_parameters(const Data& data, const Search& sea
     shifts.push_back({names[i],
                       supplied[i],
                       {value, value - 1.96 * error, value + 1.96 * error},
-                      units[i],
+                      std::string(units[i]),
                       moved,
                       {}});
   }

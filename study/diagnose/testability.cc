@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "study/prediction/units.h"
+
 namespace towbench::harness::diagnose {
 namespace {
 
@@ -59,10 +61,10 @@ std::vector<NotTestable> find_not_testable(const Search& s) {
                                  100 * c->test.own_share),
                      effect.needs});
     } else if (detectable_rms_N(s, *c) > kMatters * force) {
-      out.push_back(
-          {effect.name,
-           fmt::format("it would have to reach {:.2g} N rms to be seen", detectable_rms_N(s, *c)),
-           effect.needs});
+      out.push_back({effect.name,
+                     fmt::format("it would have to reach {:.2g} {} rms to be seen",
+                                 detectable_rms_N(s, *c), units_of(s.context.stated).force),
+                     effect.needs});
     }
   }
   return out;

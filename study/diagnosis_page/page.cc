@@ -9,6 +9,7 @@
 #include "harness/report/html.h"
 #include "study/diagnose/headline.h"
 #include "study/diagnosis_page/pictures.h"
+#include "study/prediction/units.h"
 #include "study/procedures/svg_plot.h"
 
 namespace towbench::harness::diagnosis_page {
@@ -98,7 +99,9 @@ std::string confirmed(const Diagnosis& d) {
     return "<p>Nothing was found that could be.</p>\n";
   }
   const diagnose::FreeRun& f = d.free_run;
-  const auto mm = [](double metres) { return fmt::format("{:.3g} mm", 1e3 * metres); };
+  const auto mm = [of = units_of(d.context.stated)](double metres) {
+    return fmt::format("{:.3g} {}", 1e3 * metres, of.thousandth);
+  };
   std::vector<Row> rows;
   if (f.windows > 0) {
     rows.push_back({fmt::format("after {:g} s, {} windows", diagnose::kWindow_s, f.windows),

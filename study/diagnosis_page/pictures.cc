@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "study/prediction/units.h"
+
 namespace towbench::harness::diagnosis_page {
 namespace {
 
@@ -26,18 +28,23 @@ constexpr int kFrequencies = 240;
 
 struct Coordinate {
   std::string name;
-  std::string label;
+  std::string label;  // {0}: unit of length, {1}: of force
   VectorXd Series::*of;
 };
 
 const std::vector<Coordinate>& coordinates() {
   static const std::vector<Coordinate> kAll{
-      {"speed", "speed, m/s", &Series::speed_m_per_s},
-      {"position", "position, m", &Series::position_m},
-      {"acceleration", "acceleration, m/s2", &Series::acceleration_m_per_s2},
-      {"command", "force commanded, N", &Series::input_N},
+      {"speed", "speed, {0}/s", &Series::speed_m_per_s},
+      {"position", "position, {0}", &Series::position_m},
+      {"acceleration", "acceleration, {0}/s2", &Series::acceleration_m_per_s2},
+      {"command", "force commanded, {1}", &Series::input_N},
       {"time", "time, s", &Series::time_s}};
   return kAll;
+}
+
+std::string labelled(const Diagnosis& d, const std::string& label) {
+  const auto units = diagnose::units_of(d.context.stated);
+  return fmt::format(fmt::runtime(label), units.length, units.force);
 }
 
 const VectorXd& along(const Diagnosis& d, VectorXd Series::*of) {
@@ -73,7 +80,7 @@ Figure force_in_time(const Diagnosis& d) {
   return {
       .title = "Force, measured and modelled",
       .x_label = "time, s",
-      .y_label = "force, N",
+      .y_label = labelled(d, "force, {1}"),
       .curves = {curve("commanded", t, force, rows, Mark::kLine),
                  curve("model, refitted", t, force - d.series.refitted_N, rows, Mark::kLine),
                  curve("with what was found", t, force - d.series.extended_N, rows, Mark::kLine)},
@@ -84,8 +91,8 @@ Figure residual_along(const Diagnosis& d, const Coordinate& coordinate) {
   const VectorXd x = along(d, coordinate.of);
   const Index rows = coordinate.of == &Series::time_s ? rows_of_first(d) : x.size();
   return {.title = fmt::format("What is left, against {}", coordinate.name),
-          .x_label = coordinate.label,
-          .y_label = "residual, N",
+          .x_label = labelled(d, coordinate.label),
+          .y_label = labelled(d, "residual, {1}"),
           .curves = {curve("model, refitted", x, d.series.refitted_N, rows, Mark::kDots),
                      curve("with what was found", x, d.series.extended_N, rows, Mark::kDots)},
           .caption = {}};
@@ -112,7 +119,7 @@ Figure spectrum(const Diagnosis& d) {
   const double highest = d.series.bandwidth / std::numbers::pi;
   return {.title = "What is left, by frequency",
           .x_label = "frequency, Hz",
-          .y_label = "amplitude, N",
+          .y_label = labelled(d, "amplitude, {1}"),
           .curves = {amplitudes("model, refitted", t, d.series.refitted_N.head(rows), highest),
                      amplitudes("with what was found", t, d.series.extended_N.head(rows), highest)},
           .caption = "Of the first run."};
@@ -170,14 +177,15 @@ void add_causes(const Diagnosis& d, std::vector<Figure>& figures) {
     const VectorXd& x = period ? *period : all[c];
     figures.push_back(
         {.title = fmt::format("What {} takes away", cause.effect->name),
-         .x_label = period ? "position within a period, turns" : coordinates()[c].label,
-         .y_label = "force, N",
+         .x_label =
+             period ? "position within a period, turns" : labelled(d, coordinates()[c].label),
+         .y_label = labelled(d, "force, {1}"),
          .curves = {curve("what is left without it", x, d.series.extended_N + force, force.size(),
                           Mark::kDots),
                     curve("what it explains", x, force, force.size(), Mark::kDots)},
-         .caption = fmt::format("{:.3g} N rms: {}.",
+         .caption = fmt::format("{:.3g} {} rms: {}.",
                                 force.norm() / std::sqrt(static_cast<double>(force.size())),
-                                cause.effect->cause)});
+                                units_of(d.context.stated).force, cause.effect->cause)});
   }
 }
 

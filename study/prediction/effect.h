@@ -31,6 +31,7 @@ struct Effect {
   double own = 0.02;        // least share of its shape that the model must be unable to make
   bool flexible = false;    // a free shape, that takes on what is not its own
   double whole = 0;         // the amplitude that its law fixes; 0: none
+  bool structural = false;  // so large where it acts that no fit without it means anything
   // The base key that the mean of its shape falls into: with the effect found, that parameter is
   // not comparable with the supplied one. kCount: none.
   Key shares_mean_with = Key::kCount;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/prediction/first_fits.h"
 #include "study/prediction/whiteness.h"
 
 namespace towbench::harness::diagnose {
@@ -12,8 +13,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr int kRounds = 8;
-constexpr int kFirstRounds = 3;
-constexpr double kFresh = 0.3;  // gain at which a clip is believed whatever the screening says
 constexpr std::size_t kShortlist = 3;           // that are fitted, beside the most certain
 constexpr std::size_t kFittedOfAShortlist = 2;  // in another's place
 constexpr double kBeyondDoubt = 1e-12;          // a p-value that needs no count of blocks beside it
@@ -43,7 +42,8 @@ class Searcher {
     }
     State now = make_state(frame_, {}, model);
     out_.base = now;
-    if (accept_clip(now)) {
+    accept_structural(frame_, start_, limits_.least_errors, now);
+    if (accept_clip(frame_, start_, limits_.least_errors, now)) {
       set_bandwidth(frame_, now.fitted.model);
       now = make_state(frame_, now.accepted, now.fitted.model);
     }
@@ -148,41 +148,6 @@ class Searcher {
     return p_value < kBeyondDoubt ? gain.gain > 0
                                   : p_value < limits_.alpha && gain.gain > limits_.least_gain &&
                                         gain.standard_errors > limits_.least_errors;
-  }
-
-  // A clip leads the fit so far astray that its derivatives there say nothing: each level is fitted
-  // from the start.
-  bool accept_clip(State& now) {
-    State best;
-    for (const Effect& effect : effects()) {
-      if (effect.whole == 0 || effect.amplitudes.empty() || is_in(frame_, now, effect)) continue;
-      Candidate chosen;
-      chosen.effect = &effect;
-      double least = 0;
-      for (const Scales& scales : effect.grid(frame_.context)) {
-        Model model = start_;
-        effect.set(model.parameters, frame_.context, scales);
-        model.parameters[effect.amplitudes.front()] = effect.whole;
-        const double cost = fit_model(data_, frame_.context, model,
-                                      base_freedoms(frame_.context, data_.scenes.size()),
-                                      frame_.bandwidth, kFirstRounds)
-                                .cost;
-        if (chosen.scales.empty() || cost < least) {
-          least = cost;
-          chosen.scales = scales;
-        }
-      }
-      if (chosen.scales.empty()) continue;
-      State other = with(frame_, now, chosen, start_);
-      const Comparison gain = compare(now.loss, other.loss, 2);
-      if (gain.gain > kFresh && gain.standard_errors > limits_.least_errors &&
-          (best.accepted.empty() || other.loss.sum() < best.loss.sum())) {
-        best = std::move(other);
-      }
-    }
-    if (best.accepted.empty()) return false;
-    now = std::move(best);
-    return true;
   }
 
   // Within what its law allows, and where the model states it, off by more than is worth a name.
@@ -298,7 +263,9 @@ class Searcher {
       std::size_t fitted = 0;
       bool swapped = false;
       for (const Candidate& c : list) {
-        if (c.effect != effect && convinces(c) && fitted < kFittedOfAShortlist) {
+        // A free shape holds what is structural as one of its forms.
+        const bool holds_it = effect->structural && c.effect->flexible;
+        if (c.effect != effect && !holds_it && convinces(c) && fitted < kFittedOfAShortlist) {
           ++fitted;
           State other = with(frame_, rest, c, start_);
           if (!is_worth_naming(frame_, other)) continue;

@@ -32,7 +32,7 @@ Run swinging_body() {
 }
 
 TEST(Momentum, HasTheFourParametersOfTheClosedForm) {
-  const Momentum fit = fit_momentum({swinging_body()}, 0);
+  const Momentum fit = fit_momentum({swinging_body()}, false, 0);
   EXPECT_NEAR(fit.mass_kg, 8, 0.08);
   EXPECT_NEAR(fit.viscous_N_s_per_m, 5, 0.1);
   EXPECT_NEAR(fit.coulomb_N, 2, 0.04);
@@ -43,8 +43,8 @@ TEST(Momentum, HasTheFourParametersOfTheClosedForm) {
 TEST(Momentum, ExplainsLessWhereTheInputIsLate) {
   const harness::diagnose::Run run = swinging_body();
   // A sine that is late is a sum of its speed and acceleration; dry friction is not.
-  const double aligned = fit_momentum({run}, 0).explained;
-  EXPECT_LT(1 - aligned, 0.5 * (1 - fit_momentum({run}, 0.2).explained));
+  const double aligned = fit_momentum({run}, false, 0).explained;
+  EXPECT_LT(1 - aligned, 0.5 * (1 - fit_momentum({run}, false, 0.2).explained));
 }
 
 }  // namespace

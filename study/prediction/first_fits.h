@@ -1,0 +1,17 @@
+// Effects without which a fit is so far astray that its derivatives there say nothing. They are
+// fitted from the start, before what is left is screened.
+#pragma once
+
+#include "study/prediction/screening.h"
+
+namespace towbench::harness::diagnose {
+
+inline constexpr double kFresh = 0.3;  // gain at which they are believed whatever screening says
+
+// Where they gain so much, `least_errors` standard errors above nothing, they are in `now`.
+void accept_structural(Frame& frame, const Model& start, double least_errors, State& now);
+// The best clip of the drive; whether there is one.
+[[nodiscard]] bool accept_clip(const Frame& frame, const Model& start, double least_errors,
+                               State& now);
+
+}  // namespace towbench::harness::diagnose
