@@ -21,6 +21,7 @@ constexpr double kLeastOfStated = 0.03;         // by which what the model state
 constexpr double kStructured = 0.1;             // that innovations predict of themselves
 constexpr double kMuch = 1.0 / 3;    // least gain there of all, and of a free shape or a clip
 constexpr double kPlainGain = 0.05;  // of any other, two standard errors below it
+constexpr double kRunsAway = 4;      // times the loss of the model with a cause
 constexpr double kSwap = 1;          // standard errors by which another cause must be better
 constexpr double kAlias = 2;         // below which two are told apart by nothing
 
@@ -240,12 +241,22 @@ class Searcher {
                              static_cast<double>(out_.tried));
   }
 
+  // Of the best model without a cause: the others alone, or no cause at all where the others'
+  // prediction of one block from the rest runs away.
+  VectorXd loss_without(const State& now, const State& rest) const {
+    if (rest.loss.sum() > kRunsAway * now.loss.sum()) {
+      State base = make_state(frame_, {}, out_.base.fitted.model);
+      if (base.loss.sum() < rest.loss.sum()) return std::move(base.loss);
+    }
+    return rest.loss;
+  }
+
   // Each accepted cause against none and against every other in its place.
   void revise(State& now) {
     for (std::size_t i = 0; i < now.accepted.size();) {
       const Effect* effect = now.accepted[i].effect;
       const State rest = without(frame_, now, i);
-      const Comparison own = compare(rest.loss, now.loss, 2);
+      const Comparison own = compare(loss_without(now, rest), now.loss, 2);
       const std::vector<Candidate> list = screened(rest);
       const auto itself = std::find_if(list.begin(), list.end(),
                                        [&](const Candidate& c) { return c.effect == effect; });
