@@ -17,7 +17,13 @@ namespace towbench::harness {
 namespace {
 
 int diagnose_once(const DiagnoseOptions& options) {
-  const PlantModel plant = load_plant_model(model_of(options), options.axis);
+  if (has_no_model(options) && options.columns.empty()) {
+    std::fputs(explained_columns(options).c_str(), stdout);
+    throw UnusableData(options.data.front() +
+                       ": neither map nor model: save the map above as map.toml, correct it, and "
+                       "give --columns map.toml");
+  }
+  const PlantModel plant = plant_of(options);
   const diagnose::Diagnosis d = diagnose_logs(options, plant);
   write_diagnosis(options, plant, d);
   if (options.json) {
@@ -44,7 +50,8 @@ void add_diagnose(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DiagnoseOptions>();
   auto active = std::make_shared<ActiveOptions>();
   auto* verb = app.add_subcommand("diagnose", "name what a model gets wrong, from measured data");
-  verb->add_option("--model", options->model, "plant file; default: that of the first run folder")
+  verb->add_option("--model", options->model,
+                   "plant file; default: that of the first run folder, else none")
       ->check(CLI::ExistingFile);
   verb->add_option("--data", options->data,
                    "run folder of the bench, or CSV log; once for each run")
@@ -66,6 +73,10 @@ void add_diagnose(CLI::App& app, int& exit_code) {
       "         towbench diagnose --active --rig hidden.toml --model plant.toml --data "
       "runs/FOLDER\n"
       "         towbench diagnose --model plant.toml --data a.csv --data b.csv --columns map.toml\n"
+      "         towbench diagnose --data log.csv\n"
+      "A log alone is explained, with a map to correct; with its map and no model, mass and "
+      "friction "
+      "are estimated.\n"
       "Writes report.html, headline.txt, diagnosis.json, extended_plant.toml, residual.csv.\n"
       "Exit: 0 diagnosed, 2 the data cannot be diagnosed (one line says why).");
   verb->callback(

@@ -12,6 +12,7 @@
 #include "study/diagnose/diagnosis_json.h"
 #include "study/diagnose/extended_plant.h"
 #include "study/diagnose/headline.h"
+#include "study/diagnose/proposed_map.h"
 #include "study/diagnose/run_reader.h"
 #include "study/diagnosis_page/page.h"
 
@@ -60,7 +61,42 @@ std::vector<diagnose::Run> read_logs(const std::vector<std::string>& paths,
   return runs;
 }
 
+// What was estimated, as a plant file of a direct drive whose full command makes the largest force
+// of the log. Without friction where it came out negative, which no plant file can state.
+toml::table estimated_plant(const diagnose::Diagnosis& d) {
+  constexpr double kFull_V = 10;
+  const auto at_least_0 = [&](diagnose::Key key) { return std::max(0.0, d.extended[key]); };
+  toml::table axis{{"mass_kg", d.extended[diagnose::Key::kMass]},
+                   {"viscous_friction_N_s_per_m", at_least_0(diagnose::Key::kViscous)},
+                   {"coulomb_friction_N", at_least_0(diagnose::Key::kCoulomb)},
+                   {"force_gain_N_per_V", d.context.input_max_N / kFull_V},
+                   {"pwm_amplitude_V", kFull_V}};
+  return toml::table{{"schema", 1},
+                     {"axis", toml::table{{d.context.stated.axis, std::move(axis)}}}};
+}
+
 }  // namespace
+
+bool has_no_model(const DiagnoseOptions& options) {
+  return options.model.empty() && !std::filesystem::is_directory(options.data.front());
+}
+
+std::string explained_columns(const DiagnoseOptions& options) {
+  diagnose::Findings findings;
+  const auto table = diagnose::read_table(options.data.front(), findings);
+  refuse_fatal(findings);
+  return diagnose::explain_columns(table, options.data.front());
+}
+
+PlantModel plant_of(const DiagnoseOptions& options) {
+  if (!has_no_model(options)) {
+    return load_plant_model(model_of(options), options.axis);
+  }
+  PlantModel none;
+  none.model.axis = options.axis;
+  none.model.supplied = false;
+  return none;
+}
 
 std::filesystem::path model_of(const DiagnoseOptions& options) {
   if (!options.model.empty()) {
@@ -117,12 +153,16 @@ void write_diagnosis(const DiagnoseOptions& options, const PlantModel& plant,
   const std::filesystem::path folder = options.out;
   std::filesystem::create_directories(folder);
   write_atomically(folder / "diagnosis.json", diagnose::diagnosis_json(d));
-  write_atomically(folder / "extended_plant.toml", diagnose::extend_plant(plant.plant, d).text);
+  const bool none = has_no_model(options);
+  write_atomically(folder / "extended_plant.toml",
+                   diagnose::extend_plant(none ? estimated_plant(d) : plant.plant, d).text);
   diagnose::write_series(d, folder);
   write_atomically(
       folder / "report.html",
-      diagnosis_page::page(
-          "Diagnosis of " + model_of(options).filename().string() + ", axis " + options.axis, d));
+      diagnosis_page::page((none ? "Diagnosis of " + options.data.front()
+                                 : "Diagnosis of " + model_of(options).filename().string()) +
+                               ", axis " + options.axis,
+                           d));
   write_atomically(folder / "headline.txt", diagnose::headline(d));
 }
 

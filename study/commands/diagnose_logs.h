@@ -31,6 +31,12 @@ struct DiagnoseOptions {
   bool json = false;
 };
 
+// Neither a plant file nor a run folder with one: mass and friction are then estimated.
+[[nodiscard]] bool has_no_model(const DiagnoseOptions& options);
+// Of a log without a map: what its columns seem to be, and a map to correct. Throws UnusableData.
+[[nodiscard]] std::string explained_columns(const DiagnoseOptions& options);
+[[nodiscard]] PlantModel plant_of(const DiagnoseOptions& options);
+
 // The model that was asked for, or the plant that the first run folder says it was run with.
 [[nodiscard]] std::filesystem::path model_of(const DiagnoseOptions& options);
 

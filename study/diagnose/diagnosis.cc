@@ -163,6 +163,7 @@ Diagnosis diagnose(const Request& given) {
     d.unexplained->p_value = 0;
     search.context.stated.supplied = false;  // its parameters are not comparable
   }
+  d.estimated = !request.model.supplied && !d.unexplained;
   d.context = search.context;
   d.bandwidth = search.bandwidth;
   d.tried = search.tried;

@@ -59,6 +59,7 @@ struct Diagnosis {
   std::vector<NamedCause> causes;
   std::vector<Refused> refused;  // what the data speak for, and what was not accepted
   std::vector<ParameterShift> parameters;
+  bool estimated = false;  // the parameters: no model stated them
   std::optional<Unexplained> unexplained;
   std::vector<NotTestable> not_testable;
   Scored scored;

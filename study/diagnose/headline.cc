@@ -91,6 +91,15 @@ std::string what_it_gains(const Diagnosis& d) {
                      units.force, 100 * gain.low, 100 * gain.high, simulated(d.free_run, units));
 }
 
+std::string estimated(const Diagnosis& d) {
+  std::string out;
+  for (const ParameterShift& shift : d.parameters) {
+    out += fmt::format("{}{} {:.4g} {} [{:.4g}, {:.4g}]", out.empty() ? "" : ", ", shift.name,
+                       shift.fitted.value, shift.unit, shift.fitted.low, shift.fitted.high);
+  }
+  return "Estimated:     " + out + ".\n";
+}
+
 std::string next_step(const Diagnosis& d) {
   for (const NamedCause& cause : d.causes) {
     if (cause.separating) {
@@ -142,6 +151,7 @@ std::string headline(const Diagnosis& d) {
                            d.unexplained->coordinate)
              : "Left over:     nothing that the residual tests can see.\n";
   out += fmt::format("What to do:    {}.\n", next_step(d));
+  out += d.estimated ? estimated(d) : std::string{};
   for (const NamedCause& cause : d.causes) {
     out += fmt::format("  {:<24} {}; alone gains {:.1f} % (99 %: {:.1f} to {:.1f})\n",
                        cause.effect->name, cause.effect->cause, 100 * cause.gain99.value,

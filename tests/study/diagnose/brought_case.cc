@@ -73,8 +73,16 @@ fs::path BroughtCase::write(const std::string& name, const std::string& text) co
 }
 
 std::string BroughtCase::command(const std::string& arguments) const {
-  return fmt::format("cd {} && exec {} diagnose --model plant.toml --out found {}",
-                     folder_.string(), TOWBENCH_STUDY, arguments);
+  return without_model("--model plant.toml " + arguments);
+}
+
+std::string BroughtCase::without_model(const std::string& arguments) const {
+  return fmt::format("cd {} && exec {} diagnose --out found {}", folder_.string(), TOWBENCH_STUDY,
+                     arguments);
+}
+
+ProgramOutput BroughtCase::diagnose_without_model(const std::string& arguments) const {
+  return output_of(without_model(arguments));
 }
 
 ProgramOutput BroughtCase::diagnose(const std::string& arguments) const {

@@ -34,10 +34,13 @@ class BroughtCase {
   // The command that `diagnose` runs; `arguments` name logs by their file names in the folder.
   [[nodiscard]] std::string command(const std::string& arguments) const;
   [[nodiscard]] ProgramOutput diagnose(const std::string& arguments) const;
+  [[nodiscard]] ProgramOutput diagnose_without_model(const std::string& arguments) const;
   // diagnosis.json of the last one.
   [[nodiscard]] nlohmann::json answer() const;
 
  private:
+  [[nodiscard]] std::string without_model(const std::string& arguments) const;
+
   std::filesystem::path folder_;
 };
 

@@ -1,0 +1,19 @@
+// A log that came without a map: what its columns seem to be, a map to correct, and what no log can
+// say.
+#pragma once
+
+#include <string>
+
+#include "study/diagnose/table.h"
+
+namespace towbench::harness::diagnose {
+
+// TOML with a comment behind each line that is a guess; a column that was not found stands as a
+// comment.
+[[nodiscard]] std::string proposed_map(const Table& table);
+
+// Rows, period, each column with its range and what it seems to be; the map; what must be told, and
+// what is estimated.
+[[nodiscard]] std::string explain_columns(const Table& table, const std::string& file);
+
+}  // namespace towbench::harness::diagnose
