@@ -1,7 +1,9 @@
 // towbench diagnose: what a model gets wrong, from measured data (docs/theory/diagnosis.md).
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -11,6 +13,7 @@
 #include "study/commands/diagnose_logs.h"
 #include "study/commands/verbs.h"
 #include "study/diagnose/diagnosis_json.h"
+#include "study/diagnose/explain.h"
 #include "study/diagnose/headline.h"
 
 namespace towbench::harness {
@@ -30,9 +33,20 @@ int diagnose_once(const DiagnoseOptions& options) {
     std::fputs(diagnose::diagnosis_json(d).c_str(), stdout);
   } else {
     std::fputs(diagnose::headline(d).c_str(), stdout);
+    for (const auto& effect : options.explain) {
+      std::fputs(diagnose::explain(d, effect).c_str(), stdout);
+    }
     std::printf("%s\n", (std::filesystem::path(options.out) / "report.html").c_str());
   }
   return kExitPass;
+}
+
+std::vector<std::string> names_of_effects() {
+  std::vector<std::string> names;
+  for (const diagnose::Effect& effect : diagnose::effects()) names.push_back(effect.name);
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
 }
 
 int execute_diagnose(const DiagnoseOptions& options, const ActiveOptions& active) {
@@ -62,6 +76,9 @@ void add_diagnose(CLI::App& app, int& exit_code) {
   verb->add_option("--columns", options->columns, "TOML map of a foreign log's columns")
       ->check(CLI::ExistingFile);
   verb->add_option("--axis", options->axis, "axis of the plant")->check(CLI::IsMember({"y", "x"}));
+  verb->add_option("--explain", options->explain,
+                   "why this effect was named, or not; may be repeated")
+      ->check(CLI::IsMember(names_of_effects()));
   verb->add_option("--out", options->out, "folder to write to")->check(folder_to_write());
   verb->add_option("--seed", options->seed, "of the bootstrap and the simulated references")
       ->check(whole_number());
@@ -74,6 +91,7 @@ void add_diagnose(CLI::App& app, int& exit_code) {
       "runs/FOLDER\n"
       "         towbench diagnose --model plant.toml --data a.csv --data b.csv --columns map.toml\n"
       "         towbench diagnose --data log.csv\n"
+      "         towbench diagnose --data runs/FOLDER --explain backlash\n"
       "A log alone is explained, with a map to correct; with its map and no model, mass and "
       "friction "
       "are estimated.\n"

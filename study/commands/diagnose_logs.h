@@ -27,6 +27,7 @@ struct DiagnoseOptions {
   std::string axis = "y";
   std::string out = "diagnosis";
   std::uint64_t seed = 1;
+  std::vector<std::string> explain;  // effects
   bool quiet = false;
   bool json = false;
 };

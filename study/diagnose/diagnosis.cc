@@ -87,11 +87,15 @@ void name_causes(Diagnosis& d, const Search& search) {
     }
     d.causes.push_back(std::move(named));
   }
+  for (const Effect* effect : search.dropped) d.dropped.push_back(effect->name);
   constexpr double kSpokenFor = 1e-3;
   for (const Candidate& c : search.refused) {
     const bool accepted = std::any_of(search.causes.begin(), search.causes.end(),
                                       [&](const Cause& cause) { return cause.effect == c.effect; });
-    if (!accepted && c.p_value() < kSpokenFor) {
+    if (accepted) continue;
+    d.considered.push_back(
+        {c.effect->name, c.p_value(), gain_of(c.gain), c.gain.standard_errors, c.plausible});
+    if (c.p_value() < kSpokenFor) {
       d.refused.push_back({c.effect->name, c.p_value(), gain_of(c.gain)});
     }
   }

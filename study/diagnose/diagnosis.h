@@ -52,12 +52,23 @@ struct Refused {
   Interval gain99;
 };
 
+// What was tried beside the causes, in the last round.
+struct Considered {
+  std::string effect;
+  double p_value = 1;
+  Interval gain99;
+  double standard_errors = 0;  // of the gain above zero
+  bool plausible = false;      // sign and size as its law allows
+};
+
 struct Diagnosis {
   std::vector<std::string> verdicts;  // model_adequate, parameters_off, cause_found, ...
   Findings findings;                  // a fatal one: nothing below is filled
   Context context;
   std::vector<NamedCause> causes;
   std::vector<Refused> refused;  // what the data speak for, and what was not accepted
+  std::vector<Considered> considered;
+  std::vector<std::string> dropped;  // effects that were accepted for a while
   std::vector<ParameterShift> parameters;
   bool estimated = false;  // the parameters: no model stated them
   std::optional<Unexplained> unexplained;

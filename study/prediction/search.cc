@@ -107,7 +107,7 @@ class Searcher {
   static bool is_free(const Cause& cause) { return cause.effect->flexible || cause.sought; }
 
   void drop(State& now, std::size_t i) {
-    excluded_.push_back(out_.causes[i].effect);
+    out_.dropped.push_back(out_.causes[i].effect);
     now = without(frame_, now, i);
     out_.causes.clear();
   }
@@ -127,7 +127,7 @@ class Searcher {
   }
 
   std::vector<Candidate> screened(const State& s) {
-    Screened found = screen(frame_, s, excluded_);
+    Screened found = screen(frame_, s, out_.dropped);
     out_.tried = found.tried;
     return std::move(found.best);
   }
@@ -306,7 +306,6 @@ class Searcher {
   Frame frame_;
   Limits limits_;
   Model start_;
-  std::vector<const Effect*> excluded_;  // tried, and too weak beside what is left
   Search out_;
 };
 

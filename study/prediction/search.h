@@ -29,7 +29,8 @@ struct Search {
   State base;
   State final;
   std::vector<Cause> causes;
-  std::vector<Candidate> refused;  // of the last round, best first
+  std::vector<Candidate> refused;      // of the last round, best first
+  std::vector<const Effect*> dropped;  // accepted, and too weak beside what is left
   std::size_t tried = 0;
   bool structured = false;  // much is left that no effect explains
 };
