@@ -21,6 +21,7 @@
 #include "study/recovery/tow/tow_recovery.h"
 #include "study/results/kept_tow.h"
 #include "study/results/results_page.h"
+#include "study/results/thesis_tracking.h"
 
 namespace towbench::harness {
 namespace {
@@ -31,18 +32,6 @@ struct ResultsOptions {
   std::uint64_t seed = 1;
 };
 
-std::vector<TrackedSpeed> tracked(const RigFixture& rig, const ControllerFixture& controller,
-                                  std::initializer_list<double> speeds, TrapezoidRun run) {
-  std::vector<TrackedSpeed> all;
-  for (const double speed : speeds) {
-    run.speed_m_per_s = speed;
-    // Three seconds of steady motion, or what the track allows.
-    run.distance_m = std::min(2.2, speed * (run.acceleration_s + run.smooth_s + 3.0));
-    all.push_back({speed, track_trapezoid(rig, controller, run, 1)});
-  }
-  return all;
-}
-
 struct ResultsBench {
   RigFixture dry;
   RigFixture wet;
@@ -52,15 +41,25 @@ struct ResultsBench {
 };
 
 void measure_tracking(const ResultsBench& bench, Results& results) {
-  results.slow = tracked(bench.dry, bench.controller,
-                         {0.005, 0.010, 0.020, 0.030, 0.040, 0.050, 0.060, 0.070, 0.080, 0.090,
-                          0.100, 0.200, 0.300, 0.400},
-                         {});
-  const TrapezoidRun fast{.smooth_s = 0.243, .settle_s = 0.3};
-  results.fast_air =
-      tracked(bench.dry, bench.controller, {0.05, 0.15, 0.25, 0.35, 0.45, 0.55}, fast);
-  results.fast_water =
-      tracked(bench.wet, bench.controller, {0.05, 0.15, 0.25, 0.35, 0.45, 0.55}, fast);
+  const auto slow = speeds_of(kTable7_6);
+  const auto fast = speeds_of(kTable8_3);
+  const TrapezoidRun smoothed{.smooth_s = 0.243, .settle_s = 0.3};
+  results.slow = track_speeds(bench.dry, bench.controller, slow, {}, {});
+  results.fast_air = track_speeds(bench.dry, bench.controller, fast, smoothed, {});
+  results.fast_water = track_speeds(bench.wet, bench.controller, fast, smoothed, {});
+}
+
+void measure_own_gains(const ResultsBench& bench, StudyProgress& progress, Results& results) {
+  double done = 0;
+  for (const char* name : {"bbmc-table-7.2", "bbmc-0.5", "bbmc-tuned"}) {
+    progress.show("Tables 7.6 and 8.3 with " + std::string(name), done / 3);
+    SourceFiles sources;
+    results.own_gains.push_back(track_gains(
+        bench.dry,
+        load_controller(fixtures_directory() / "controllers" / (std::string(name) + ".toml"),
+                        sources)));
+    done += 1;
+  }
 }
 
 void identify_machine(const ResultsBench& bench, const ResultsOptions& options,
@@ -160,6 +159,7 @@ int execute_results(const ResultsOptions& options) {
   results.truth = bench.dry.parameters;
   progress.show("Tables 7.6 and 8.3", 0);
   measure_tracking(bench, results);
+  measure_own_gains(bench, progress, results);
   identify_machine(bench, options, progress, results);
   tow_everything(bench, options, progress, results);
   progress.clear();

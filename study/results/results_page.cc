@@ -1,21 +1,18 @@
 #include "study/results/results_page.h"
 
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "study/results/identification_tables.h"
+#include "study/results/own_gains_tables.h"
+#include "study/results/thesis_tracking.h"
 
 namespace towbench::harness {
 namespace {
 
 std::string tracking(const Results& results) {
-  // Table 7.6: mean position error in "mm".
-  constexpr std::array<double, 14> kThesis{1.226e-3, 1.391e-3, 1.195e-3, 1.153e-3, 1.170e-3,
-                                           1.63e-3,  1.194e-3, 1.195e-3, 1.117e-3, 1.116e-3,
-                                           0.988e-3, 0.919e-3, 1.093e-3, 1.645e-3};
   std::string text =
       "\n## Table 7.6: trapezoids on Y, plain PID\n\n"
       "um. Motor side: steady state, peak of the whole profile. Truth: the carriage behind the "
@@ -25,35 +22,33 @@ std::string tracking(const Results& results) {
   for (std::size_t k = 0; k < results.slow.size(); ++k) {
     const auto& [speed, run] = results.slow[k];
     text += fmt::format("| {:.0f} | {:.2f} | {:.2f} | {:.1f} | {:.0f} | {:.0f} |{}\n", 1e3 * speed,
-                        k < kThesis.size() ? 1e3 * kThesis[k] : NAN, 1e6 * run.mean_m,
-                        1e6 * run.rms_m, 1e6 * run.peak_m, 1e6 * run.carriage_peak_m,
+                        1e3 * kTable7_6.at(k).position_error_mm, 1e6 * run.mean_m, 1e6 * run.rms_m,
+                        1e6 * run.peak_m, 1e6 * run.carriage_peak_m,
                         run.trouble.empty() ? "" : " " + run.trouble);
   }
   text +=
-      "\nErratum: errors of 1.2e-3 \"mm\" are half a count of 2.245 um: a signed mean, or the "
-      "table is in metres. A signed "
-      "mean\nalone says nothing of how well a reference is followed, so RMS and peak stand beside "
-      "it. Every law: "
+      "\nThe column of the thesis is read in mm as printed; the gains here are not the thesis's, "
+      "and with its own the\nunit is metres: see below. A signed mean alone says nothing of how "
+      "well a reference is followed, so RMS and peak\nstand beside it. Every law: "
       "`docs/measurements/tracking.md`.\n";
   return text;
 }
 
 std::string fast_tracking(const Results& results) {
-  constexpr std::array<double, 6> kThesis{0.336, 0.581, 0.817, 1.8, 1.9, 3.9};
   std::string text =
       "\n## Table 8.3: fast trapezoids, with and without the object in the water\n\n"
       "mm, whole profile, plain PID. Demand: peak below the thesis's mean.\n\n"
       "| mm/s | thesis, mean | bench, peak in air | in water | truth, carriage mean in water | "
       "carriage peak | demand |\n"
       "| --- | --- | --- | --- | --- | --- | --- |\n";
-  for (std::size_t k = 0; k < results.fast_air.size() && k < kThesis.size(); ++k) {
+  for (std::size_t k = 0; k < results.fast_air.size() && k < kTable8_3.size(); ++k) {
     const auto& air = results.fast_air[k].run;
     const auto& water = results.fast_water[k].run;
-    const bool met = 1e3 * std::max(air.peak_m, water.peak_m) < kThesis[k] && air.trouble.empty() &&
-                     water.trouble.empty();
+    const bool met = 1e3 * std::max(air.peak_m, water.peak_m) < kTable8_3[k].position_error_mm &&
+                     air.trouble.empty() && water.trouble.empty();
     text += fmt::format("| {:.0f} | {:.3g} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {} |\n",
-                        1e3 * results.fast_air[k].speed_m_per_s, kThesis[k], 1e3 * air.peak_m,
-                        1e3 * water.peak_m, 1e3 * water.carriage_mean_m,
+                        1e3 * results.fast_air[k].speed_m_per_s, kTable8_3[k].position_error_mm,
+                        1e3 * air.peak_m, 1e3 * water.peak_m, 1e3 * water.carriage_mean_m,
                         1e3 * water.carriage_peak_m, met ? "met" : "MISSED");
   }
   return text;
@@ -164,6 +159,7 @@ std::string results_page(const Results& results) {
   text += identification_tables(results.truth, results.identified);
   text += tracking(results);
   text += fast_tracking(results);
+  text += own_gains_tables(results.own_gains);
   text += drag_tables(results);
   text += "\n## Tow experiments, every estimate against its demand\n";
   for (const auto& tow : results.tows) {

@@ -8,14 +8,10 @@
 #include "study/procedures/chain.h"
 #include "study/procedures/tow/tow_procedure.h"
 #include "study/recovery/recovery.h"
+#include "study/results/own_gains.h"
 #include "study/results/tracked_run.h"
 
 namespace towbench::harness {
-
-struct TrackedSpeed {
-  double speed_m_per_s = 0;
-  TrackedRun run;
-};
 
 struct TowResult {
   std::string id;
@@ -32,6 +28,7 @@ struct Results {
   std::vector<TrackedSpeed> slow;      // the 14 speeds of Table 7.6, thesis's trapezoids
   std::vector<TrackedSpeed> fast_air;  // the 6 speeds of Table 8.3
   std::vector<TrackedSpeed> fast_water;
+  std::vector<OwnGains> own_gains;  // the thesis's, BBMC 0.5's, the bench's
   double wall_s = 0;
   bool partly_from_before = false;  // an interrupted set was continued
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -13,38 +14,44 @@ namespace {
 
 using core::Axis;
 
-ExperimentFixture fixture_of(const RigFixture& rig, const ControllerFixture& controller,
-                             const TrapezoidRun& run) {
+// One motion from where the rig stands.
+std::unique_ptr<CaseRecord> record_of(const RigFixture& rig, const ControllerFixture& controller,
+                                      const std::string& motion, double longest_s,
+                                      std::uint64_t seed) {
   ExperimentFixture fixture;
   fixture.rig = rig;
   fixture.controller = controller;
-  fixture.experiment.name = "tracked trapezoid";
+  fixture.experiment.name = "tracked motion";
   auto& steps = fixture.experiment.console;
   for (const auto axis : core::kAxes) {
     steps.push_back(procedures::say(fmt::format("reset poscalib {} {:.6f}m", core::name_of(axis),
                                                 rig.parameters.axes[axis].start_m)));
   }
-  const double longest_s = run.distance_m / run.speed_m_per_s + 20;
-  steps.push_back(procedures::move(
-      fmt::format("run -trapez y --distance {:.4f}m --speed {:.4f}m/s --acceleration {:.3f}s "
-                  "--smooth {:.3f}s",
-                  run.distance_m, run.speed_m_per_s, run.acceleration_s, run.smooth_s),
-      longest_s));
+  steps.push_back(procedures::move(motion, longest_s));
   fixture.experiment.duration_limit_s = longest_s + 10;
-  return fixture;
+  return run_case(fixture, fixture.rig.parameters, {}, {.seed = seed});
+}
+
+std::string trouble_of(const CaseRecord& record) {
+  if (const auto* fault = record.first_fault(); fault != nullptr) {
+    return std::string(core::describe(fault->code));
+  }
+  return record.outcome.script_failure;
 }
 
 }  // namespace
 
 TrackedRun track_trapezoid(const RigFixture& rig, const ControllerFixture& controller,
                            const TrapezoidRun& run, std::uint64_t seed) {
-  const auto fixture = fixture_of(rig, controller, run);
-  const auto record = run_case(fixture, fixture.rig.parameters, {}, {.seed = seed});
+  const double longest_s = run.distance_m / run.speed_m_per_s + 20;
+  const auto record = record_of(
+      rig, controller,
+      fmt::format("run -trapez y --distance {:.4f}m --speed {:.4f}m/s --acceleration {:.3f}s "
+                  "--smooth {:.3f}s",
+                  run.distance_m, run.speed_m_per_s, run.acceleration_s, run.smooth_s),
+      longest_s, seed);
   TrackedRun tracked;
-  tracked.trouble = record->outcome.script_failure;
-  if (const auto* fault = record->first_fault(); fault != nullptr) {
-    tracked.trouble = std::string(core::describe(fault->code));
-  }
+  tracked.trouble = trouble_of(*record);
   double steady = 0;
   double followed = 0;
   double steady_from_s = -1;
@@ -57,6 +64,7 @@ TrackedRun track_trapezoid(const RigFixture& rig, const ControllerFixture& contr
     const double carriage = y.reference_m - record->truth_at(row.time_ns).axes[Axis::kY].carriage_m;
     tracked.peak_m = std::max(tracked.peak_m, std::fabs(error));
     tracked.carriage_peak_m = std::max(tracked.carriage_peak_m, std::fabs(carriage));
+    tracked.whole_mean_m += std::fabs(error);
     tracked.carriage_mean_m += std::fabs(carriage);
     followed += 1;
     const double now_s = core::seconds(row.time_ns);
@@ -72,6 +80,7 @@ TrackedRun track_trapezoid(const RigFixture& rig, const ControllerFixture& contr
     }
   }
   if (followed > 0) {
+    tracked.whole_mean_m /= followed;
     tracked.carriage_mean_m /= followed;
   }
   if (steady > 0) {
@@ -80,6 +89,55 @@ TrackedRun track_trapezoid(const RigFixture& rig, const ControllerFixture& contr
     tracked.speed_mean_m_per_s /= steady;
   } else if (tracked.trouble.empty()) {
     tracked.trouble = "no steady part";
+  }
+  return tracked;
+}
+
+std::vector<TrackedSpeed> track_speeds(const RigFixture& rig, const ControllerFixture& controller,
+                                       std::span<const double> speeds_m_per_s, TrapezoidRun run,
+                                       const SteadyPart& steady) {
+  std::vector<TrackedSpeed> all;
+  for (const double speed : speeds_m_per_s) {
+    run.speed_m_per_s = speed;
+    run.distance_m =
+        std::min(steady.track_m, speed * (run.acceleration_s + run.smooth_s + steady.longest_s));
+    all.push_back({speed, track_trapezoid(rig, controller, run, 1)});
+  }
+  return all;
+}
+
+TrackedCircle track_circle(const RigFixture& rig, const ControllerFixture& controller,
+                           std::uint64_t seed) {
+  const auto record =
+      record_of(rig, controller, "run -circle --radius 0.2m --period 7s --turns 2", 40, seed);
+  TrackedCircle tracked;
+  tracked.trouble = trouble_of(*record);
+  for (const auto axis : core::kAxes) {
+    CircleError& of = tracked.axes[axis];
+    double followed = 0;
+    double speed_at_peak = 0;
+    double top_speed = 0;
+    for (const auto& row : record->log) {
+      const auto& state = row.axes[axis];
+      if (state.mode != bbmc::AxisMode::kPosition) {
+        continue;
+      }
+      const double error = state.reference_m - state.position_m;
+      const double speed = std::fabs(state.reference_velocity_m_per_s);
+      top_speed = std::max(top_speed, speed);
+      followed += 1;
+      of.rms_m += error * error;
+      if (std::fabs(error) > of.peak_m) {
+        of.peak_m = std::fabs(error);
+        speed_at_peak = speed;
+      }
+    }
+    if (followed > 0 && top_speed > 0) {
+      of.rms_m = std::sqrt(of.rms_m / followed);
+      of.speed_share_at_peak = speed_at_peak / top_speed;
+    } else if (tracked.trouble.empty()) {
+      tracked.trouble = "not driven";
+    }
   }
   return tracked;
 }

@@ -1,8 +1,11 @@
-// One trapezoid, tracked: what the encoder says and where the carriage truly was.
+// One motion, tracked: what the encoder says and where the carriage truly was.
 #pragma once
 
+#include <span>
 #include <string>
+#include <vector>
 
+#include "core/axis.h"
 #include "harness/fixtures/controller_fixture.h"
 #include "harness/fixtures/rig_fixture.h"
 
@@ -23,6 +26,7 @@ struct TrackedRun {
   double rms_m = 0;
   double peak_m = 0;
   double speed_mean_m_per_s = 0;  // of the velocity error, steady part
+  double whole_mean_m = 0;        // of the absolute error, whole profile
   // Carriage side, whole profile.
   double carriage_mean_m = 0;  // of the absolute error
   double carriage_peak_m = 0;
@@ -30,5 +34,38 @@ struct TrackedRun {
 
 [[nodiscard]] TrackedRun track_trapezoid(const RigFixture& rig, const ControllerFixture& controller,
                                          const TrapezoidRun& run, std::uint64_t seed);
+
+struct TrackedSpeed {
+  double speed_m_per_s = 0;
+  TrackedRun run;
+};
+
+// How long the steady part is, settling included, where the track allows it.
+struct SteadyPart {
+  double longest_s = 3.0;
+  double track_m = 2.2;
+};
+
+// `run` at each speed, one after the other.
+[[nodiscard]] std::vector<TrackedSpeed> track_speeds(const RigFixture& rig,
+                                                     const ControllerFixture& controller,
+                                                     std::span<const double> speeds_m_per_s,
+                                                     TrapezoidRun run, const SteadyPart& steady);
+
+// Of one axis along a circle, motor side.
+struct CircleError {
+  double peak_m = 0;
+  double rms_m = 0;
+  double speed_share_at_peak = 0;  // of the axis's largest reference speed; 0 where it reverses
+};
+
+struct TrackedCircle {
+  std::string trouble;  // empty: it ran to its end
+  core::PerAxis<CircleError> axes{};
+};
+
+// Two turns of the thesis's circle, Figs 7.14, 7.15: radius 0.2 m, period 7 s (7.3.2).
+[[nodiscard]] TrackedCircle track_circle(const RigFixture& rig, const ControllerFixture& controller,
+                                         std::uint64_t seed);
 
 }  // namespace towbench::harness

@@ -7,8 +7,8 @@
 
 #include <fmt/core.h>
 
+#include "study/results/thesis_tracking.h"
 #include "tests/bbmc/figures/figures.h"
-#include "tests/bbmc/figures/table_7_6.h"
 #include "tests/bbmc/support/tracking.h"
 
 namespace towbench::tests {
@@ -36,7 +36,7 @@ void print_head() {
 
 void print_speeds() {
   print_head();
-  for (const Row7_6& row : kTable7_6) {
+  for (const harness::ThesisTracking& row : harness::kTable7_6) {
     fmt::print("| {:.0f} | {:.2f} |", row.speed_mm_per_s, 1e3 * row.position_error_mm);
     for (const Law& law : kLaws) {
       if (!concerns_one_axis(law)) {

@@ -4,8 +4,8 @@
 //   build/tests/bbmc/bbmc_figures tracking > docs/measurements/tracking.md
 #include <fmt/core.h>
 
+#include "study/results/thesis_tracking.h"
 #include "tests/bbmc/figures/figures.h"
-#include "tests/bbmc/figures/table_7_6.h"
 #include "tests/bbmc/support/tracking.h"
 
 namespace towbench::tests {
@@ -28,7 +28,7 @@ void print_trapezoids() {
     fmt::print(
         "| mm/s | mean velocity error, mm/s | thesis | mean | thesis, mean | RMS | peak | carriage "
         "peak |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n");
-    for (const Row7_6& row : kTable7_6) {
+    for (const harness::ThesisTracking& row : harness::kTable7_6) {
       const TrapezoidFigures f = measure_trapezoid(law, Axis::kY, row.speed_mm_per_s / 1e3);
       fmt::print("| {:.0f} | {:.1e} | {:.1e} | {:.2f} | {:.2f} | {:.1f} | {:.0f} | {:.0f} |{}\n",
                  row.speed_mm_per_s, 1e3 * f.mean_velocity_error_m_per_s,
@@ -97,7 +97,10 @@ void print_tracking() {
       "does "
       "not: that column is the one that a tow experiment sees, and no law but the last knows of "
       "the chain. The last moves\nthe motor away from the reference on purpose, by the chain's "
-      "stretch: its motor-side figures are that stretch.\n\n");
+      "stretch: its motor-side figures are that stretch.\n\n"
+      "The thesis's columns are its print. Its gains were softer and its unit is metres rather "
+      "than "
+      "mm: `docs/measurements/results.md`,\nTable 7.2.\n\n");
   print_trapezoids();
   print_cause();
   print_circle();

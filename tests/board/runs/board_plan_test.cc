@@ -34,7 +34,7 @@ class BoardPlanRun : public testing::Test {
     return load_experiment(files_.write("servo.toml", R"(schema = 1
 name = "servo"
 rig = "fixtures/rigs/macs-nominal.toml"
-controller = "fixtures/controllers/bbmc-default.toml"
+controller = "fixtures/controllers/bbmc-0.5.toml"
 duration_limit_s = 5.0
 console = [
   { expect = "servo:~$ ", timeout_s = 5.0 },

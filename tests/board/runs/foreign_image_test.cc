@@ -28,7 +28,7 @@ class Bench {
     const auto file =
         files_.write(name + ".toml", "schema = 1\nname = \"" + name +
                                          "\"\nrig = \"fixtures/rigs/macs-nominal.toml\"\n"
-                                         "controller = \"fixtures/controllers/bbmc-default.toml\"\n"
+                                         "controller = \"fixtures/controllers/bbmc-0.5.toml\"\n"
                                          "duration_limit_s = 10.0\n" +
                                          script);
     RunOptions options;
@@ -167,7 +167,7 @@ TEST(ForeignImage, ARunOfAPersonAtTheConsoleEndsWhenStoppedAndProvesNothing) {
 schema = 1
 name = "by-hand"
 rig = "fixtures/rigs/macs-nominal.toml"
-controller = "fixtures/controllers/bbmc-default.toml"
+controller = "fixtures/controllers/bbmc-0.5.toml"
 duration_limit_s = 10.0
 budget = [{ metric = "y_carriage_travel_m", max = 0.105 }]
 )");
@@ -197,7 +197,7 @@ TEST(ForeignImage, AWiringFileSaysWhichPinsMeetTheMachine) {
 schema = 1
 name = "wired"
 rig = "fixtures/rigs/macs-nominal.toml"
-controller = "fixtures/controllers/bbmc-default.toml"
+controller = "fixtures/controllers/bbmc-0.5.toml"
 wiring = "wiring.toml"
 duration_limit_s = 10.0
 console = [
@@ -275,7 +275,7 @@ inject = [
   void write_motion(const std::string& name, const std::string& start) {
     files_.write(name + ".toml", "schema = 1\nname = \"" + name + R"("
 rig = "fixtures/rigs/macs-nominal.toml"
-controller = "fixtures/controllers/bbmc-default.toml"
+controller = "fixtures/controllers/bbmc-0.5.toml"
 duration_limit_s = 10.0
 seed = 1
 console = [
