@@ -1,5 +1,6 @@
-// Ordinary least squares as the thesis does it: J, B, C of (4.8) by (4.9), residual by (4.10), on
-// differentiated and filtered counts, with its criteria OLS-C-1 .. OLS-C-6.
+// Ordinary least squares: J, B, C of (4.8) by (4.9), residual by (4.10), on differentiated and
+// filtered counts, with the criteria OLS-C-1 .. OLS-C-6. The thesis filters the chain's oscillation
+// out (7.2.1): with a cut-off above the chain's mode J misses the carriage.
 //
 // It is biased: the chain's swing, the rise of friction towards standstill and with place, and the
 // filter on sgn v are all in the residual, and they are correlated with the regressors.
@@ -14,7 +15,7 @@ namespace towbench::harness::identify {
 
 struct OlsInput {
   double torque_per_duty_Nm = 0;  // at 1 %
-  double cutoff_Hz = 20;          // of the zero-phase filter on every column
+  double cutoff_Hz = 4;           // of the zero-phase filter on every column
   double saturation_speed_m_per_s = 0;
   double largest_duty_pct = 100;  // that the current limit allows
 };

@@ -8,7 +8,6 @@
 namespace towbench::harness::procedures {
 
 ProcedureOutcome study_log(const ProcedureContext& context, const BroughtLog& log) {
-  constexpr double kCutoff_Hz = 20;
   std::string why;
   // Knots of the friction's map closer and closer, as far as the log bears them.
   for (const double spacing_m : {1.0, 0.5, 0.25, 0.12}) {
@@ -23,7 +22,6 @@ ProcedureOutcome study_log(const ProcedureContext& context, const BroughtLog& lo
                      .data = log.recording,
                      .fit = fit,
                      .knots_are_bends = false,
-                     .cutoff_Hz = kCutoff_Hz,
                      .procedure = "log",
                      .input = log.source},
                     outcome);

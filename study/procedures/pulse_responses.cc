@@ -1,4 +1,4 @@
-// EXP-OL-2: square-wave pulses. Ordinary least squares as the thesis has it, its bias shown by the
+// EXP-OL-2: square-wave pulses. Ordinary least squares (7.2.1), its bias shown by the
 // same on a simulated reference whose parameters are known; beside it output error, which has none.
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,6 @@ struct PulseResponsesSettings {
   double start_share = 0.15;
   double knot_spacing_m = 0.3;
   int places = 5;
-  double cutoff_Hz = 20;
 
   template <typename Visitor>
   void visit(Visitor& v) {
@@ -34,7 +33,6 @@ struct PulseResponsesSettings {
     v.value("start_share", start_share, core::between(0.05, 0.6), "of the track, where it starts");
     v.value("knot_spacing_m", knot_spacing_m, core::between(0.01, 2), "of the friction's map");
     v.value("places", places, core::between(1, 20), "along the axis at which pulses are given");
-    v.value("cutoff_hz", cutoff_Hz, core::between(1, 200), "of the filter before least squares");
   }
 };
 
@@ -67,7 +65,6 @@ class PulseResponses final : public Procedure {
          .data = data,
          .fit = fit,
          .knots_are_bends = !start.coulomb_Nm.empty(),
-         .cutoff_Hz = settings.cutoff_Hz,
          .procedure = "EXP-OL-2",
          .input = fmt::format("{} % duty, {} pulses each way", plan.duty_pct, plan.pulses)},
         outcome);

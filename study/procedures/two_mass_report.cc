@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "study/identify/ordinary_least_squares.h"
 #include "study/procedures/believed_model.h"
+#include "study/procedures/least_squares_report.h"
 #include "study/procedures/procedures.h"
 
 namespace towbench::harness::procedures {
@@ -68,50 +68,6 @@ void add_estimates(const TwoMassReport& report, ProcedureOutcome& outcome) {
   }
 }
 
-void add_ols(const TwoMassReport& report, ProcedureOutcome& outcome) {
-  const auto& context = report.context;
-  const auto& data = report.data;
-  const auto& fit = report.fit;
-  const auto& belief = context.machine.configuration().axes[context.axis];
-  const identify::OlsInput input{
-      .torque_per_duty_Nm = torque_scale(context).torque_per_duty_Nm,
-      .cutoff_Hz = report.cutoff_Hz,
-      .saturation_speed_m_per_s =
-          value_or(context, "saturation_speed_m_per_s", belief.speed_limit_m_per_s),
-      .largest_duty_pct = 100 * belief.drive.current_limit_A /
-                          (belief.drive.amplifier_gain_A_per_V * belief.drive.pwm_amplitude_V)};
-  const auto ols = identify::fit_ordinary_least_squares(data, context.axis, input);
-  // The same processing of a machine whose parameters are known: what it adds is its bias.
-  std::vector<double> reference(fit.simulated_counts.size());
-  std::transform(fit.simulated_counts.begin(), fit.simulated_counts.end(), reference.begin(),
-                 [](double count) { return std::floor(count); });
-  const auto of_reference =
-      identify::fit_ordinary_least_squares(data, context.axis, input, &reference);
-  double mean_friction = 0;
-  for (const double each : fit.coulomb_Nm) {
-    mean_friction += each / static_cast<double>(fit.coulomb_Nm.size());
-  }
-  ResultTable table{
-      .title = "Ordinary least squares (4.9) and output error",
-      .head = {"", "OLS", "output error", "OLS off by, %", "of which the method's bias, %"}};
-  const auto row = [&](const char* name, double biased, double value, double on_reference) {
-    table.rows.push_back({name, fmt::format("{:.4g}", biased), fmt::format("{:.4g}", value),
-                          fmt::format("{:+.1f}", 100 * (biased / value - 1)),
-                          fmt::format("{:+.1f}", 100 * (on_reference / value - 1))});
-  };
-  row("J, kg m2", ols.inertia_kg_m2, fit.axis.inertia_kg_m2, of_reference.inertia_kg_m2);
-  row("B, N m s/rad", ols.viscous_Nm_s_per_rad, fit.axis.viscous_friction_Nm_s_per_rad,
-      of_reference.viscous_Nm_s_per_rad);
-  row("C, mean of the map, N m", ols.coulomb_Nm, mean_friction, of_reference.coulomb_Nm);
-  outcome.tables.push_back(std::move(table));
-  ResultTable criteria{.title = "Criteria: " + report.input,
-                       .head = {"criterion", "demand", "measured", "met"}};
-  for (const auto& each : ols.criteria) {
-    criteria.rows.push_back({each.name, each.demand, each.measured, each.met ? "yes" : "NO"});
-  }
-  outcome.tables.push_back(std::move(criteria));
-}
-
 void add_figures(const TwoMassReport& report, ProcedureOutcome& outcome) {
   const auto& context = report.context;
   const auto& data = report.data;
@@ -155,7 +111,7 @@ std::string unexplained(const identify::TwoMassFit& fit) {
 
 void report_two_mass(const TwoMassReport& report, ProcedureOutcome& outcome) {
   add_estimates(report, outcome);
-  add_ols(report, outcome);
+  report_least_squares(report, outcome);
   add_figures(report, outcome);
 }
 

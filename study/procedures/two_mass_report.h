@@ -15,7 +15,6 @@ struct TwoMassReport {
   const identify::Recording& data;
   const identify::TwoMassFit& fit;
   bool knots_are_bends = false;  // they stand where friction was seen to bend
-  double cutoff_Hz = 20;         // of the filter before least squares
   std::string procedure;         // id that the estimates carry
   std::string input;             // what drove the axis, for the criteria's title
 };

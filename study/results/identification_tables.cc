@@ -123,7 +123,10 @@ std::string dynamics(const emulator::RigParameters& truth, const identify::Estim
 
 // Ordinary least squares beside output error, as EXP-OL-2 tells them.
 std::string least_squares(const procedures::ChainResult& identified) {
-  std::string text;
+  std::string text =
+      "\n7.2.1 filters the chain's oscillation out before (4.9), by a Gaussian whose width it does "
+      "not state. On Y a cut-off at the\nchain's mode or above it misses the carriage; below it J "
+      "is near, and B and C carry friction by place and the filter on\nsgn.\n";
   for (const auto& step : identified.steps) {
     if (step.id != "EXP-OL-2") {
       continue;

@@ -2,11 +2,11 @@
 #include "study/identify/output_error.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
+
+#include "tests/study/identify/simulated_pulses.h"
 
 namespace towbench::harness::identify {
 namespace {
@@ -27,33 +27,11 @@ emulator::AxisParameters slow_chain() {
   return axis;
 }
 
-Recording pulses(const emulator::AxisParameters& axis) {
-  constexpr std::array<double, 8> kDuties_pct{12, 0, -12, 0, -12, 0, 12, 0};
-  Recording data;
-  data.period_s = 1e-3;
-  data.rad_per_count[Axis::kY] = 2 * std::numbers::pi / 4000;
-  data.metres_per_count[Axis::kY] =
-      data.rad_per_count[Axis::kY] * axis.sprocket_radius_m / axis.gear_ratio;
-  auto& columns = data.axes[Axis::kY];
-  for (std::size_t k = 0; k < 8000; ++k) {
-    data.time_s.push_back(1e-3 * static_cast<double>(k));
-    columns.duty_pct.push_back(k % 400 == 0 || columns.duty_pct.empty()
-                                   ? kDuties_pct.at((k / 400) % kDuties_pct.size())
-                                   : columns.duty_pct.back());
-    columns.count.push_back(500000);
-  }
-  const auto counts = simulate_counts(axis, {}, data, Axis::kY).value();
-  for (std::size_t k = 0; k < counts.size(); ++k) {
-    columns.count[k] = static_cast<std::int64_t>(std::floor(counts[k]));
-  }
-  return data;
-}
-
 // K_T a thousandth too high makes every torque so, the rotor's data sheet excepted.
 TEST(OutputError, TakesTheRotorInUnitsOfTheTorques) {
   constexpr double kTooHigh = 1.001;
   const auto truth = slow_chain();
-  const auto data = pulses(truth);
+  const auto data = simulated_pulses(truth);
   TwoMassStart start{.axis = truth, .path = {}};
   start.axis.torque_constant_Nm_per_A *= kTooHigh;
   const auto [low, high] =
