@@ -226,6 +226,9 @@ void Application::report() noexcept {
 void Application::write_debug() noexcept {
   const SystemStatus& status = system_.status();
   for (const core::Axis axis : core::kAxes) {
+    if (!system_.configuration().axes[axis].exists) {
+      continue;
+    }
     const AxisStatus& state = status.axes[axis];
     outbox_.text("debug ").text(core::name_of(axis)).text(": reference ");
     outbox_.fixed(state.reference_m, 7).text("m, position ").fixed(state.position_m, 7);

@@ -25,6 +25,10 @@ core::Status open_and_init(DriverType& driver,
 
 core::Status DeviceIo::start(const Configuration& configuration) noexcept {
   for (Axis which : core::kAxes) {
+    exists_[which] = configuration.axes[which].exists;
+    if (!exists_[which]) {
+      continue;
+    }
     if (auto status = start_axis(which, configuration.axes[which]); !status) {
       return status;
     }
@@ -84,7 +88,9 @@ bool DeviceIo::next_interrupt(Aintc::Reading& edge) noexcept {
 void DeviceIo::sample(core::Nanoseconds now_ns, ControlSample& sample) noexcept {
   sample.time_ns = now_ns;
   for (Axis which : core::kAxes) {
-    must(devices_->encoder(which).read(sample.encoder[which]));
+    if (exists_[which]) {
+      must(devices_->encoder(which).read(sample.encoder[which]));
+    }
   }
   sample.lines = 0;
   for (std::size_t i = 0; i < kInputLines; ++i) {
@@ -116,6 +122,9 @@ void DeviceIo::sample(core::Nanoseconds now_ns, ControlSample& sample) noexcept 
 
 void DeviceIo::drive(const DriveCommand& command) noexcept {
   for (Axis which : core::kAxes) {
+    if (!exists_[which]) {
+      continue;
+    }
     const AxisDrive& wanted = command.axes[which];
     const bool changed = !(wanted == written_[which]);
     if (changed || (command.tick && wanted.enable)) {

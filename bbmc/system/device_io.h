@@ -1,5 +1,7 @@
 // Between the devices and the control path: registers and lines become a ControlSample, a
 // DriveCommand becomes PWM ticks and enable lines. Every device call of the system layer is here.
+// The PWM and the encoder of an axis that the machine lacks stay closed: nothing is read of it,
+// nothing is written to it.
 #pragma once
 
 #include <cstdint>
@@ -37,6 +39,7 @@ class DeviceIo {
   void write(core::Axis which, const AxisDrive& drive) noexcept;
 
   DeviceManager* devices_;
+  core::PerAxis<bool> exists_{};
   core::Nanoseconds period_ns_ = core::kNanosecondsPerMillisecond;
   core::PerAxis<AxisDrive> written_;
 };

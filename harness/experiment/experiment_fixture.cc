@@ -169,6 +169,10 @@ void place_carriage(TableReader& reader, RigFixture& rig) {
   for (const auto which : core::kAxes) {
     auto& axis = rig.parameters.axes[which];
     const auto key = std::string(core::name_of(which)) + "_m";
+    if (start->has(key) && !axis.exists) {
+      throw FixtureError(start->place_of(key), "the place of an axis that the rig lacks",
+                         "places of the rig's axes");
+    }
     start->value(key, axis.start_m,
                  core::between(axis.plant.hard_ends.min_m, axis.plant.hard_ends.max_m),
                  "carriage position at time 0, between the hard ends");
@@ -192,15 +196,27 @@ void check_axes_agree(const ExperimentFixture& fixture) {
   }
 }
 
+void refuse_motion(const ExperimentFixture& fixture, const char* key, const std::string& given) {
+  throw FixtureError({fixture.file.string(), 0, key}, given,
+                     "an axis that the rig " + fixture.rig_file.string() + " has");
+}
+
+void check_pushes(const ExperimentFixture& fixture) {
+  for (const auto& event : fixture.experiment.events) {
+    if (event.kind == emulator::ScheduledEventKind::kPushCarriage &&
+        !fixture.rig.parameters.axes[event.axis].exists) {
+      refuse_motion(fixture, "event", "a push on " + std::string(core::name_of(event.axis)));
+    }
+  }
+}
+
 void check_axes_move(const ExperimentFixture& fixture) {
   for (const auto axis : core::kAxes) {
     const auto& motions = fixture.experiment.reference;
     const bool moves = std::any_of(motions.begin(), motions.end(),
                                    [&](const auto& motion) { return motion.moves(axis); });
     if (moves && !fixture.rig.parameters.axes[axis].exists) {
-      throw FixtureError({fixture.file.string(), 0, "reference"},
-                         "a motion of " + std::string(core::name_of(axis)),
-                         "an axis that the rig " + fixture.rig_file.string() + " has");
+      refuse_motion(fixture, "reference", "a motion of " + std::string(core::name_of(axis)));
     }
   }
 }
@@ -268,6 +284,7 @@ ExperimentFixture load_experiment(const std::filesystem::path& path) {
   fixture.rig_file = file.resolve(rig, reader.place_of("rig"));
   fixture.rig = load_rig(fixture.rig_file, fixture.sources);
   place_carriage(reader, fixture.rig);
+  check_pushes(fixture);
   if (reader.has("wiring")) {
     std::string wiring;
     reader.text("wiring", wiring, "path of the wiring file");

@@ -28,17 +28,17 @@ def bad(kind: str) -> str:
     return f"process:python3 '{root}/tests/clients/bad_controller.py' '{root}' {kind} {{address}}"
 
 
-def rig_beside() -> None:
+def rig_beside(rig: str = "macs-nominal") -> None:
     """Copies of the rig and the plant that an experiment of this folder needs."""
-    for fixture in ("rigs/macs-nominal.toml", "plants/macs-nominal.toml"):
+    for fixture in (f"rigs/{rig}.toml", f"plants/{rig}.toml"):
         (work / fixture).parent.mkdir(exist_ok=True)
         (work / fixture).write_text((root / "fixtures" / fixture).read_text())
 
 
-def experiment(name: str, *parts: str) -> str:
-    rig_beside()
+def experiment(name: str, *parts: str, rig: str = "macs-nominal") -> str:
+    rig_beside(rig)
     path = work / f"{name}.toml"
-    head = f'schema = 1\nname = "{name}"\nrig = "rigs/macs-nominal.toml"\nduration_limit_s = 12.0\n'
+    head = f'schema = 1\nname = "{name}"\nrig = "rigs/{rig}.toml"\nduration_limit_s = 12.0\n'
     path.write_text(head + "".join(parts))
     return str(path)
 
@@ -92,6 +92,11 @@ def good() -> None:
         expect_pass(f"C, {name}", file, C_PID)
         for record in ("log.csv", "truth.csv", "events.jsonl"):
             expect(f"{name}: the same {record} twice", filecmp.cmp(one / record, two / record, shallow=False))
+    alone = experiment("y-alone", trapezoid(0.2), TRAVELS, rig="table-7.4")
+    expect_pass("Python, Y alone,", alone, f"{PYTHON_PID} y")
+    expect_pass("C, Y alone,", alone, f"{C_PID} y")
+    code, result, error = run(alone, C_PID)
+    expect("a controller of an axis that is not there ends with 3", code == 3 and "axes" in result.get("reason", ""), (code, result.get("reason"), error))
     expect_pass("edges instead of the digest", TRAPEZOID, bad("takes_edges"))
     for fault in ("kill_switch pressed at=1.2s", "encoder.y frozen phase=cruise after=0.1s", "encoder.y dead_a at=1.3s", "kill_switch welded at=1s", "endstop.y_max stuck_closed at=1s", "link.to_controller loss at=1s", "link.to_plant corrupt_byte at=1s"):
         expect_pass(f"with {fault}", TRAPEZOID, C_PID, "--fault", fault)
@@ -263,6 +268,7 @@ def bad_input() -> None:
     overlap = experiment("overlap", trapezoid(0.6), trapezoid(0.1), TRAVELS)
     still = experiment("still", TRAVELS)
     stray = experiment("stray", trapezoid(0.1).replace("speed", "radius_m = 1.0\nspeed"), TRAVELS)
+    of_x = experiment("of-x", trapezoid(0.1).replace('"y"', '"x"'), TRAVELS, rig="table-7.4")
     console = experiment("console", '[[console]]\nsend = "status"\n', '[[event]]\nat_s = 1.0\ndo = "reset"\n', TRAVELS)
     no_table = experiment("no-table", trapezoid(0.1) + 'file = "way.csv"\n', TRAVELS)
     for what, file, controller, words in (
@@ -271,6 +277,7 @@ def bad_input() -> None:
         ("console beside reference", both, PYTHON_PID, "one of them"),
         ("motions that overlap", overlap, PYTHON_PID, "a time from"),
         ("neither controller nor reference", still, PYTHON_PID, "controller"),
+        ("a motion of an axis that is not there", of_x, PYTHON_PID, "a motion of x"),
         ("a key of another motion", stray, PYTHON_PID, "a key without effect"),
         ("an empty command", TRAPEZOID, "process:", "process:COMMAND"),
         ("no address", TRAPEZOID, "external:nowhere", "local:PATH"),

@@ -16,8 +16,9 @@ constexpr std::array<OptionSpec, 1> kLogOptions{{{.name = "DOF",
                                                   .presence = Presence::kOptional,
                                                   .meaning = "axis; both if not given"}}};
 
-core::PerAxis<bool> wanted_axes(const Arguments& arguments) {
-  core::PerAxis<bool> wanted{{true, true}};
+core::PerAxis<bool> wanted_axes(const CommandContext& context, const Arguments& arguments) {
+  const AxesConfiguration& axes = context.system.configuration().axes;
+  core::PerAxis<bool> wanted{{axes[core::Axis::kY].exists, axes[core::Axis::kX].exists}};
   if (arguments.given(kLogDof)) {
     wanted = {};
     wanted[arguments.axis(kLogDof)] = true;
@@ -41,12 +42,12 @@ ErrorCode log_print(CommandContext& context, const Arguments& arguments) {
     context.out.text("log full: ").integer(static_cast<std::int64_t>(log.refused()));
     context.out.text(" rows more were not recorded").end_line();
   }
-  context.report.start(DataLogReport(wanted_axes(arguments)));
+  context.report.start(DataLogReport(wanted_axes(context, arguments)));
   return ErrorCode::kNone;
 }
 
 ErrorCode log_switch(CommandContext& context, const Arguments& arguments, bool on) {
-  const core::PerAxis<bool> wanted = wanted_axes(arguments);
+  const core::PerAxis<bool> wanted = wanted_axes(context, arguments);
   for (const core::Axis axis : core::kAxes) {
     if (wanted[axis]) {
       context.system.data_log().enable(axis, on);

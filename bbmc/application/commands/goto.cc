@@ -61,7 +61,7 @@ const CommandSpec& goto_command() noexcept {
   static constexpr CommandSpec kCommand{.word = "goto",
                                         .options = kGotoOptions,
                                         .handler = go_to,
-                                        .meaning = "goes to a place with both axes"};
+                                        .meaning = "goes to a place with every axis"};
   return kCommand;
 }
 

@@ -1,4 +1,5 @@
 #include "bbmc/application/commands/command_table.h"
+#include "bbmc/application/commands/machine_axes.h"
 #include "bbmc/application/commands/parse.h"
 #include "bbmc/application/reports/report.h"
 #include "bbmc/system/system_manager.h"
@@ -10,14 +11,15 @@ constexpr std::size_t kMeaningColumn = 32;
 constexpr std::size_t kOptionColumn = 22;
 
 // "run -trapez [DOF]", "goto Y X".
-void write_title(TextWriter& out, const CommandSpec& command) noexcept {
+void write_title(TextWriter& out, const CommandSpec& command,
+                 const Configuration& configuration) noexcept {
   out.text(command.word);
   if (!command.sub.empty()) {
     out.text(command.is_default ? " [" : " ").text(command.sub);
     out.text(command.is_default ? "]" : "");
   }
   for (const OptionSpec& option : command.options) {
-    if (option.is_positional()) {
+    if (option.is_positional() && applies(option, configuration)) {
       const bool required = option.presence == Presence::kRequired;
       out.text(required ? " " : " [").text(option.name).text(required ? "" : "]");
     }
@@ -76,8 +78,13 @@ bool HelpReport::next(const SystemManager& system, TextWriter& out) noexcept {
       return true;
     }
     out.text("Speeds are limited further by each axis (");
+    std::string_view separator;
     for (const core::Axis axis : core::kAxes) {
-      out.text(axis == core::Axis::kY ? "y " : ", x ");
+      if (!system.configuration().axes[axis].exists) {
+        continue;
+      }
+      out.text(separator).text(core::name_of(axis)).text(" ");
+      separator = ", ";
       write_quantity(out, system.configuration().axes[axis].speed_limit_m_per_s, Dimension::kSpeed);
     }
     out.text(") and by the distance to its ends.").end_line();
@@ -86,14 +93,16 @@ bool HelpReport::next(const SystemManager& system, TextWriter& out) noexcept {
   const CommandSpec& command = table[command_];
   if (option_ == 0) {
     out.text("  ");
-    write_title(out, command);
+    write_title(out, command, system.configuration());
     out.column(kMeaningColumn).text(command.meaning).end_line();
   } else {
     write_option(out, command.options[option_ - 1]);
   }
-  if (with_options_ && option_ < command.options.size()) {
+  do {
     ++option_;
-  } else {
+  } while (option_ <= command.options.size() &&
+           !applies(command.options[option_ - 1], system.configuration()));
+  if (!with_options_ || option_ > command.options.size()) {
     option_ = 0;
     ++command_;
   }

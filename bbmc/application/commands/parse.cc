@@ -3,6 +3,7 @@
 #include <array>
 
 #include "bbmc/application/commands/command_table.h"
+#include "bbmc/application/commands/machine_axes.h"
 #include "bbmc/application/console/decimal.h"
 
 namespace towbench::bbmc {
@@ -25,9 +26,11 @@ std::size_t option_named(const CommandSpec& command, std::string_view word, bool
 }
 
 // The first positional argument that has no text yet.
-std::size_t next_positional(const CommandSpec& command, const Texts& texts) {
+std::size_t next_positional(const CommandSpec& command, const Configuration& configuration,
+                            const Texts& texts) {
   for (std::size_t i = 0; i < command.options.size(); ++i) {
-    if (command.options[i].is_positional() && texts[i].data() == nullptr) {
+    const OptionSpec& option = command.options[i];
+    if (option.is_positional() && applies(option, configuration) && texts[i].data() == nullptr) {
       return i;
     }
   }
@@ -43,8 +46,8 @@ bool looks_like_option(std::string_view word) noexcept {
 }
 
 // Gives each word to its option. `why` is written on refusal.
-ErrorCode sort_words(const CommandSpec& command, const Tokens& words, Texts& texts,
-                     TextWriter& why) noexcept {
+ErrorCode sort_words(const CommandSpec& command, const Tokens& words,
+                     const Configuration& configuration, Texts& texts, TextWriter& why) noexcept {
   std::size_t i = 0;
   const auto take = [&](std::size_t option, std::string_view name) {
     if (option >= command.options.size() || i == words.size()) {
@@ -63,7 +66,7 @@ ErrorCode sort_words(const CommandSpec& command, const Tokens& words, Texts& tex
     bool short_name = false;
     const std::size_t named = option_named(command, word, short_name);
     if (named == kMaxOptions) {
-      const std::size_t positional = next_positional(command, texts);
+      const std::size_t positional = next_positional(command, configuration, texts);
       if (positional == kMaxOptions || looks_like_option(word)) {
         why.text(looks_like_option(word) ? "no such option: " : "one argument too many: ")
             .text(word);
@@ -207,7 +210,9 @@ ErrorCode parse_option(const CommandSpec& command, std::size_t index, std::strin
         return refuse(ErrorCode::kRequestBadArgument, option, text, why);
       }
       arguments.set(index, choice);
-      return ErrorCode::kNone;
+      return option.kind == OptionKind::kAxis
+                 ? must_exist(configuration, arguments.axis(index), why)
+                 : ErrorCode::kNone;
     }
     case OptionKind::kWhole: {
       const auto value = parse_integer(text);
@@ -240,7 +245,8 @@ ErrorCode parse_arguments(const CommandSpec& command, const Tokens& words,
                           TextWriter& why) noexcept {
   core::check(command.options.size() <= kMaxOptions);
   Texts texts{};
-  if (const ErrorCode code = sort_words(command, words, texts, why); code != ErrorCode::kNone) {
+  if (const ErrorCode code = sort_words(command, words, configuration, texts, why);
+      code != ErrorCode::kNone) {
     return code;
   }
   // Axes first: the other values may be in their counts.
@@ -251,12 +257,18 @@ ErrorCode parse_arguments(const CommandSpec& command, const Tokens& words,
         continue;
       }
       if (texts[i].data() == nullptr) {
-        if (option.presence == Presence::kRequired) {
+        if (option.presence == Presence::kRequired && applies(option, configuration)) {
           why.text(option.name).text(": ");
           write_allowed(why, option);
           return ErrorCode::kRequestMissingArgument;
         }
         arguments.set_default(i, default_of(command, option, configuration, arguments));
+        if (axes && option.presence == Presence::kDefault) {
+          if (const ErrorCode code = must_exist(configuration, arguments.axis(i), why);
+              code != ErrorCode::kNone) {
+            return code;
+          }
+        }
         continue;
       }
       const ErrorCode code = parse_option(command, i, texts[i], configuration, arguments, why);

@@ -40,9 +40,17 @@ ErrorCode clear(CommandContext& context, const Arguments& /*arguments*/) {
 }
 
 ErrorCode print(CommandContext& context, const Arguments& /*arguments*/) {
+  const AxesConfiguration& axes = context.system.configuration().axes;
   for (const core::PerAxis<double>& point : context.settings.way_points) {
-    context.out.text("y ").fixed(point[Axis::kY], 6).text("m, x ").fixed(point[Axis::kX], 6);
-    context.out.text("m").end_line();
+    std::string_view separator;
+    for (const Axis axis : core::kAxes) {
+      if (axes[axis].exists) {
+        context.out.text(separator).text(core::name_of(axis)).text(" ");
+        context.out.fixed(point[axis], 6).text("m");
+        separator = ", ";
+      }
+    }
+    context.out.end_line();
   }
   context.out.integer(static_cast<std::int64_t>(context.settings.way_points.size()));
   context.out.text(" points").end_line();
@@ -112,8 +120,12 @@ ErrorCode run_path(CommandContext& context, const Arguments& arguments) {
   }
   core::PerAxis<std::array<Segment, kMaxSegments>> segments;
   std::size_t count = 0;
+  const AxesConfiguration& axes = context.system.configuration().axes;
   core::PerAxis<double> at_m{{position_m(context, Axis::kY), position_m(context, Axis::kX)}};
-  for (const core::PerAxis<double>& point : points) {
+  for (core::PerAxis<double> point : points) {
+    for (const Axis axis : core::kAxes) {
+      point[axis] = axes[axis].exists ? point[axis] : at_m[axis];
+    }
     const double dy_m = point[Axis::kY] - at_m[Axis::kY];
     const double dx_m = point[Axis::kX] - at_m[Axis::kX];
     const double length_m = std::sqrt(dy_m * dy_m + dx_m * dx_m);
@@ -132,7 +144,7 @@ ErrorCode run_path(CommandContext& context, const Arguments& arguments) {
     ++count;
   }
   MotionRequest request;
-  request.driven = {{true, true}};
+  request.driven = {{axes[Axis::kY].exists, axes[Axis::kX].exists}};
   double duration_s = 0;
   for (const Axis axis : core::kAxes) {
     const auto chain = Chain::make(std::span<const Segment>(segments[axis]).first(count));

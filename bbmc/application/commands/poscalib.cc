@@ -26,6 +26,9 @@ constexpr std::array<OptionSpec, kOptionCount> kOptions{{
 
 void report(const SystemManager& system, core::Axis /*axis*/, TextWriter& out) {
   for (const core::Axis axis : core::kAxes) {
+    if (!system.configuration().axes[axis].exists) {
+      continue;
+    }
     const AxisStatus& state = system.status().axes[axis];
     out.text(core::name_of(axis)).text(": ");
     if (state.position_calibrated) {

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "bbmc/application/commands/command_table.h"
+#include "bbmc/application/commands/machine_axes.h"
 #include "bbmc/application/commands/shared_options.h"
 #include "bbmc/system/system_manager.h"
 
@@ -105,6 +106,10 @@ constexpr auto kEllipseOptions =
 // The common options begin at `first`.
 ErrorCode run_loop(CommandContext& context, const Arguments& arguments, std::size_t first,
                    const core::PerAxis<double>& radius_m) {
+  if (const ErrorCode code = must_have_both(context.system.configuration(), context.why);
+      code != ErrorCode::kNone) {
+    return code;
+  }
   PhaseRampParameters phase{.turns = arguments.number(first + kTurns),
                             .ramp_s = arguments.number(first + kEntry),
                             .wait_s = arguments.number(first + kWait)};

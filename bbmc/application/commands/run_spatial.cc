@@ -3,6 +3,7 @@
 #include <array>
 
 #include "bbmc/application/commands/command_table.h"
+#include "bbmc/application/commands/machine_axes.h"
 #include "bbmc/application/commands/shared_options.h"
 #include "bbmc/system/system_manager.h"
 
@@ -51,6 +52,10 @@ constexpr std::array<OptionSpec, kCount> kOptions{{
 }};
 
 ErrorCode run_spatial(CommandContext& context, const Arguments& arguments) {
+  if (const ErrorCode code = must_have_both(context.system.configuration(), context.why);
+      code != ErrorCode::kNone) {
+    return code;
+  }
   const auto y = Trapezoid::make({.start_m = position_m(context, core::Axis::kY),
                                   .distance_m = arguments.number(kDistance),
                                   .speed_m_per_s = arguments.number(kSpeed),

@@ -59,6 +59,7 @@ ErrorCode explained(CommandContext& context, ErrorCode code) noexcept {
   const SystemStatus& status = context.system.status();
   const Configuration& configuration = context.system.configuration();
   TextWriter& why = context.why;
+  std::string_view separator;
   switch (code) {
     case ErrorCode::kRequestFaultLatched:
       why.text("fault ").integer(core::number_of(status.fault)).text(" ");
@@ -76,19 +77,30 @@ ErrorCode explained(CommandContext& context, ErrorCode code) noexcept {
       break;
     case ErrorCode::kRequestBeyondSoftLimit:
       for (const core::Axis axis : core::kAxes) {
+        if (!configuration.axes[axis].exists) {
+          continue;
+        }
         const EndsConfiguration& ends = configuration.axes[axis].ends;
-        why.text(core::name_of(axis)).text(" goes from ").integer(ends.soft_min_count);
+        why.text(separator)
+            .text(core::name_of(axis))
+            .text(" goes from ")
+            .integer(ends.soft_min_count);
         why.text(" to ").integer(ends.soft_max_count).text(" counts and stands at ");
-        why.integer(status.axes[axis].count).text(axis == core::Axis::kY ? ", " : "");
+        why.integer(status.axes[axis].count);
+        separator = ", ";
       }
       break;
     case ErrorCode::kRequestTooFast:
       for (const core::Axis axis : core::kAxes) {
-        why.text(core::name_of(axis)).text(" here at most ");
+        if (!configuration.axes[axis].exists) {
+          continue;
+        }
+        why.text(separator).text(core::name_of(axis)).text(" here at most ");
         why.fixed(context.system.speed_allowed_m_per_s(axis, position_m(context, axis), -1), 4);
         why.text("m/s towards min, ");
         why.fixed(context.system.speed_allowed_m_per_s(axis, position_m(context, axis), 1), 4);
-        why.text(axis == core::Axis::kY ? "m/s towards max; " : "m/s towards max");
+        why.text("m/s towards max");
+        separator = "; ";
       }
       break;
     default:

@@ -62,6 +62,10 @@ void write_axis(const SystemManager& system, core::Axis axis, TextWriter& out) n
 }  // namespace
 
 bool StatusReport::next(const SystemManager& system, TextWriter& out) noexcept {
+  while (part_ > 0 && part_ <= core::kAxisCount &&
+         !system.configuration().axes[core::kAxes[part_ - 1]].exists) {
+    ++part_;
+  }
   if (part_ > core::kAxisCount) {
     return false;
   }

@@ -1,5 +1,5 @@
-/* A PID position controller for two axes: pid ADDRESS, with ADDRESS = local:PATH or can:INTERFACE.
- */
+/* A PID position controller: pid ADDRESS [AXES], with ADDRESS = local:PATH or can:INTERFACE and
+ * AXES = yx (the default), y or x. */
 #define _POSIX_C_SOURCE 200809L
 #include <linux/can.h>
 #include <math.h>
@@ -29,6 +29,8 @@ typedef struct {
   double integral, slope, before, stalled_s;
   int64_t count_before, still_count;
 } pid;
+
+static int drives(const tb_bench* bench, int axis) { return bench->axes_mask >> axis & 1; }
 
 static double error_of(const tb_bench* bench, int axis) {
   return (double)bench->axis[axis].reference.position_m -
@@ -63,6 +65,7 @@ static const char* reason_to_stop(const pid* loops, const tb_bench* bench) {
   if (bench->lines & halls) return "end-stop";
   if (bench->counts.sequence_gaps) return "a message was lost";
   for (int i = 0; i < TB_AXES; ++i) {
+    if (!drives(bench, i)) continue;
     if (fabs(error_of(bench, i)) > kLargestError_m) return "tracking error";
     if (loops[i].stalled_s > kStall_s) return "an axis does not follow its drive";
   }
@@ -160,15 +163,17 @@ int main(int argc, char** argv) {
   static pid loops[TB_AXES];
   const char* stopped = NULL;
   int killed = 0, brakes = 0;
-  const int line = argc == 2 ? open_line(argv[1]) : -1;
-  if (line < 0) return fprintf(stderr, "usage: pid local:PATH | can:INTERFACE\n"), 2;
+  const char* axes = argc == 3 ? argv[2] : "yx";
+  const uint8_t mask = (uint8_t)((strchr(axes, 'y') != NULL) | (strchr(axes, 'x') != NULL) << 1);
+  const int line = argc == 2 || argc == 3 ? open_line(argv[1]) : -1;
+  if (line < 0) return fprintf(stderr, "usage: pid local:PATH | can:INTERFACE [yx | y | x]\n"), 2;
   const tb_framing framing = argv[1][0] == 'c' ? TB_CAN : TB_STREAM;
-  tb_init(&bench, framing, 3, 1000000, TB_DIGEST | TB_REFERENCE | TB_RESETS);
+  tb_init(&bench, framing, mask, 1000000, TB_DIGEST | TB_REFERENCE | TB_RESETS);
   if (!await_bench(line, &bench)) return fprintf(stderr, "no bench on the bus\n"), 1;
   tb_greet(&bench);
   if (!exchange(line, &bench) || bench.refusal != 0)
     return fprintf(stderr, "refused: %u\n", bench.refusal), 1;
-  tb_enable(&bench, 3);
+  tb_enable(&bench, mask);
   tb_end_turn(&bench);
   while (exchange(line, &bench)) {
     if (bench.reset && !(bench.lines & TB_KILL_SWITCH)) { /* the operator asks to go on */
@@ -185,6 +190,7 @@ int main(int argc, char** argv) {
     /* Otherwise the count is not to be believed. */
     brakes = !killed && stopped != NULL && strcmp(stopped, "end-stop") == 0;
     for (int i = 0; i < TB_AXES; ++i) {
+      if (!drives(&bench, i)) continue;
       const double duty = brakes    ? braking_duty(&loops[i], &bench, i)
                           : stopped ? 0
                                     : duty_of(&loops[i], &bench, i);

@@ -1,4 +1,4 @@
-"""A PID position controller for two axes: python3 pid.py ADDRESS"""
+"""A PID position controller: python3 pid.py ADDRESS [AXES], AXES one of yx (the default), y, x"""
 
 import sys
 from pathlib import Path
@@ -44,13 +44,14 @@ class Pid:
 
 
 def main() -> None:
+    axes = tuple(sys.argv[2]) if len(sys.argv) > 2 else ("y", "x")
     bench = towbench.connect(sys.argv[1])
-    bench.greet(reference=True, resets=True)
-    bench.enable("y", "x")
-    loops, stopped, killed = [Pid("y"), Pid("x")], "", False
+    bench.greet(reference=True, resets=True, axes=axes)
+    bench.enable(*axes)
+    loops, stopped, killed = [Pid(axis) for axis in axes], "", False
     while True:
         if bench.reset and not bench.lines & towbench.KILL_SWITCH:  # the operator asks to go on
-            loops, stopped, killed = [Pid("y"), Pid("x")], "", False
+            loops, stopped, killed = [Pid(axis) for axis in axes], "", False
         if not stopped:
             stopped = reason_to_stop(bench, loops)
             if stopped:

@@ -23,7 +23,11 @@ Machine::Machine(const Options& options)
   }
   plant_ = std::make_unique<emulator::PlantNode>(rig, 1, options.events, *this);
   plant_->connect(*this);
-  plant_->on(protocol::Hello{.axes_mask = 3,
+  unsigned axes = 0;
+  for (Axis axis : core::kAxes) {
+    axes |= rig.axes[axis].exists ? 1U << core::index_of(axis) : 0U;
+  }
+  plant_->on(protocol::Hello{.axes_mask = static_cast<std::uint8_t>(axes),
                              .tick_ns = static_cast<std::uint32_t>(core::kPlantTick_ns),
                              .exchange_ns = static_cast<std::uint32_t>(exchange_ns_),
                              .capabilities = protocol::kCapabilityEdges});

@@ -1,4 +1,5 @@
 // What the system manager refuses, and that a refusal changes nothing.
+#include <algorithm>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -149,6 +150,22 @@ TEST(MotionRequest, AnAxisThatDoesNotExistCannotBeDriven) {
   Machine machine(options);
   EXPECT_EQ(machine.system().request_open_loop(pulses(Axis::kX, 5)).error(),
             ErrorCode::kRequestOutOfRange);
+}
+
+TEST(MotionRequest, AMachineWithOneAxisIsDrivenOnThatOneOnly) {
+  Machine::Options options;
+  options.configuration.axes[Axis::kX].exists = false;
+  options.rig.axes[Axis::kX].exists = false;
+  Machine machine(options);
+  MotionRequest request = trapezoid(machine, Axis::kY, 0.1, 0.2);
+  request.driven[Axis::kX] = false;
+  ASSERT_TRUE(machine.system().request_motion(request));
+  ASSERT_TRUE(machine.run_until_rest(5.0));
+  EXPECT_EQ(machine.system().status().fault, ErrorCode::kNone);
+  EXPECT_NEAR(machine.status(Axis::kY).position_m, options.start_m[Axis::kY] + 0.1, 1e-3);
+  EXPECT_EQ(std::count_if(machine.duties.begin(), machine.duties.end(),
+                          [](const Machine::Duty& d) { return d.message.axis == Axis::kX; }),
+            0);
 }
 
 TEST(Stop, BrakesToStandstillAndLatchesNothing) {

@@ -19,7 +19,7 @@ INSTANTIATE_TEST_SUITE_P(Experiments, Shipped,
                                            "endstop-y-max-coasting", "kill-1khz", "kill-10hz",
                                            "trapezoid-400-best", "trapezoid-10-stiff",
                                            "trapezoid-20-best", "circle-best", "spatial-best",
-                                           "ellipse-best", "goto-pick-and-place"),
+                                           "ellipse-best", "goto-pick-and-place", "one-axis"),
                          [](const auto& each) {
                            std::string name = each.param;
                            std::replace(name.begin(), name.end(), '-', '_');

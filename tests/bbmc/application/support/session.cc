@@ -5,8 +5,11 @@
 namespace towbench::bbmc::testing {
 namespace {
 
-Configuration tabletop_configuration() {
+Configuration tabletop_configuration(const core::PerAxis<bool>& axes) {
   Configuration configuration;
+  for (const core::Axis which : core::kAxes) {
+    configuration.axes[which].exists = axes[which];
+  }
   for (AxisConfiguration& axis : configuration.axes) {
     // This machine has a count, not an encoder with phases and an index that could be doubted.
     axis.plausibility.enabled = false;
@@ -18,8 +21,8 @@ constexpr double kLongest_s = 120;
 
 }  // namespace
 
-Session::Session(std::size_t log_rows) : log_(log_rows) {
-  const Configuration configuration = tabletop_configuration();
+Session::Session(std::size_t log_rows, core::PerAxis<bool> axes) : log_(log_rows) {
+  const Configuration configuration = tabletop_configuration(axes);
   machine_ = std::make_unique<Tabletop>(configuration);
   devices_ = std::make_unique<DeviceManager>(machine_->ports());
   system_ = std::make_unique<SystemManager>(configuration, *devices_, log_);
@@ -73,8 +76,9 @@ std::string Session::enter(std::string_view line) {
 }
 
 void Session::calibrate() {
-  enter("reset poscalib y 600000");
-  enter("reset poscalib x 250000");
+  for (const std::string_view line : {"reset poscalib y 600000", "reset poscalib x 250000"}) {
+    enter(line);  // refused for an axis that is not there
+  }
 }
 
 }  // namespace towbench::bbmc::testing

@@ -15,7 +15,7 @@ namespace towbench::bbmc::testing {
 
 class Session {
  public:
-  explicit Session(std::size_t log_rows = 20'000);
+  explicit Session(std::size_t log_rows = 20'000, core::PerAxis<bool> axes = {{true, true}});
 
   // Types a line, lets the machine run until the console is idle again, and returns what came back
   // (echo is off), without the prompt.
@@ -31,7 +31,7 @@ class Session {
   [[nodiscard]] Application& application() { return *application_; }
   [[nodiscard]] Tabletop& machine() { return *machine_; }
 
-  // Both axes declared at a place far from every end.
+  // The axes that there are, declared at a place far from every end.
   void calibrate();
 
  private:
