@@ -55,8 +55,8 @@ struct FeedForward {
   }
 };
 
-// Friction along the reference, with its rise towards standstill (3.25). When it is on, it takes
-// the place of the feed-forward's B and C.
+// Friction along the reference, with its rise towards standstill by the Lorentz form (3.26). When
+// it is on, it takes the place of the feed-forward's B and C.
 struct FrictionCompensation {
   bool enabled = false;
   double breakaway_Nm = 3.7e-3;                     // S, (7.2)
