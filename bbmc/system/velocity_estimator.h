@@ -1,10 +1,14 @@
 // Velocity from an incremental encoder, thesis 3.4.2, in counts/s.
 //
 //   frequency  v_f = (n_k - n_(k-1)) / T_s                       (3.46), quantum 1/T_s  (3.48)
-//   period     v_p = +-f_c / m,  m capture ticks between edges   (3.54), quantum v^2/f_c
+//   period     v_p = +-N_s f_c / m,  m capture ticks per N_s counts, (3.53), (3.54); N_s = 1:
+//              quantum v^2/f_c
 //   hybrid     v_p below, v_f above the speed where both quanta are equal:
 //              v_sw = sqrt(f_c / T_s)                            39,528 counts/s at 1 kHz, 1.5625
 //              MHz
+//
+// N_s is 1, and no key sets another: every port of eqep.h times one count to the next. With more
+// the newest value would be N_s counts old, at 89 counts/s and N_s = 4 older than the time-out.
 //
 // The print gives (3.58) without omega: SNR_f = omega N T_s / 2 pi is a function of speed and
 // equals SNR_p = gamma at the switching speed only; v_sw above is that speed with gamma_p = f_c /
