@@ -6,6 +6,7 @@
 
 int main(int argc, char** argv) {
   using namespace towbench::harness;
-  constexpr std::array<AddVerb, 4> kVerbs{add_identify, add_tow, add_results, add_diagnose};
+  constexpr std::array<AddVerb, 5> kVerbs{add_identify, add_tow, add_results, add_diagnose,
+                                          add_validate_all};
   return run_command_line(kVerbs, argc, argv);
 }

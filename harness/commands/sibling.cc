@@ -1,12 +1,12 @@
 // Verbs of the sibling programs `towbench-study` and `towbench-panel`, which need libraries that a
 // first demo should not wait for: named here, carried out there.
+#include "harness/commands/sibling.h"
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <unistd.h>
@@ -15,9 +15,7 @@
 #include "harness/commands/command.h"
 
 namespace towbench::harness {
-namespace {
 
-// Returns only when the sibling cannot be started.
 int hand_over(const std::string& sibling, const std::string& verb,
               const std::vector<std::string>& rest) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / sibling;
@@ -33,6 +31,8 @@ int hand_over(const std::string& sibling, const std::string& verb,
                std::strerror(errno), verb.c_str());
   return kExitRuntime;
 }
+
+namespace {
 
 void add_elsewhere(CLI::App& app, int& exit_code, const std::string& name, const char* what,
                    const std::string& sibling = "towbench-study") {

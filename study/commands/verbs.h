@@ -12,5 +12,7 @@ void add_diagnose(CLI::App& app, int& exit_code);
 void add_identify(CLI::App& app, int& exit_code);
 void add_results(CLI::App& app, int& exit_code);
 void add_tow(CLI::App& app, int& exit_code);
+// The bench's `validate` comes here where settings of the study are among the files.
+void add_validate_all(CLI::App& app, int& exit_code);
 
 }  // namespace towbench::harness

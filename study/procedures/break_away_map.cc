@@ -40,6 +40,9 @@ class BreakAwayMap final : public Procedure {
  public:
   [[nodiscard]] std::string_view id() const noexcept override { return "EXP-OL-1"; }
   [[nodiscard]] std::string_view title() const noexcept override { return "Break-away map"; }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<BreakAwayMapSettings>(file, core::Axis::kY));
+  }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
     const auto settings = read_settings<BreakAwayMapSettings>(context.settings, context.axis);

@@ -35,6 +35,9 @@ class DriveCalibration final : public Procedure {
  public:
   [[nodiscard]] std::string_view id() const noexcept override { return "EXP-P-1"; }
   [[nodiscard]] std::string_view title() const noexcept override { return "K_T and K_amp"; }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<DriveCalibrationSettings>(file, core::Axis::kY));
+  }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
     const auto settings = read_settings<DriveCalibrationSettings>(context.settings, context.axis);

@@ -73,6 +73,8 @@ class Procedure {
 
   [[nodiscard]] virtual std::string_view id() const noexcept = 0;  // EXP-P-3; also its file's name
   [[nodiscard]] virtual std::string_view title() const noexcept = 0;
+  // Throws FixtureError for a settings file that run() could not use.
+  virtual void check_settings(const std::filesystem::path& file) const = 0;
   // Throws FixtureError for a settings file that cannot be used.
   [[nodiscard]] virtual ProcedureOutcome run(const ProcedureContext& context) const = 0;
 };

@@ -40,6 +40,9 @@ class PulseResponses final : public Procedure {
  public:
   [[nodiscard]] std::string_view id() const noexcept override { return "EXP-OL-2"; }
   [[nodiscard]] std::string_view title() const noexcept override { return "Pulse responses"; }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<PulseResponsesSettings>(file, core::Axis::kY));
+  }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
     const auto settings = read_settings<PulseResponsesSettings>(context.settings, context.axis);

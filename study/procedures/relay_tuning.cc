@@ -82,6 +82,9 @@ class RelayTuning final : public Procedure {
  public:
   [[nodiscard]] std::string_view id() const noexcept override { return "tuning"; }
   [[nodiscard]] std::string_view title() const noexcept override { return "Ziegler-Nichols"; }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<RelayTuningSettings>(file, core::Axis::kY));
+  }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
     const auto settings = read_settings<RelayTuningSettings>(context.settings, context.axis);

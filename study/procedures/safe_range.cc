@@ -34,6 +34,9 @@ class SafeRange final : public Procedure {
  public:
   [[nodiscard]] std::string_view id() const noexcept override { return "EXP-P-5"; }
   [[nodiscard]] std::string_view title() const noexcept override { return "Safe range of motion"; }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<SafeRangeSettings>(file, core::Axis::kY));
+  }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
     const auto settings = read_settings<SafeRangeSettings>(context.settings, context.axis);

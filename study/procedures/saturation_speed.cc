@@ -34,6 +34,9 @@ class SaturationSpeed final : public Procedure {
  public:
   [[nodiscard]] std::string_view id() const noexcept override { return "EXP-P-3"; }
   [[nodiscard]] std::string_view title() const noexcept override { return "Saturation speed"; }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<SaturationSpeedSettings>(file, core::Axis::kY));
+  }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
     const auto settings = read_settings<SaturationSpeedSettings>(context.settings, context.axis);

@@ -65,6 +65,9 @@ class SmallestCommand final : public Procedure {
   [[nodiscard]] std::string_view title() const noexcept override {
     return "Smallest command to saturation";
   }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<SmallestCommandSettings>(file, core::Axis::kY));
+  }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
     const auto settings = read_settings<SmallestCommandSettings>(context.settings, context.axis);

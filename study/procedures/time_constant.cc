@@ -36,6 +36,9 @@ class TimeConstant final : public Procedure {
   [[nodiscard]] std::string_view title() const noexcept override {
     return "Mechanical time constant";
   }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<TimeConstantSettings>(file, core::Axis::kY));
+  }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
     const auto settings = read_settings<TimeConstantSettings>(context.settings, context.axis);

@@ -52,6 +52,9 @@ class TorquePlaceMap final : public Procedure {
  public:
   [[nodiscard]] std::string_view id() const noexcept override { return "EXP-CL-2"; }
   [[nodiscard]] std::string_view title() const noexcept override { return "Torque-position map"; }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<TorquePlaceMapSettings>(file, core::Axis::kY));
+  }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
     const auto settings = read_settings<TorquePlaceMapSettings>(context.settings, context.axis);

@@ -56,6 +56,9 @@ class TorqueSpeedMap final : public Procedure {
  public:
   [[nodiscard]] std::string_view id() const noexcept override { return "EXP-CL-1"; }
   [[nodiscard]] std::string_view title() const noexcept override { return "Torque-speed map"; }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<TorqueSpeedMapSettings>(file, core::Axis::kY));
+  }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
     const auto settings = read_settings<TorqueSpeedMapSettings>(context.settings, context.axis);

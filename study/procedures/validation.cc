@@ -101,6 +101,9 @@ class Validation final : public Procedure {
  public:
   [[nodiscard]] std::string_view id() const noexcept override { return "validation"; }
   [[nodiscard]] std::string_view title() const noexcept override { return "Fresh trajectories"; }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<ValidationSettings>(file, core::Axis::kY));
+  }
 
   [[nodiscard]] ProcedureOutcome run(const ProcedureContext& context) const override {
     const auto settings = read_settings<ValidationSettings>(context.settings, context.axis);

@@ -77,6 +77,9 @@ class AddedMass final : public TowProcedure {
   [[nodiscard]] std::string_view title() const noexcept override {
     return "added mass from a sinusoidal tow";
   }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<AddedMassSettings>(file, Axis::kY));
+  }
   [[nodiscard]] Load load() const override { return {.rig = "tow-cylinder"}; }
 
   [[nodiscard]] TowOutcome run(const TowContext& context) const override {

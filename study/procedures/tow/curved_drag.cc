@@ -114,6 +114,9 @@ class CurvedDragTow final : public TowProcedure {
   [[nodiscard]] std::string_view title() const noexcept override {
     return "drag along a curved path";
   }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<Exp2Settings>(file, Axis::kY));
+  }
   [[nodiscard]] Load load() const override { return {.rig = "tow-cylinder"}; }
 
   [[nodiscard]] TowOutcome run(const TowContext& context) const override {

@@ -95,6 +95,9 @@ class DragAtYaw final : public TowProcedure {
   [[nodiscard]] std::string_view title() const noexcept override {
     return "drag of a body at a yaw angle";
   }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<Exp3Settings>(file, Axis::kY));
+  }
   [[nodiscard]] Load load() const override { return {.rig = "tow-body-at-yaw"}; }
 
   [[nodiscard]] TowOutcome run(const TowContext& context) const override {

@@ -72,6 +72,9 @@ class FinThrustTow final : public TowProcedure {
  public:
   [[nodiscard]] std::string_view id() const noexcept override { return "EXP-5"; }
   [[nodiscard]] std::string_view title() const noexcept override { return "thrust of the fin"; }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<Exp5Settings>(file, Axis::kY));
+  }
   [[nodiscard]] Load load() const override { return {.rig = "tow-fin"}; }
 
   [[nodiscard]] TowOutcome run(const TowContext& context) const override {

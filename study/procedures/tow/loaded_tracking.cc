@@ -118,6 +118,9 @@ class LoadedTracking final : public TowProcedure {
   [[nodiscard]] std::string_view title() const noexcept override {
     return "20 N at the end-effector (FR-3), cross axis (FR-7)";
   }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<LoadSettings>(file, Axis::kY));
+  }
   [[nodiscard]] Load load() const override { return {}; }
 
   [[nodiscard]] TowOutcome run(const TowContext& context) const override {

@@ -87,6 +87,9 @@ class Manoeuvres final : public TowProcedure {
   [[nodiscard]] std::string_view title() const noexcept override {
     return "path following with a manoeuvring body";
   }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<Exp4Settings>(file, Axis::kY));
+  }
   [[nodiscard]] Load load() const override { return {.rig = "tow-fin"}; }
 
   [[nodiscard]] TowOutcome run(const TowContext& context) const override {

@@ -213,6 +213,9 @@ class StraightDrag final : public TowProcedure {
   [[nodiscard]] std::string_view title() const noexcept override {
     return "drag on straight tows, three methods";
   }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<Exp1Settings>(file, Axis::kY));
+  }
   [[nodiscard]] Load load() const override { return {.rig = "tow-cylinder"}; }
   [[nodiscard]] TowOutcome run(const TowContext& context) const override {
     return Exp1(context, load()).run();

@@ -25,6 +25,9 @@ class Subtraction final : public TowProcedure {
   [[nodiscard]] std::string_view title() const noexcept override {
     return "the object's own drag, shaft subtracted";
   }
+  void check_settings(const std::filesystem::path& file) const override {
+    static_cast<void>(read_settings<SubtractionSettings>(file, Axis::kY));
+  }
   [[nodiscard]] Load load() const override { return {.rig = "tow-shaft-and-cylinder"}; }
 
   [[nodiscard]] TowOutcome run(const TowContext& context) const override {

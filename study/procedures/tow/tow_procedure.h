@@ -46,6 +46,8 @@ class TowProcedure {
 
   [[nodiscard]] virtual std::string_view id() const noexcept = 0;  // EXP-1; also its file's name
   [[nodiscard]] virtual std::string_view title() const noexcept = 0;
+  // Throws FixtureError for a settings file that run() could not use.
+  virtual void check_settings(const std::filesystem::path& file) const = 0;
   // What is towed: whose truth its estimates are judged by.
   [[nodiscard]] virtual Load load() const = 0;
   // Throws FixtureError for a settings file that cannot be used.
