@@ -27,7 +27,7 @@ namespace towbench::harness {
 namespace {
 
 struct ResultsOptions {
-  std::string out = "results.md";
+  std::string out;  // empty: results.md of the work folder
   std::string work = "identified";
   std::uint64_t seed = 1;
 };
@@ -74,17 +74,13 @@ void identify_machine(const ResultsBench& bench, const ResultsOptions& options,
   chain.progress = [&](const std::string& what, double share) { progress.show(what, share); };
   results.identified =
       procedures::run_chain(machine, procedures::identification_procedures(), chain);
-  for (const auto& step : results.identified.steps) {
-    results.partly_from_before = results.partly_from_before || step.from_before;
-  }
 }
 
 procedures::TowOutcome tow_once(const procedures::TowLoads& loads,
                                 const procedures::TowProcedure& procedure,
                                 const std::filesystem::path& file, const std::string& fingerprint,
-                                StudyProgress& progress, Results& results) {
+                                StudyProgress& progress) {
   if (const auto before = procedures::kept_outcome(file, fingerprint)) {
-    results.partly_from_before = true;
     return tow_from_json(*before);
   }
   const std::string id(procedure.id());
@@ -117,7 +113,7 @@ void tow_everything(const ResultsBench& bench, const ResultsOptions& options,
                     procedures::file_fingerprint(rigs / (procedure->load().rig + ".toml")));
     auto outcome = tow_once(loads, *procedure,
                             std::filesystem::path(options.work) / "done" / ("tow-" + id + ".json"),
-                            fingerprint, progress, results);
+                            fingerprint, progress);
     auto recoveries = judge_tow(loads.truth(procedure->load()), outcome);
     results.tows.push_back(
         {id, std::string(procedure->title()), std::move(outcome), std::move(recoveries)});
@@ -167,9 +163,11 @@ int execute_results(const ResultsOptions& options) {
     fmt::print("interrupted; the same command continues\n");
     return kExitInvalid;
   }
-  results.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  write_atomically(options.out, results_page(results));
-  fmt::print("{}\n", options.out);
+  const auto out = options.out.empty() ? std::filesystem::path(options.work) / "results.md"
+                                       : std::filesystem::path(options.out);
+  write_atomically(out, results_page(results));
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  fmt::print("{}\n{:.0f} s of wall clock\n", out.string(), took.count());
   return code_of(results);
 }
 
@@ -178,8 +176,9 @@ int execute_results(const ResultsOptions& options) {
 void add_results(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ResultsOptions>();
   auto* verb = app.add_subcommand("results", "the thesis's tables: thesis, bench, truth");
-  verb->add_option("--out", options->out, "file to write");
-  verb->add_option("--work", options->work, "folder of the identification; what is done stays");
+  verb->add_option("--out", options->out, "file to write; results.md of --work if not given");
+  verb->add_option("--work", options->work, "folder of the identification; what is done stays")
+      ->capture_default_str();
   verb->add_option("--seed", options->seed, "of the sensors' noise and of where things stand")
       ->check(whole_number());
   verb->footer(

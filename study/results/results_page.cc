@@ -151,11 +151,8 @@ std::string results_page(const Results& results) {
       "# Results: the thesis's tables, the bench, the truth\n\n"
       "Machine `{}`, plain PID of `bbmc-tuned`. `./towbench results` writes this page. Bench: "
       "estimated from what a bench logs, with "
-      "95 %\nintervals. Truth: what the emulated machine is, which no estimator sees. {} of it "
-      "took "
-      "{:.0f} s of wall clock in one process.\n\n",
-      results.rig, results.partly_from_before ? "What was not there from before" : "All",
-      results.wall_s);
+      "95 %\nintervals. Truth: what the emulated machine is, which no estimator sees.\n\n",
+      results.rig);
   text += identification_tables(results.truth, results.identified);
   text += tracking(results);
   text += fast_tracking(results);

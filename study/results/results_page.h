@@ -1,5 +1,6 @@
 // docs/measurements/results.md: every table of the thesis's chapters 7 and 8 with what the bench
-// found and what is true of the emulated machine beside it.
+// found and what is true of the emulated machine beside it. Holds no time of the host, so the same
+// program writes the same page.
 #pragma once
 
 #include <string>
@@ -29,8 +30,6 @@ struct Results {
   std::vector<TrackedSpeed> fast_air;  // the 6 speeds of Table 8.3
   std::vector<TrackedSpeed> fast_water;
   std::vector<OwnGains> own_gains;  // the thesis's, BBMC 0.5's, the bench's
-  double wall_s = 0;
-  bool partly_from_before = false;  // an interrupted set was continued
 };
 
 [[nodiscard]] std::string results_page(const Results& results);
