@@ -52,8 +52,8 @@ std::string table_7_1(const emulator::RigParameters& truth, const identify::Esti
                              Wanted{"K_amp, A/V", "amplifier_gain_A_per_V", "0.37"}}) {
     text += rows_of(truth, estimates, "y", each);
   }
-  text +=
-      fmt::format("| I_max, A | 3.7 | by its data sheet | {:.4g} | - |\n", y.plant.current_limit_A);
+  text += fmt::format("| I_max, A | 3.7 | K_amp times the PWM amplitude | {:.4g} | - |\n",
+                      y.plant.current_limit_A);
   text += fmt::format("| PWM amplitude, V | 10 | by its circuit | {:.4g} | - |\n",
                       y.command.pwm_amplitude_V);
   return text;
