@@ -1,5 +1,6 @@
 // towbench results: docs/measurements/results.md, from one run of everything that has a table in
 // the thesis.
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -44,6 +45,12 @@ void measure_tracking(const ResultsBench& bench, Results& results) {
   const auto slow = speeds_of(kTable7_6);
   const auto fast = speeds_of(kTable8_3);
   const TrapezoidRun smoothed{.smooth_s = 0.243, .settle_s = 0.3};
+  const auto straight = [&](double ramp_s) {
+    const TrapezoidRun ramp{.acceleration_s = ramp_s, .settle_s = smoothed.settle_s};
+    constexpr std::array kSlowest_m_per_s{0.05};
+    return track_speeds(bench.dry, bench.controller, kSlowest_m_per_s, ramp, {}).front();
+  };
+  results.straight_ramps = {straight(smoothed.acceleration_s), straight(0.3)};
   results.slow = track_speeds(bench.dry, bench.controller, slow, {}, {});
   results.fast_air = track_speeds(bench.dry, bench.controller, fast, smoothed, {});
   results.fast_water = track_speeds(bench.wet, bench.controller, fast, smoothed, {});

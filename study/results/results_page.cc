@@ -51,6 +51,12 @@ std::string fast_tracking(const Results& results) {
                         1e3 * air.peak_m, 1e3 * water.peak_m, 1e3 * water.carriage_mean_m,
                         1e3 * water.carriage_peak_m, met ? "met" : "MISSED");
   }
+  text += fmt::format(
+      "\nEach run is an S-curve, 0.8 s to speed and averaged over 0.243 s. The motor's peak comes "
+      "where the acceleration changes, so it\ndepends on the ramp: at 50 mm/s in air a trapezoid "
+      "of "
+      "0.8 s has {:.3f} mm and one of 0.3 s, BBMC's default, {:.3f} mm.\n",
+      1e3 * results.straight_ramps[0].run.peak_m, 1e3 * results.straight_ramps[1].run.peak_m);
   return text;
 }
 

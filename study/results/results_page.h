@@ -3,6 +3,7 @@
 // program writes the same page.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct Results {
   std::vector<TrackedSpeed> slow;      // the 14 speeds of Table 7.6, thesis's trapezoids
   std::vector<TrackedSpeed> fast_air;  // the 6 speeds of Table 8.3
   std::vector<TrackedSpeed> fast_water;
+  // 50 mm/s in air without the S-curve: ramps of 0.8 s, and of 0.3 s as BBMC's default has them.
+  std::array<TrackedSpeed, 2> straight_ramps;
   std::vector<OwnGains> own_gains;  // the thesis's, BBMC 0.5's, the bench's
 };
 
