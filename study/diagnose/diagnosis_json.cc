@@ -77,6 +77,18 @@ Json parameters(const Diagnosis& d) {
   return out;
 }
 
+// Empty where a model states them.
+Json estimated(const Diagnosis& d) {
+  Json out = Json::object();
+  for (const ParameterShift& shift : d.parameters) {
+    if (d.estimated) {
+      out[shift.name] = interval(shift.fitted, 1, "ci95");
+      out[shift.name]["unit"] = shift.unit;
+    }
+  }
+  return out;
+}
+
 Json findings(const Findings& all) {
   Json out = Json::array();
   for (const Finding& finding : all) {
@@ -136,6 +148,7 @@ std::string diagnosis_json(const Diagnosis& d) {
     }
   }
   out["parameters"] = parameters(d);
+  out["estimated"] = estimated(d);
   out["unexplained"] = nullptr;
   if (d.unexplained) {
     out["unexplained"] = {

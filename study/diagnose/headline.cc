@@ -91,7 +91,7 @@ std::string what_it_gains(const Diagnosis& d) {
                      units.force, 100 * gain.low, 100 * gain.high, simulated(d.free_run, units));
 }
 
-std::string estimated(const Diagnosis& d) {
+std::string in_one_line(const Diagnosis& d) {
   std::string out;
   for (const ParameterShift& shift : d.parameters) {
     out += fmt::format("{}{} {:.4g} {} [{:.4g}, {:.4g}]", out.empty() ? "" : ", ", shift.name,
@@ -151,7 +151,7 @@ std::string headline(const Diagnosis& d) {
                            d.unexplained->coordinate)
              : "Left over:     nothing that the residual tests can see.\n";
   out += fmt::format("What to do:    {}.\n", next_step(d));
-  out += d.estimated ? estimated(d) : std::string{};
+  out += d.estimated ? in_one_line(d) : std::string{};
   for (const NamedCause& cause : d.causes) {
     out += fmt::format("  {:<24} {}; alone gains {:.1f} % (99 %: {:.1f} to {:.1f})\n",
                        cause.effect->name, cause.effect->cause, 100 * cause.gain99.value,

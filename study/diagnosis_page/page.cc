@@ -80,10 +80,14 @@ std::string parameters(const Diagnosis& d) {
     for (const auto& name : shift.indistinguishable_from) {
       others += (others.empty() ? "" : ", ") + name;
     }
-    rows.push_back({shift.name, fmt::format("{:.5g}", shift.supplied),
+    rows.push_back({shift.name, d.estimated ? "" : fmt::format("{:.5g}", shift.supplied),
                     fmt::format("{:.5g} [{:.5g}, {:.5g}]", shift.fitted.value, shift.fitted.low,
                                 shift.fitted.high),
-                    shift.unit, shift.moved ? "moved" : "as stated", others});
+                    shift.unit,
+                    d.estimated   ? "estimated"
+                    : shift.moved ? "moved"
+                                  : "as stated",
+                    others});
   }
   return table({"parameter", "stated", "fitted (95 %)", "unit, load side", "is", "or else"}, rows);
 }

@@ -118,6 +118,8 @@ TEST(ProposedMap, IsEnoughForADiagnosisWithoutAModel) {
   ASSERT_EQ(mapped.code, 0) << mapped.text;
   EXPECT_EQ(names_in(brought.answer()), "");
   EXPECT_THAT(mapped.text, HasSubstr("Estimated:     inertia "));
+  EXPECT_NEAR(brought.answer()["estimated"]["inertia"]["value"].get<double>(), axis.mass_kg,
+              0.02 * axis.mass_kg);
   const auto plant = toml::parse_file((brought.out() / "extended_plant.toml").string());
   EXPECT_NEAR(plant["axis"]["y"]["mass_kg"].value_or(0.0), axis.mass_kg, 0.02 * axis.mass_kg);
   EXPECT_NEAR(plant["axis"]["y"]["coulomb_friction_N"].value_or(0.0), axis.coulomb_N,
@@ -126,6 +128,7 @@ TEST(ProposedMap, IsEnoughForADiagnosisWithoutAModel) {
   const auto again = brought.diagnose_without_model(
       "--data log.csv --columns map.toml --model found/extended_plant.toml");
   ASSERT_EQ(again.code, 0) << again.text;
+  EXPECT_TRUE(brought.answer()["estimated"].empty());
   EXPECT_EQ(names_in(brought.answer()), "");
 }
 
