@@ -1,5 +1,5 @@
-// Effects without which a fit is so far astray that its derivatives there say nothing. They are
-// fitted from the start, before what is left is screened.
+// Effects without which a fit ends so far from the truth that its derivatives there mean nothing.
+// They are fitted from the stated model, before the other effects are screened.
 #pragma once
 
 #include "study/prediction/screening.h"

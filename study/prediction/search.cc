@@ -21,7 +21,7 @@ constexpr double kLeastOfStated = 0.03;         // by which what the model state
 constexpr double kStructured = 0.1;             // that innovations predict of themselves
 constexpr double kMuch = 1.0 / 3;    // least gain there of all, and of a free shape or a clip
 constexpr double kPlainGain = 0.05;  // of any other, two standard errors below it
-constexpr double kRunsAway = 4;      // times the loss of the model with a cause
+constexpr double kDiverged = 4;      // times the loss of the model with a cause
 constexpr double kSwap = 1;          // standard errors by which another cause must be better
 constexpr double kAlias = 2;         // below which two are told apart by nothing
 
@@ -242,9 +242,9 @@ class Searcher {
   }
 
   // Of the best model without a cause: the others alone, or no cause at all where the others'
-  // prediction of one block from the rest runs away.
+  // prediction of one block from the rest diverges.
   VectorXd loss_without(const State& now, const State& rest) const {
-    if (rest.loss.sum() > kRunsAway * now.loss.sum()) {
+    if (rest.loss.sum() > kDiverged * now.loss.sum()) {
       State base = make_state(frame_, {}, out_.base.fitted.model);
       if (base.loss.sum() < rest.loss.sum()) return std::move(base.loss);
     }

@@ -10,7 +10,9 @@ work=$root/build/guard_mutations
 export CCACHE_BASEDIR=$work CCACHE_NOHASHDIR=1
 rm -rf "$work"
 git clone -q "$root" "$work"
-long=$(sed -nE 's/^([^ #]+) *;.*/\1/p' "$work/tests/long_tests.txt" | paste -sd'|')
+# shellcheck source=tools/launcher/stages_guard.sh
+source "$work/tools/launcher/stages_guard.sh"
+long=$(long_tests)
 # The report's page plays no part here.
 (cd "$work" && cmake --preset release -DTOWBENCH_REPORT_ASSETS=OFF >/dev/null)
 
