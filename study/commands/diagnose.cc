@@ -68,7 +68,7 @@ void add_diagnose(CLI::App& app, int& exit_code) {
                    "plant file; default: that of the first run folder, else none")
       ->check(CLI::ExistingFile);
   verb->add_option("--data", options->data,
-                   "run folder of the bench, or CSV log; once for each run")
+                   "run folder of the bench, or a log (CSV, MAT, MCAP); once for each run")
       ->required()
       ->check(CLI::ExistingPath);
   verb->add_option("--holdout", options->holdout, "the same, to judge on; never fitted")

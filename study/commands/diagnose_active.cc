@@ -74,7 +74,7 @@ PlantModel corrected(const PlantModel& plant, const std::string& axis,
 
 diagnose::Interval fit_bias_corrected(const DiagnoseOptions& options, const PlantModel& plant,
                                       const std::string& folder, const active::Push& push) {
-  diagnose::Findings findings;
+  logs::Findings findings;
   diagnose::NominalModel model = plant.model;
   const diagnose::Run run = read_log(folder, options, model, findings);
   return diagnose::force_ratio(model, run,

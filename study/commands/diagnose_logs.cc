@@ -8,13 +8,15 @@
 #include "harness/proof/run_manifest.h"
 #include "harness/record/line_writer.h"
 #include "study/commands/leave_on_signal.h"
-#include "study/diagnose/column_map.h"
+#include "study/diagnose/bench_columns.h"
 #include "study/diagnose/diagnosis_json.h"
 #include "study/diagnose/extended_plant.h"
 #include "study/diagnose/headline.h"
 #include "study/diagnose/proposed_map.h"
 #include "study/diagnose/run_reader.h"
 #include "study/diagnosis_page/page.h"
+#include "study/logs/column_map.h"
+#include "study/logs/read_table.h"
 
 namespace towbench::harness {
 namespace {
@@ -42,9 +44,9 @@ std::filesystem::path log_of(const std::filesystem::path& given) {
   return given / "log.csv";
 }
 
-void refuse_fatal(const diagnose::Findings& findings) {
+void refuse_fatal(const logs::Findings& findings) {
   for (const auto& finding : findings) {
-    if (finding.kind == diagnose::Finding::Kind::kFatal) {
+    if (finding.kind == logs::Finding::Kind::kFatal) {
       throw UnusableData(finding.name + ": " + finding.sentence);
     }
   }
@@ -52,7 +54,7 @@ void refuse_fatal(const diagnose::Findings& findings) {
 
 std::vector<diagnose::Run> read_logs(const std::vector<std::string>& paths,
                                      const DiagnoseOptions& options, diagnose::NominalModel& model,
-                                     diagnose::Findings& findings) {
+                                     logs::Findings& findings) {
   std::vector<diagnose::Run> runs;
   runs.reserve(paths.size());
   for (const auto& path : paths) {
@@ -82,10 +84,14 @@ bool has_no_model(const DiagnoseOptions& options) {
 }
 
 std::string explained_columns(const DiagnoseOptions& options) {
-  diagnose::Findings findings;
-  const auto table = diagnose::read_table(options.data.front(), findings);
+  logs::Findings findings;
+  const auto table = logs::read_table(options.data.front(), findings);
   refuse_fatal(findings);
-  return diagnose::explain_columns(table, options.data.front());
+  std::string notes;
+  for (const auto& finding : findings) {
+    notes += "Note:          " + finding.sentence + "\n";
+  }
+  return notes + diagnose::explain_columns(table, options.data.front());
 }
 
 PlantModel plant_of(const DiagnoseOptions& options) {
@@ -114,13 +120,13 @@ std::filesystem::path model_of(const DiagnoseOptions& options) {
 }
 
 diagnose::Run read_log(const std::string& path, const DiagnoseOptions& options,
-                       diagnose::NominalModel& model, diagnose::Findings& findings) {
+                       diagnose::NominalModel& model, logs::Findings& findings) {
   const auto log = log_of(path);
-  const auto table = diagnose::read_table(log, findings);
+  const auto table = logs::read_table(log, findings);
   refuse_fatal(findings);
   const auto map = options.columns.empty()
                        ? diagnose::bench_columns(table, model, log.string(), findings)
-                       : diagnose::read_column_map(options.columns, findings);
+                       : logs::read_column_map(options.columns, findings);
   refuse_fatal(findings);
   model.input_is_held = map.input_hold.value_or(model.input_is_held);
   model.rotary = model.rotary || map.rotary;
@@ -131,7 +137,7 @@ diagnose::Run read_log(const std::string& path, const DiagnoseOptions& options,
 
 diagnose::Diagnosis diagnose_logs(const DiagnoseOptions& options, PlantModel plant) {
   const LeaveOnSignal until_it_writes;
-  diagnose::Findings findings;
+  logs::Findings findings;
   diagnose::Request request;
   request.runs = read_logs(options.data, options, plant.model, findings);
   request.holdout = read_logs(options.holdout, options, plant.model, findings);

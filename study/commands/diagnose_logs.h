@@ -43,7 +43,7 @@ struct DiagnoseOptions {
 
 // Throws UnusableData, FixtureError.
 [[nodiscard]] diagnose::Run read_log(const std::string& path, const DiagnoseOptions& options,
-                                     diagnose::NominalModel& model, diagnose::Findings& findings);
+                                     diagnose::NominalModel& model, logs::Findings& findings);
 [[nodiscard]] diagnose::Diagnosis diagnose_logs(const DiagnoseOptions& options, PlantModel plant);
 
 // Every file of a diagnosis into options.out. Throws UnusableData when there is none to write.

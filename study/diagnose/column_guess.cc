@@ -135,7 +135,7 @@ std::ptrdiff_t lag(const Column& first, const Column& second) {
 
 class Guesser {
  public:
-  explicit Guesser(const Table& table) {
+  explicit Guesser(const logs::Table& table) {
     for (const auto& name : table.names) guesses_.push_back({.name = name, .unit = unit_of(name)});
     for (const auto& column : table.columns) columns_.push_back(looked_at(column));
     for (std::size_t i = 0; i < guesses_.size(); ++i) range(guesses_[i], table.columns[i]);
@@ -295,7 +295,7 @@ class Guesser {
 
 }  // namespace
 
-std::vector<ColumnGuess> guess_columns(const Table& table) {
+std::vector<ColumnGuess> guess_columns(const logs::Table& table) {
   return Guesser(table).guess();
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "study/diagnose/table.h"
+#include "study/logs/table.h"
 
 namespace towbench::harness::diagnose {
 
@@ -20,6 +20,6 @@ struct ColumnGuess {
 };
 
 // In the order of the header. At most one time, position, reference and input.
-[[nodiscard]] std::vector<ColumnGuess> guess_columns(const Table& table);
+[[nodiscard]] std::vector<ColumnGuess> guess_columns(const logs::Table& table);
 
 }  // namespace towbench::harness::diagnose

@@ -17,7 +17,7 @@ using Eigen::Index;
 // A mass this far from what the momentum over windows says is no mass of this machine.
 constexpr double kCollapsed = 5;
 
-void check_data(Request& request, Findings& findings) {
+void check_data(Request& request, logs::Findings& findings) {
   for (auto* runs : {&request.runs, &request.holdout}) {
     for (Run& run : *runs) {
       check_run(run, request.model, findings);

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "study/diagnose/finding.h"
 #include "study/diagnose/free_run.h"
 #include "study/diagnose/next_experiment.h"
 #include "study/diagnose/parameters.h"
@@ -14,6 +13,7 @@
 #include "study/diagnose/series.h"
 #include "study/diagnose/testability.h"
 #include "study/diagnose/unexplained.h"
+#include "study/logs/finding.h"
 #include "study/prediction/search.h"
 
 namespace towbench::harness::diagnose {
@@ -63,7 +63,7 @@ struct Considered {
 
 struct Diagnosis {
   std::vector<std::string> verdicts;  // model_adequate, parameters_off, cause_found, ...
-  Findings findings;                  // a fatal one: nothing below is filled
+  logs::Findings findings;            // a fatal one: nothing below is filled
   Context context;
   std::vector<NamedCause> causes;
   std::vector<Refused> refused;  // what the data speak for, and what was not accepted

@@ -89,11 +89,11 @@ Json estimated(const Diagnosis& d) {
   return out;
 }
 
-Json findings(const Findings& all) {
+Json findings(const logs::Findings& all) {
   Json out = Json::array();
-  for (const Finding& finding : all) {
+  for (const logs::Finding& finding : all) {
     out.push_back({{"name", finding.name},
-                   {"fatal", finding.kind == Finding::Kind::kFatal},
+                   {"fatal", finding.kind == logs::Finding::Kind::kFatal},
                    {"sentence", finding.sentence}});
   }
   return out;

@@ -137,7 +137,7 @@ std::string next_step(const Diagnosis& d) {
 std::string headline(const Diagnosis& d) {
   if (is_fatal(d.findings)) {
     std::string out = "No diagnosis: the data cannot be used.\n";
-    for (const Finding& finding : d.findings) {
+    for (const logs::Finding& finding : d.findings) {
       out += fmt::format("  {}: {}\n", finding.name, finding.sentence);
     }
     return out;
@@ -157,7 +157,7 @@ std::string headline(const Diagnosis& d) {
                        cause.effect->name, cause.effect->cause, 100 * cause.gain99.value,
                        100 * cause.gain99.low, 100 * cause.gain99.high);
   }
-  for (const Finding& finding : d.findings) {
+  for (const logs::Finding& finding : d.findings) {
     out += fmt::format("  note, {}: {}\n", finding.name, finding.sentence);
   }
   return out;

@@ -8,7 +8,7 @@
 namespace towbench::harness::diagnose {
 namespace {
 
-using Kind = Finding::Kind;
+using Kind = logs::Finding::Kind;
 
 constexpr std::size_t kFewestSamples = 400;
 // Beside the middle 99 % of a column's values; no motion and no command does that.
@@ -16,7 +16,8 @@ constexpr double kAbsurd = 1e4;
 
 class Finder {
  public:
-  Finder(const Table& table, const ColumnMap& map, const std::string& file, Findings& findings)
+  Finder(const logs::Table& table, const logs::ColumnMap& map, const std::string& file,
+         logs::Findings& findings)
       : table_(table), map_(map), file_(file), findings_(findings) {}
 
   LogColumns find() {
@@ -150,16 +151,16 @@ class Finder {
     }
   }
 
-  const Table& table_;
-  const ColumnMap& map_;
+  const logs::Table& table_;
+  const logs::ColumnMap& map_;
   const std::string& file_;
-  Findings& findings_;
+  logs::Findings& findings_;
 };
 
 }  // namespace
 
-LogColumns find_columns(const Table& table, const ColumnMap& map, const std::string& file,
-                        Findings& findings) {
+LogColumns find_columns(const logs::Table& table, const logs::ColumnMap& map,
+                        const std::string& file, logs::Findings& findings) {
   return Finder(table, map, file, findings).find();
 }
 

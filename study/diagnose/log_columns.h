@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "study/diagnose/column_map.h"
-#include "study/diagnose/finding.h"
-#include "study/diagnose/table.h"
+#include "study/logs/column_map.h"
+#include "study/logs/finding.h"
+#include "study/logs/table.h"
 
 namespace towbench::harness::diagnose {
 
@@ -22,7 +22,7 @@ struct LogColumns {
 
 // Named findings: column_missing, column_twice, bad_rows, not_a_number, absurd_values, too_short,
 // constant_position, constant_input. After a fatal one there is nothing to go on with.
-[[nodiscard]] LogColumns find_columns(const Table& table, const ColumnMap& map,
-                                      const std::string& file, Findings& findings);
+[[nodiscard]] LogColumns find_columns(const logs::Table& table, const logs::ColumnMap& map,
+                                      const std::string& file, logs::Findings& findings);
 
 }  // namespace towbench::harness::diagnose

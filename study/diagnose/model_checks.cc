@@ -30,7 +30,7 @@ double told_shift_s(const NominalModel& model) {
 }
 
 void check_shift(const std::vector<Run>& runs, const NominalModel& model, const Momentum& fit,
-                 Findings& findings) {
+                 logs::Findings& findings) {
   const double aligned = fit.explained;
   double seconds = 0;
   double most = aligned;
@@ -44,13 +44,14 @@ void check_shift(const std::vector<Run>& runs, const NominalModel& model, const 
   if (std::abs(seconds) >= told_shift_s(model) && (1 - most) < 0.7 * (1 - aligned)) {
     // y(t + shift) fits x(t) best: the input column is late by the shift.
     findings.push_back(
-        {aligned < kWellExplained ? Finding::Kind::kFatal : Finding::Kind::kNote, "columns_shifted",
+        {aligned < kWellExplained ? logs::Finding::Kind::kFatal : logs::Finding::Kind::kNote,
+         "columns_shifted",
          fmt::format("the input column lies about {:.0f} ms {} the position column: the model "
                      "explains {:.0f} % of it there and {:.0f} % where it is; align them first",
                      1e3 * std::abs(seconds), seconds > 0 ? "behind" : "ahead of", 100 * most,
                      100 * aligned)});
   } else if (most < std::max(kNothingExplained, kNoiseReaches / static_cast<double>(fit.windows))) {
-    findings.push_back({Finding::Kind::kFatal, "model_explains_nothing",
+    findings.push_back({logs::Finding::Kind::kFatal, "model_explains_nothing",
                         fmt::format("inertia and friction together explain {:.1f} % of the input, "
                                     "and no shift of the columns makes it more: noise, or the "
                                     "wrong columns",
@@ -58,7 +59,7 @@ void check_shift(const std::vector<Run>& runs, const NominalModel& model, const 
   }
 }
 
-void check_unit(const NominalModel& model, const Momentum& fit, Findings& findings) {
+void check_unit(const NominalModel& model, const Momentum& fit, logs::Findings& findings) {
   // Where little is explained, noise in the acceleration makes the inertia too small.
   if (!model.supplied || model.mass_kg <= 0 || fit.explained < kLeastExplained) {
     return;
@@ -83,20 +84,21 @@ void check_unit(const NominalModel& model, const Momentum& fit, Findings& findin
                         : "the position is in counts and mapped as metres";
   }
   findings.push_back(
-      {Finding::Kind::kFatal, "input_unit_off",
+      {logs::Finding::Kind::kFatal, "input_unit_off",
        fmt::format("the data ask for {:.3g} times the model's inertia: {}", ratio, guess)});
 }
 
 }  // namespace
 
 void check_against_model(const std::vector<Run>& runs, const NominalModel& model,
-                         Findings& findings) {
+                         logs::Findings& findings) {
   const Momentum fit = fit_momentum(runs, model.rotary, 0);
   if (fit.windows < kFewestWindows) {
-    const auto unit = std::find_if(findings.begin(), findings.end(),
-                                   [](const Finding& f) { return f.name == "reference_unit_off"; });
+    const auto unit = std::find_if(findings.begin(), findings.end(), [](const logs::Finding& f) {
+      return f.name == "reference_unit_off";
+    });
     findings.push_back(
-        {Finding::Kind::kFatal, "too_little_motion",
+        {logs::Finding::Kind::kFatal, "too_little_motion",
          fmt::format("{} short stretches in motion, {} are needed: {}", fit.windows, kFewestWindows,
                      unit == findings.end() ? "log longer, or give another run"
                                             : unit->name + ": " + unit->sentence)});
@@ -108,14 +110,14 @@ void check_against_model(const std::vector<Run>& runs, const NominalModel& model
     return;
   }
   if (fit.mass_kg < 0 && fit.coulomb_N < 0) {
-    findings.push_back({Finding::Kind::kFatal, "command_sign_reversed",
+    findings.push_back({logs::Finding::Kind::kFatal, "command_sign_reversed",
                         "inertia and friction come out negative: the sign of the command is "
                         "reversed against the position's, or something else drives the axis, a "
                         "hand perhaps"});
     return;
   }
   if (aligned < kLeastExplained) {
-    findings.push_back({Finding::Kind::kNote, "model_explains_little",
+    findings.push_back({logs::Finding::Kind::kNote, "model_explains_little",
                         fmt::format("inertia and friction together explain {:.0f} % of the input; "
                                     "are the right columns mapped?",
                                     100 * aligned)});

@@ -31,7 +31,7 @@ double longest_honest_step(const Eigen::VectorXd& position_m) {
 
 }  // namespace
 
-void join_position_jumps(Run& run, Findings& findings) {
+void join_position_jumps(Run& run, logs::Findings& findings) {
   const double longest_m = kTooFar * longest_honest_step(run.position_m);
   for (Eigen::Index i = 1; i < run.size(); ++i) {
     const double step_m = run.position_m[i] - run.position_m[i - 1];
@@ -41,7 +41,7 @@ void join_position_jumps(Run& run, Findings& findings) {
     run.position_m.head(i).array() += step_m;
     run.missing[static_cast<std::size_t>(i)] = 1;
     findings.push_back(
-        {Finding::Kind::kNote, "position_jump",
+        {logs::Finding::Kind::kNote, "position_jump",
          fmt::format("{}: the position jumps by {:.4g} m at {:.6g} s, as of a preset counter; what "
                      "lies before was moved to join",
                      run.name, step_m, static_cast<double>(i) * run.period_s)});

@@ -2,13 +2,13 @@
 // one such sample would be the fastest motion of the log and hide all the rest.
 #pragma once
 
-#include "study/diagnose/finding.h"
+#include "study/logs/finding.h"
 #include "study/prediction/run.h"
 
 namespace towbench::harness::diagnose {
 
 // Joins the pieces: what lies before a jump is moved into the frame of what follows. The sample at
 // the jump counts as missing. Tells where.
-void join_position_jumps(Run& run, Findings& findings);
+void join_position_jumps(Run& run, logs::Findings& findings);
 
 }  // namespace towbench::harness::diagnose

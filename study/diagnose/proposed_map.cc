@@ -72,7 +72,7 @@ struct Found {
   double step = 0;  // of the time, in its unit
   bool rotary = false;
 
-  explicit Found(const Table& table)
+  explicit Found(const logs::Table& table)
       : all(guess_columns(table)),
         time(of_role(all, Role::kTime)),
         position(of_role(all, Role::kPosition)),
@@ -159,11 +159,11 @@ std::string to_be_told(const Found& f) {
 
 }  // namespace
 
-std::string proposed_map(const Table& table) {
+std::string proposed_map(const logs::Table& table) {
   return map_of(Found(table));
 }
 
-std::string explain_columns(const Table& table, const std::string& file) {
+std::string explain_columns(const logs::Table& table, const std::string& file) {
   const Found f(table);
   std::string out = fmt::format("{}: {} rows, {} columns", file, table.rows(), table.names.size());
   if (f.time != nullptr && f.step > 0)

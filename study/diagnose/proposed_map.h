@@ -4,16 +4,16 @@
 
 #include <string>
 
-#include "study/diagnose/table.h"
+#include "study/logs/table.h"
 
 namespace towbench::harness::diagnose {
 
 // TOML with a comment behind each line that is a guess; a column that was not found stands as a
 // comment.
-[[nodiscard]] std::string proposed_map(const Table& table);
+[[nodiscard]] std::string proposed_map(const logs::Table& table);
 
 // Rows, period, each column with its range and what it seems to be; the map; what must be told, and
 // what is estimated.
-[[nodiscard]] std::string explain_columns(const Table& table, const std::string& file);
+[[nodiscard]] std::string explain_columns(const logs::Table& table, const std::string& file);
 
 }  // namespace towbench::harness::diagnose

@@ -9,7 +9,7 @@
 namespace towbench::harness::diagnose {
 namespace {
 
-using Kind = Finding::Kind;
+using Kind = logs::Finding::Kind;
 using Eigen::Index;
 
 constexpr double kSpeedWindow_s =
@@ -42,7 +42,8 @@ std::vector<double> sizes_of(std::vector<double> values) {
   return values;
 }
 
-void check_speed(const Run& run, const NominalModel& model, Index window, Findings& findings) {
+void check_speed(const Run& run, const NominalModel& model, Index window,
+                 logs::Findings& findings) {
   const double speed = quantile(sizes_of(ways_of(run.position_m, window)), kMost) /
                        (static_cast<double>(window) * run.period_s);
   if (model.no_load_speed_m_per_s > 0 && speed > kBeyondDrive * model.no_load_speed_m_per_s) {
@@ -54,7 +55,7 @@ void check_speed(const Run& run, const NominalModel& model, Index window, Findin
   }
 }
 
-void check_input(const Run& run, const NominalModel& model, Findings& findings) {
+void check_input(const Run& run, const NominalModel& model, logs::Findings& findings) {
   const double most = std::max(model.force_limit_N, 100 * model.newton_per_duty_pct);
   const std::vector<double> input(run.input_N.begin(), run.input_N.end());
   const double reached = quantile(sizes_of(input), kMost);
@@ -68,7 +69,7 @@ void check_input(const Run& run, const NominalModel& model, Findings& findings) 
 }
 
 // Ratio of the way that was gone to the way that was asked for, where much was asked.
-void check_reference(Run& run, Index window, Findings& findings) {
+void check_reference(Run& run, Index window, logs::Findings& findings) {
   if (run.reference_m.size() != run.size()) {
     return;
   }
@@ -96,22 +97,24 @@ void check_reference(Run& run, Index window, Findings& findings) {
   } else if (ratio < 1 / kReferenceOff || ratio > kReferenceOff) {
     findings.push_back(
         always_along
-            ? Finding{Kind::kNote, "reference_unit_off",
-                      fmt::format("{}: the position goes {:.3g} times as far as its reference "
-                                  "asks: another unit? It goes on without the reference",
-                                  run.name, ratio)}
-            : Finding{Kind::kNote, "reference_not_followed",
-                      fmt::format("{}: the position goes now with its reference and now against "
-                                  "it: another axis' reference, or a loop that had lost control? "
-                                  "It goes on without the reference",
-                                  run.name)});
+            ? logs::Finding{Kind::kNote, "reference_unit_off",
+                            fmt::format(
+                                "{}: the position goes {:.3g} times as far as its reference "
+                                "asks: another unit? It goes on without the reference",
+                                run.name, ratio)}
+            : logs::Finding{
+                  Kind::kNote, "reference_not_followed",
+                  fmt::format("{}: the position goes now with its reference and now against "
+                              "it: another axis' reference, or a loop that had lost control? "
+                              "It goes on without the reference",
+                              run.name)});
     run.reference_m.resize(0);
   }
 }
 
 }  // namespace
 
-void check_run(Run& run, const NominalModel& model, Findings& findings) {
+void check_run(Run& run, const NominalModel& model, logs::Findings& findings) {
   const auto window = std::max<Index>(1, std::lround(kSpeedWindow_s / run.period_s));
   check_speed(run, model, window, findings);
   check_input(run, model, findings);

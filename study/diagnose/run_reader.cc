@@ -33,7 +33,8 @@ double step_of(const std::vector<double>& column, const std::vector<std::size_t>
 
 }  // namespace
 
-Run make_run(const Table& table, const ColumnMap& map, std::string name, Findings& findings) {
+Run make_run(const logs::Table& table, const logs::ColumnMap& map, std::string name,
+             logs::Findings& findings) {
   Run run;
   run.name = std::move(name);
   const LogColumns columns = find_columns(table, map, run.name, findings);

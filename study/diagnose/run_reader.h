@@ -3,14 +3,15 @@
 
 #include <string>
 
-#include "study/diagnose/column_map.h"
+#include "study/logs/column_map.h"
+#include "study/logs/table.h"
 #include "study/prediction/run.h"
 
 namespace towbench::harness::diagnose {
 
 // Named findings: those of log_columns.h, time_grid.h and position_jump.h. After a fatal one the
 // run is unusable.
-[[nodiscard]] Run make_run(const Table& table, const ColumnMap& map, std::string name,
-                           Findings& findings);
+[[nodiscard]] Run make_run(const logs::Table& table, const logs::ColumnMap& map, std::string name,
+                           logs::Findings& findings);
 
 }  // namespace towbench::harness::diagnose

@@ -8,7 +8,7 @@
 namespace towbench::harness::diagnose {
 namespace {
 
-using Kind = Finding::Kind;
+using Kind = logs::Finding::Kind;
 
 constexpr double kJitterShare = 0.05;  // of the period, rms, above which the user is told
 constexpr double kMissingShare = 0.2;  // of the samples, above which the log is refused
@@ -42,8 +42,8 @@ double roughness(const Eigen::VectorXd& x) {
 
 }  // namespace
 
-TimeGrid::TimeGrid(const Table& table, const LogColumns& columns, double time_scale_s,
-                   const std::string& file, Findings& findings)
+TimeGrid::TimeGrid(const logs::Table& table, const LogColumns& columns, double time_scale_s,
+                   const std::string& file, logs::Findings& findings)
     : rows_(columns.rows), file_(file), findings_(findings) {
   time_s_.reserve(rows_.size());
   for (const std::size_t row : rows_) {
@@ -59,7 +59,7 @@ void TimeGrid::tell(Kind kind, const char* name, std::string sentence) {
   findings_.push_back({kind, name, std::move(sentence)});
 }
 
-bool TimeGrid::rises(const Table& table) {
+bool TimeGrid::rises(const logs::Table& table) {
   for (std::size_t j = 1; j < time_s_.size(); ++j) {
     if (time_s_[j] <= time_s_[j - 1]) {
       tell(

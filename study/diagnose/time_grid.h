@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "study/diagnose/finding.h"
 #include "study/diagnose/log_columns.h"
+#include "study/logs/finding.h"
 
 namespace towbench::harness::diagnose {
 
@@ -17,8 +17,8 @@ class TimeGrid {
  public:
   // Named findings: time_not_rising, sampling_changes, sampling_rate_off, missing_samples,
   // jittered_time. After a fatal one the grid is unusable.
-  TimeGrid(const Table& table, const LogColumns& columns, double time_scale_s,
-           const std::string& file, Findings& findings);
+  TimeGrid(const logs::Table& table, const LogColumns& columns, double time_scale_s,
+           const std::string& file, logs::Findings& findings);
 
   [[nodiscard]] double period_s() const noexcept { return period_s_; }
   // 1 where a sample lies in a gap too long to be bridged.
@@ -27,8 +27,8 @@ class TimeGrid {
   [[nodiscard]] Eigen::VectorXd resampled(const std::vector<double>& column, double scale) const;
 
  private:
-  void tell(Finding::Kind kind, const char* name, std::string sentence);
-  [[nodiscard]] bool rises(const Table& table);
+  void tell(logs::Finding::Kind kind, const char* name, std::string sentence);
+  [[nodiscard]] bool rises(const logs::Table& table);
   [[nodiscard]] bool is_steady();
   void choose_times(const std::vector<double>& position);
   void find_gaps();
@@ -37,7 +37,7 @@ class TimeGrid {
 
   const std::vector<std::size_t>& rows_;
   const std::string& file_;
-  Findings& findings_;
+  logs::Findings& findings_;
   std::vector<double> time_s_;  // of the rows
   double period_s_ = 0;
   Eigen::Index samples_ = 0;

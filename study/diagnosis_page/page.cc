@@ -133,7 +133,7 @@ std::string page(const std::string& title, const Diagnosis& d) {
       "<meta name=\"viewport\" content=\"width=device-width\">" +
       fmt::format("<title>{}</title><style>{}</style></head><body>\n", escaped(title), kStyle) +
       heading(1, title) + "<pre>" + escaped(diagnose::headline(d)) + "</pre>\n";
-  if (!diagnose::is_fatal(d.findings)) {
+  if (!logs::is_fatal(d.findings)) {
     out += heading(2, "Causes") + causes(d);
     out += heading(2, "Parameters") + parameters(d);
     out += heading(2, "Left to itself under the measured input") + confirmed(d);

@@ -8,7 +8,7 @@ run_packages=(
   libunicorn-dev libssl-dev
 )
 # What the experiments that estimate need besides: `identify`, `diagnose` and their like.
-study_packages=(libeigen3-dev libceres-dev)
+study_packages=(libeigen3-dev libceres-dev libmatio-dev liblz4-dev libzstd-dev)
 # To build BBMC as a bare-metal image for the virtual board.
 baremetal_packages=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib)
 # To build and test the bench in every way that guards main.

@@ -9,6 +9,7 @@
 
 #include "study/diagnose/position_jump.h"
 #include "study/diagnose/run_reader.h"
+#include "study/logs/read_table.h"
 #include "tests/study/diagnose/hidden_case.h"
 
 namespace towbench::tests {
@@ -16,8 +17,8 @@ namespace {
 
 using namespace harness::diagnose;
 
-bool has(const Findings& findings, const std::string& name) {
-  for (const Finding& finding : findings) {
+bool has(const logs::Findings& findings, const std::string& name) {
+  for (const logs::Finding& finding : findings) {
     if (finding.name == name) {
       return true;
     }
@@ -25,8 +26,8 @@ bool has(const Findings& findings, const std::string& name) {
   return false;
 }
 
-Table good_table(std::size_t rows = 2000) {
-  Table table;
+logs::Table good_table(std::size_t rows = 2000) {
+  logs::Table table;
   table.names = {"t", "q", "u"};
   table.columns.resize(3);
   for (std::size_t i = 0; i < rows; ++i) {
@@ -39,16 +40,16 @@ Table good_table(std::size_t rows = 2000) {
   return table;
 }
 
-ColumnMap map_of_table() {
-  ColumnMap map;
+logs::ColumnMap map_of_table() {
+  logs::ColumnMap map;
   map.time = "t";
   map.position = "q";
   map.input = "u";
   return map;
 }
 
-Findings findings_of(const Table& table) {
-  Findings findings;
+logs::Findings findings_of(const logs::Table& table) {
+  logs::Findings findings;
   (void)make_run(table, map_of_table(), "log", findings);
   return findings;
 }
@@ -58,7 +59,7 @@ TEST(BadData, AGoodTableRaisesNothing) {
 }
 
 TEST(BadData, ConstantColumnsAreNamed) {
-  Table table = good_table();
+  logs::Table table = good_table();
   std::fill(table.columns[1].begin(), table.columns[1].end(), 0.3);
   EXPECT_TRUE(has(findings_of(table), "constant_position"));
   table = good_table();
@@ -67,26 +68,26 @@ TEST(BadData, ConstantColumnsAreNamed) {
 }
 
 TEST(BadData, NotANumberIsLeftOutAndTold) {
-  Table table = good_table();
+  logs::Table table = good_table();
   table.columns[1][77] = std::numeric_limits<double>::quiet_NaN();
-  const Findings findings = findings_of(table);
+  const logs::Findings findings = findings_of(table);
   EXPECT_TRUE(has(findings, "not_a_number"));
   EXPECT_TRUE(has(findings, "missing_samples"));
   EXPECT_FALSE(is_fatal(findings));
 }
 
 TEST(BadData, TimeThatRunsBackIsRefused) {
-  Table table = good_table();
+  logs::Table table = good_table();
   table.columns[0][500] = 0.1;
   EXPECT_TRUE(has(findings_of(table), "time_not_rising"));
 }
 
 TEST(BadData, JitteredTimeStampsAreResampledAndTold) {
-  Table table = good_table();
+  logs::Table table = good_table();
   for (std::size_t i = 1; i + 1 < table.rows(); i += 2) {
     table.columns[0][i] += 0.2e-3;
   }
-  Findings findings;
+  logs::Findings findings;
   const auto run = make_run(table, map_of_table(), "log", findings);
   EXPECT_TRUE(has(findings, "jittered_time"));
   EXPECT_FALSE(is_fatal(findings));
@@ -101,8 +102,8 @@ TEST(BadData, ALogTooShortIsRefused) {
 TEST(BadData, AnEmptyFileIsRefused) {
   const auto path = std::filesystem::temp_directory_path() / "towbench_diagnose_empty.csv";
   std::ofstream(path).close();
-  Findings findings;
-  (void)read_table(path, findings);
+  logs::Findings findings;
+  (void)logs::read_table(path, findings);
   EXPECT_TRUE(has(findings, "file_unreadable"));
   std::filesystem::remove(path);
 }
@@ -128,12 +129,12 @@ TEST(BadData, AJumpOfThePositionIsJoinedAndTold) {
   const auto clean = run_of(axis, make_hidden_log(axis, 1));
   auto jumping = clean;
   jumping.position_m.head(3).array() -= 0.449;
-  Findings findings;
+  logs::Findings findings;
   join_position_jumps(jumping, findings);
   EXPECT_TRUE(has(findings, "position_jump"));
   EXPECT_EQ(jumping.missing[3], 1);
   EXPECT_LT((jumping.position_m - clean.position_m).cwiseAbs().maxCoeff(), 1e-3);
-  Findings none;
+  logs::Findings none;
   auto untouched = clean;
   join_position_jumps(untouched, none);
   EXPECT_TRUE(none.empty());

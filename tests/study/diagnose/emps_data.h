@@ -6,7 +6,7 @@
 #include <string>
 
 #include "study/diagnose/run_reader.h"
-#include "study/diagnose/table.h"
+#include "study/logs/read_table.h"
 
 namespace towbench::tests {
 
@@ -23,14 +23,14 @@ namespace towbench::tests {
 
 // Force = 35.15065 N/V times the controller's output.
 [[nodiscard]] inline harness::diagnose::Run emps_run(const std::string& file) {
-  harness::diagnose::ColumnMap map;
+  harness::logs::ColumnMap map;
   map.time = "t_s";
   map.position = "qm_m";
   map.input = "vir_V";
   map.reference = "qg_m";
   map.input_scale_N = 35.15065;
-  harness::diagnose::Findings findings;
-  const auto table = harness::diagnose::read_table(emps_folder() / file, findings);
+  harness::logs::Findings findings;
+  const auto table = harness::logs::read_table(emps_folder() / file, findings);
   return harness::diagnose::make_run(table, map, file, findings);
 }
 

@@ -145,7 +145,7 @@ Gained gained_on(const char* hidden_toml) {
   const HiddenRig extended(fs::path(options.out) / "extended_plant.toml", "");
 
   const double band_Hz = d.series.bandwidth / (2 * std::numbers::pi);
-  diagnose::Findings findings;
+  logs::Findings findings;
   const auto log = [&](const fs::path& folder) {
     return read_log(folder.string(), options, plant.model, findings);
   };

@@ -96,7 +96,7 @@ class Pendulum : public testing::TestWithParam<std::string> {
     }
   }
   static Diagnosis of(const std::string& file) {
-    Findings findings;
+    logs::Findings findings;
     const auto run = pendulum_run(file, findings);
     EXPECT_FALSE(is_fatal(findings));
     NominalModel model = joint(0.06259);  // what its authors state, without gravity

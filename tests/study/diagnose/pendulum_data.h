@@ -7,7 +7,7 @@
 #include <string>
 
 #include "study/diagnose/run_reader.h"
-#include "study/diagnose/table.h"
+#include "study/logs/read_table.h"
 
 namespace towbench::tests {
 
@@ -23,12 +23,12 @@ namespace towbench::tests {
 }
 
 [[nodiscard]] inline harness::diagnose::Run pendulum_run(const std::string& file,
-                                                         harness::diagnose::Findings& findings) {
-  harness::diagnose::ColumnMap map;
+                                                         harness::logs::Findings& findings) {
+  harness::logs::ColumnMap map;
   map.position = "position_rad";
   map.input = "torque_Nm";
   map.rotary = true;
-  const auto table = harness::diagnose::read_table(pendulum_folder() / (file + ".csv"), findings);
+  const auto table = harness::logs::read_table(pendulum_folder() / (file + ".csv"), findings);
   return harness::diagnose::make_run(table, map, file, findings);
 }
 

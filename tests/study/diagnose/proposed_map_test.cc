@@ -11,7 +11,7 @@
 #include <toml++/toml.h>
 
 #include "study/diagnose/column_guess.h"
-#include "study/diagnose/column_map.h"
+#include "study/logs/column_map.h"
 #include "tests/study/diagnose/brought_case.h"
 
 namespace towbench::tests {
@@ -25,8 +25,8 @@ constexpr double kSwing_rad_per_s = 3.1;
 
 // Time, a reference, the position that follows it 8 ms later, its speed, and what drives a kilogram
 // with friction along it. Columns bear the given names.
-Table moving(std::vector<std::string> names) {
-  Table table;
+logs::Table moving(std::vector<std::string> names) {
+  logs::Table table;
   table.names = std::move(names);
   table.columns.resize(table.names.size());
   for (std::size_t i = 0; i < 4000; ++i) {
@@ -42,11 +42,11 @@ Table moving(std::vector<std::string> names) {
   return table;
 }
 
-ColumnMap map_in(const std::string& text) {
+logs::ColumnMap map_in(const std::string& text) {
   const auto path = std::filesystem::temp_directory_path() / "towbench-proposed-map.toml";
   std::ofstream(path) << text;
-  Findings findings;
-  const ColumnMap map = read_column_map(path, findings);
+  logs::Findings findings;
+  const logs::ColumnMap map = logs::read_column_map(path, findings);
   std::filesystem::remove(path);
   EXPECT_FALSE(is_fatal(findings)) << text;
   return map;
@@ -77,7 +77,7 @@ TEST(ProposedMap, OfNamesThatSayNothingComesFromTheNumbers) {
 }
 
 TEST(ProposedMap, ScalesWhatItKnowsAndAsksForTheRest) {
-  Table table = moving({"t_ms", "set_mm", "pos_mm", "vel", "u_pct"});
+  logs::Table table = moving({"t_ms", "set_mm", "pos_mm", "vel", "u_pct"});
   for (double& t : table.columns[0]) t *= 1e3;
   const std::string text = proposed_map(table);
   const auto map = map_in(text);
@@ -90,7 +90,7 @@ TEST(ProposedMap, ScalesWhatItKnowsAndAsksForTheRest) {
 }
 
 TEST(ProposedMap, OfColumnsThatAreNotThereSaysSo) {
-  Table table = moving({"time", "x_count", "dead"});
+  logs::Table table = moving({"time", "x_count", "dead"});
   for (double& value : table.columns[2]) value = 7;
   const std::string text = explain_columns(table, "log.csv");
   EXPECT_THAT(text, HasSubstr("the same in every row"));

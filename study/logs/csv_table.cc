@@ -1,4 +1,4 @@
-#include "study/diagnose/table.h"
+#include "study/logs/csv_table.h"
 
 #include <algorithm>
 #include <charconv>
@@ -7,12 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "study/diagnose/bounded_lines.h"
+#include "study/logs/bounded_lines.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::harness::logs {
 namespace {
 
-constexpr std::size_t kMostColumns = 512;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::string_view trimmed(std::string_view text) {
@@ -178,17 +177,8 @@ class Reader {
 
 }  // namespace
 
-const std::vector<double>* Table::find(std::string_view name) const noexcept {
-  const auto at = std::find(names.begin(), names.end(), name);
-  return at == names.end() ? nullptr : &columns[static_cast<std::size_t>(at - names.begin())];
-}
-
-std::size_t Table::count(std::string_view name) const noexcept {
-  return static_cast<std::size_t>(std::count(names.begin(), names.end(), name));
-}
-
-Table read_table(const std::filesystem::path& path, Findings& findings) {
+Table read_csv_table(const std::filesystem::path& path, Findings& findings) {
   return Reader(path, findings).read();
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::harness::logs

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace towbench::harness::diagnose {
+namespace towbench::harness::logs {
 
 inline constexpr std::size_t kLongestLine = 1 << 16;
 
@@ -34,4 +34,4 @@ class BoundedLines {
   bool too_long_ = false;
 };
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::harness::logs

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace towbench::harness::diagnose {
+namespace towbench::harness::logs {
 
 struct Finding {
   enum class Kind { kNote, kFatal };
@@ -24,4 +24,4 @@ using Findings = std::vector<Finding>;
   return false;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::harness::logs

@@ -12,11 +12,9 @@
 #include <optional>
 #include <string>
 
-#include "study/diagnose/finding.h"
-#include "study/diagnose/table.h"
-#include "study/prediction/nominal_model.h"
+#include "study/logs/finding.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::harness::logs {
 
 struct ColumnMap {
   std::string time = "time_s";
@@ -36,8 +34,4 @@ struct ColumnMap {
 // Reads a map; unknown keys and wrong types are fatal findings.
 [[nodiscard]] ColumnMap read_column_map(const std::filesystem::path& path, Findings& findings);
 
-// The bench's own log, by the columns it has: count before position, duty before force.
-[[nodiscard]] ColumnMap bench_columns(const Table& table, const NominalModel& model,
-                                      const std::string& file, Findings& findings);
-
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::harness::logs

@@ -1,4 +1,4 @@
-#include "study/diagnose/column_map.h"
+#include "study/logs/column_map.h"
 
 #include <cmath>
 
@@ -8,7 +8,7 @@
 #include "harness/files/regular_file.h"
 #include "harness/files/toml_nesting.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::harness::logs {
 namespace {
 
 void fatal(Findings& findings, std::string sentence) {
@@ -91,40 +91,4 @@ ColumnMap read_column_map(const std::filesystem::path& path, Findings& findings)
   return map;
 }
 
-ColumnMap bench_columns(const Table& table, const NominalModel& model, const std::string& file,
-                        Findings& findings) {
-  ColumnMap map;
-  const std::string axis = model.axis + "_";
-  const std::string other = model.axis == "y" ? "x_" : "y_";
-  if (table.find(axis + "count") != nullptr && model.metres_per_count > 0) {
-    map.position = axis + "count";
-    map.position_scale_m = model.metres_per_count;
-    map.position_is_count = true;
-  } else {
-    map.position = axis + "position_m";
-  }
-  if (table.find(axis + "duty_pct") != nullptr && model.newton_per_duty_pct > 0) {
-    map.input = axis + "duty_pct";
-    map.input_scale_N = model.newton_per_duty_pct;
-  } else {
-    map.input = axis + "force_N";
-  }
-  if (table.find(axis + "reference_m") != nullptr) {
-    map.reference = axis + "reference_m";
-  }
-  if (table.find(other + "position_m") != nullptr) {
-    map.other_position = other + "position_m";
-  }
-  for (const auto* name : {&map.time, &map.position, &map.input}) {
-    if (table.find(*name) == nullptr) {
-      fatal(findings,
-            fmt::format("{}: no column '{}' as in a log of the bench, its header has: {}; "
-                        "name the columns with --columns MAP.toml",
-                        file, *name, fmt::join(table.names, " ")));
-      break;
-    }
-  }
-  return map;
-}
-
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::harness::logs

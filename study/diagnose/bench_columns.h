@@ -1,0 +1,18 @@
+// Which column of the bench's own log is what, by the columns it has: count before position, duty
+// before force.
+#pragma once
+
+#include <string>
+
+#include "study/logs/column_map.h"
+#include "study/logs/finding.h"
+#include "study/logs/table.h"
+#include "study/prediction/nominal_model.h"
+
+namespace towbench::harness::diagnose {
+
+// A log without time, position or input is the fatal finding columns_unusable.
+[[nodiscard]] logs::ColumnMap bench_columns(const logs::Table& table, const NominalModel& model,
+                                            const std::string& file, logs::Findings& findings);
+
+}  // namespace towbench::harness::diagnose
