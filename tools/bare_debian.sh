@@ -2,6 +2,7 @@
 # A bare Debian 12 in a folder, for what must work on a fresh machine. Sourced.
 #
 # make_bare_debian      sets $bare; ends the script with 99 and the reason where there can be none
+#                       a folder in $archives: packages that this host has fetched before are taken from there
 # in_bare USER COMMAND  runs it there, with nothing of this host's environment but its way to the mirror
 
 skip_bare() { echo "skipped: $1"; exit 99; }
@@ -20,11 +21,17 @@ make_bare_debian() {
   chmod 755 "$bare" # the root of every user there
   trap remove_bare_debian EXIT
   echo "making a bare Debian 12 in $bare"
-  debootstrap --variant=minbase bookworm "$bare" "${mirror:-http://deb.debian.org/debian}" >"$bare.log" 2>&1 || {
+  local from=()
+  if [[ -d ${archives:-} ]]; then from=("--cache-dir=$archives"); fi
+  debootstrap --variant=minbase "${from[@]}" bookworm "$bare" "${mirror:-http://deb.debian.org/debian}" >"$bare.log" 2>&1 || {
     tail -n 5 "$bare.log"
     skip_bare 'debootstrap found no Debian mirror'
   }
   rm -f "$bare.log"
+  # Links, so that nothing is copied and no other folder's package is lost.
+  if [[ -d ${archives:-} ]]; then
+    find "$archives" -maxdepth 1 -name '*.deb' -exec cp -lt "$bare/var/cache/apt/archives" {} + 2>/dev/null || true
+  fi
   # How this host reaches its mirror (proxy, certificates, sources) is the bare machine's way too.
   cp -r /etc/apt/. "$bare/etc/apt/"
   [[ -e /etc/apt/sources.list ]] || rm -f "$bare/etc/apt/sources.list"

@@ -4,13 +4,15 @@
 # user with sudo in a clone of his own, through a link in the PATH.
 # usage: fresh_start.sh ROOT [CACHE]
 # CACHE: a folder of ccache. What is in it is not compiled again where the same compiler meets the same
-# headers; a package that is missing is an error as before.
+# headers, and packages that this host has fetched are not fetched again; one that is missing in the
+# lists of the launcher is an error as before.
 # Exit code 99, with the reason, where no such folder can be made (not root, no debootstrap, no mirror).
 set -euo pipefail
 root=$(CDPATH='' cd -- "${1:?usage: fresh_start.sh ROOT [CACHE]}" && pwd)
 cache=${2:-}
 # shellcheck source=tools/bare_debian.sh
 source "$root/tools/bare_debian.sh"
+if [[ -n $cache ]]; then archives=/var/cache/apt/archives; fi
 make_bare_debian
 
 # A loaded host is slow, and that is no error of the project. So each time is printed beside its goal and judged
