@@ -124,9 +124,9 @@ diagnose::Run read_log(const std::string& path, const DiagnoseOptions& options,
   const auto log = log_of(path);
   const auto table = logs::read_table(log, findings);
   refuse_fatal(findings);
-  const auto map = options.columns.empty()
-                       ? diagnose::bench_columns(table, model, log.string(), findings)
-                       : logs::read_column_map(options.columns, findings);
+  auto map = options.columns.empty() ? diagnose::bench_columns(table, model, log.string(), findings)
+                                     : logs::read_column_map(options.columns, findings);
+  diagnose::use_model_units(map, model, options.columns, findings);
   refuse_fatal(findings);
   model.input_is_held = map.input_hold.value_or(model.input_is_held);
   model.rotary = model.rotary || map.rotary;

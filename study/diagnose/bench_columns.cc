@@ -41,4 +41,29 @@ logs::ColumnMap bench_columns(const logs::Table& table, const NominalModel& mode
   return map;
 }
 
+void use_model_units(logs::ColumnMap& map, const NominalModel& model, const std::string& file,
+                     logs::Findings& findings) {
+  const auto refuse = [&](const char* what, const char* instead) {
+    findings.push_back(
+        {logs::Finding::Kind::kFatal, "columns_unusable",
+         fmt::format("{}: {}, which no plant file states here; {}", file, what, instead)});
+  };
+  if (!map.count.empty()) {
+    if (model.metres_per_count <= 0) {
+      return refuse("'count' needs metres a count",
+                    "name it 'position' with position_scale_m and position_is_count = true");
+    }
+    map.position = map.count;
+    map.position_scale_m = model.metres_per_count;
+    map.position_is_count = true;
+  }
+  if (!map.duty.empty()) {
+    if (model.newton_per_duty_pct <= 0) {
+      return refuse("'duty' needs newtons a per cent", "name it 'input' with input_scale_N");
+    }
+    map.input = map.duty;
+    map.input_scale_N = map.duty_scale_pct * model.newton_per_duty_pct;
+  }
+}
+
 }  // namespace towbench::harness::diagnose

@@ -15,4 +15,9 @@ namespace towbench::harness::diagnose {
 [[nodiscard]] logs::ColumnMap bench_columns(const logs::Table& table, const NominalModel& model,
                                             const std::string& file, logs::Findings& findings);
 
+// A map that names counts or a duty, in metres and newtons by the model. What the model does not
+// state is the fatal finding columns_unusable.
+void use_model_units(logs::ColumnMap& map, const NominalModel& model, const std::string& file,
+                     logs::Findings& findings);
+
 }  // namespace towbench::harness::diagnose

@@ -38,16 +38,23 @@ bool assign(const toml::node& node, bool& field) {
   return given.has_value();
 }
 
+constexpr std::int64_t kSchema = 1;
+
 // False when the key is unknown or its value is of the wrong kind.
 bool set(ColumnMap& map, std::string_view key, const toml::node& node) {
+  if (key == "schema") return node.value_exact<std::int64_t>() == kSchema;
   if (key == "time") return assign(node, map.time);
   if (key == "position") return assign(node, map.position);
+  if (key == "count") return assign(node, map.count);
   if (key == "input") return assign(node, map.input);
+  if (key == "duty") return assign(node, map.duty);
+  if (key == "current") return assign(node, map.current);
   if (key == "reference") return assign(node, map.reference);
   if (key == "other_position") return assign(node, map.other_position);
   if (key == "time_scale_s") return assign(node, map.time_scale_s);
   if (key == "position_scale_m") return assign(node, map.position_scale_m);
   if (key == "input_scale_N") return assign(node, map.input_scale_N);
+  if (key == "duty_scale_pct") return assign(node, map.duty_scale_pct);
   if (key == "other_position_scale_m") return assign(node, map.other_position_scale_m);
   if (key == "position_is_count") return assign(node, map.position_is_count);
   if (key == "input_hold") return assign(node, map.input_hold);
@@ -74,9 +81,9 @@ ColumnMap read_column_map(const std::filesystem::path& path, Findings& findings)
     for (const auto& [key, node] : table) {
       if (!set(map, key.str(), node)) {
         fatal(findings, fmt::format("{}:{}: '{}' is no key of a column map, or its value is of the "
-                                    "wrong kind; known: time position input reference "
-                                    "other_position, *_scale_*, position_is_count, input_hold, "
-                                    "rotary",
+                                    "wrong kind; known: schema time position count input duty "
+                                    "current reference other_position, *_scale_*, "
+                                    "position_is_count, input_hold, rotary",
                                     path.string(), node.source().begin.line, key.str()));
       }
     }
@@ -84,9 +91,10 @@ ColumnMap read_column_map(const std::filesystem::path& path, Findings& findings)
     fatal(findings,
           fmt::format("{}:{}: {}", path.string(), error.source().begin.line, error.description()));
   }
-  if (map.position.empty() || map.input.empty()) {
-    fatal(findings,
-          fmt::format("{}: a column map names at least position and input", path.string()));
+  if (map.position.empty() == map.count.empty() || map.input.empty() == map.duty.empty()) {
+    fatal(findings, fmt::format("{}: a column map names one of position and count, and one of "
+                                "input and duty",
+                                path.string()));
   }
   return map;
 }

@@ -42,8 +42,8 @@ double number(std::string_view text) {
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& path, Findings& findings)
-      : file_(path.string()), lines_(path), findings_(findings) {}
+  Reader(const std::filesystem::path& path, Findings& findings, LineSpan span)
+      : file_(path.string()), lines_(path), findings_(findings), span_(span) {}
 
   Table read() {
     if (read_header()) {
@@ -57,10 +57,16 @@ class Reader {
     findings_.push_back({Finding::Kind::kFatal, std::move(name), sentence});
   }
 
+  bool next(std::string_view& line) {
+    while (lines_.number() + 1 < span_.first && lines_.next(line)) {
+    }
+    return lines_.number() < span_.last && lines_.next(line);
+  }
+
   bool read_header() {
     std::string_view line;
     bool found = false;
-    while (!found && lines_.next(line)) {
+    while (!found && next(line)) {
       line.remove_prefix(line.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
       found = !line.empty() && line.front() != '#';
     }
@@ -104,7 +110,7 @@ class Reader {
 
   void read_rows() {
     std::string_view line;
-    while (lines_.next(line)) {
+    while (next(line)) {
       if (!line.empty() && line.front() != '#') {
         add_row(line);
       }
@@ -120,9 +126,9 @@ class Reader {
     } else if (table_.bad_rows > table_.rows()) {
       refuse("rows_unlike_header",
              fmt::format("{}:{}: {} cells, and the header names {} columns; so in {} more rows{}",
-                         file_, first_bad_line_, first_bad_cells_, table_.names.size(),
+                         file_, table_.first_bad_line, table_.first_bad_cells, table_.names.size(),
                          table_.bad_rows - 1,
-                         separator_ == ',' && first_bad_cells_ > table_.names.size()
+                         separator_ == ',' && table_.first_bad_cells > table_.names.size()
                              ? "; decimal commas between commas?"
                              : ""));
     } else if (table_.rows() == 0) {
@@ -153,8 +159,10 @@ class Reader {
       cells_.pop_back();
     }
     if (cells_.size() != table_.names.size()) {
-      first_bad_line_ = table_.bad_rows == 0 ? lines_.number() : first_bad_line_;
-      first_bad_cells_ = table_.bad_rows == 0 ? cells_.size() : first_bad_cells_;
+      if (table_.bad_rows == 0) {
+        table_.first_bad_line = lines_.number();
+        table_.first_bad_cells = cells_.size();
+      }
       ++table_.bad_rows;
       return;
     }
@@ -167,18 +175,17 @@ class Reader {
   std::string file_;
   BoundedLines lines_;
   Findings& findings_;
+  LineSpan span_;
   Table table_;
   char separator_ = ',';
   std::vector<std::string_view> cells_;
   std::string pointed_;
-  std::size_t first_bad_line_ = 0;
-  std::size_t first_bad_cells_ = 0;
 };
 
 }  // namespace
 
-Table read_csv_table(const std::filesystem::path& path, Findings& findings) {
-  return Reader(path, findings).read();
+Table read_csv_table(const std::filesystem::path& path, Findings& findings, LineSpan span) {
+  return Reader(path, findings, span).read();
 }
 
 }  // namespace towbench::harness::logs

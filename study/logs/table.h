@@ -14,6 +14,8 @@ struct Table {
   std::vector<std::vector<double>> columns;  // NaN where a cell is empty or no number
   std::vector<std::uint32_t> line;           // of each row, in the file: its line, or its number
   std::size_t bad_rows = 0;  // with another number of cells than the header: left out
+  std::size_t first_bad_line = 0;
+  std::size_t first_bad_cells = 0;
 
   [[nodiscard]] const std::vector<double>* find(std::string_view name) const noexcept;
   // How often the header has the name: a column that is there twice is not known.

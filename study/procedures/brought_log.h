@@ -1,12 +1,9 @@
 // A log that a user brings, as the recording of one axis that estimators take.
 //
 //   run folder            its log.csv; truth.csv is never opened
-//   BBMC's data log       the text of `datalog print`, console and all: DATALOG_BEGIN ..
-//   DATALOG_END any CSV               with a column map, a TOML file of these keys:
-//     time = "t"          time_scale_s = 1        seconds a unit
-//     count = "n"         or position = "x" with position_scale_m = 1, metres a unit
-//     duty = "u"          duty_scale_pct = 1      per cent of full drive a unit
-//     current = "i"       optional, A
+//   BBMC's data log       the text of `datalog print`, console and all
+//   any other log         CSV, MAT or MCAP, with a column map (study/logs/column_map.h) of time,
+//                         count or position, duty, perhaps current
 //
 // What is documents' (metres a count, rows of an encoder) comes from the rig.
 #pragma once

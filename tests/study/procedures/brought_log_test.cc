@@ -109,7 +109,7 @@ TEST_F(BroughtLogTest, WhatCannotBeUsedIsToldInOneLineThatNamesIt) {
                  rows(head, 1500, [&](int k) { return k == at ? row : bench_row(k); }));
   };
   EXPECT_THAT(refusal(folder_.path() / "nowhere.csv"), HasSubstr("cannot be read"));
-  EXPECT_THAT(refusal(write("empty.csv", "")), HasSubstr("nothing in it"));
+  EXPECT_THAT(refusal(write("empty.csv", "")), HasSubstr("is empty"));
   EXPECT_THAT(refusal(write("names.csv", rows("time_s,count,duty", 1500, bench_row))),
               HasSubstr("no column 'y_count'"));
   EXPECT_THAT(refusal(spoiled(700, "0.700,3500,ten")), HasSubstr("spoiled.csv:702"));
