@@ -191,10 +191,12 @@ void PlantExchange::send_samples() noexcept {
   for (const Axis which : core::kAxes) {
     const RigAxis* axis = rig_.axis(which);
     if (axis != nullptr && axis->current_sample()) {
+      observer_->on_current(*axis->current_sample());
       sink_->on(*axis->current_sample());
     }
   }
   if (rig_.force_sample()) {
+    observer_->on_force(*rig_.force_sample());
     sink_->on(*rig_.force_sample());
   }
 }

@@ -14,8 +14,8 @@
 
 namespace towbench::emulator {
 
-// Receives what only the emulator knows. Called from the thread that runs the plant, inside
-// on(Advance): an observer copies and returns.
+// Receives what only the emulator knows, and what its sensors say at their own rates. Called from
+// the thread that runs the plant, inside on(Advance): an observer copies and returns.
 class PlantObserver {
  public:
   PlantObserver() = default;
@@ -24,6 +24,9 @@ class PlantObserver {
   virtual ~PlantObserver() = default;
   virtual void on_truth(const TruthRow& row) noexcept = 0;
   virtual void on_event(const PlantEvent& event) noexcept = 0;
+  // Each sample of a sensor that is fitted, when it is taken: what the sensor says, no truth.
+  virtual void on_force(const protocol::ForceSample& /*sample*/) noexcept {}
+  virtual void on_current(const protocol::CurrentSample& /*sample*/) noexcept {}
   // A controller was refused at its greeting.
   virtual void on_refusal(const protocol::Hello& /*ours*/, const protocol::Hello& /*theirs*/,
                           core::ErrorCode /*why*/) noexcept {}

@@ -27,7 +27,7 @@ void BoardTruth::keep_from(core::Nanoseconds time_ns) noexcept {
 
 void BoardTruth::pass(const emulator::TruthRow& row) noexcept {
   if ((row.time_ns - *first_ns_) % period_ns_ == 0) {
-    to_.on_truth(row);
+    PlantRelay::on_truth(row);
   }
 }
 

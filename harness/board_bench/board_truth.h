@@ -9,17 +9,16 @@
 #include <vector>
 
 #include "core/time.h"
-#include "emulator/plant_node.h"
+#include "emulator/plant_relay.h"
 
 namespace towbench::harness {
 
-class BoardTruth final : public emulator::PlantObserver {
+class BoardTruth final : public emulator::PlantRelay {
  public:
   // `to` outlives this.
-  explicit BoardTruth(emulator::PlantObserver& to) noexcept : to_(to) {}
+  explicit BoardTruth(emulator::PlantObserver& to) noexcept : PlantRelay(to) {}
 
   void on_truth(const emulator::TruthRow& row) noexcept override;
-  void on_event(const emulator::PlantEvent& event) noexcept override { to_.on_event(event); }
 
   // Before the first row: how far they are to be apart.
   void keep_every(core::Nanoseconds period_ns) noexcept { period_ns_ = period_ns; }
@@ -32,7 +31,6 @@ class BoardTruth final : public emulator::PlantObserver {
  private:
   void pass(const emulator::TruthRow& row) noexcept;
 
-  emulator::PlantObserver& to_;
   core::Nanoseconds period_ns_ = core::kPlantTick_ns;
   std::optional<core::Nanoseconds> first_ns_;
   std::vector<emulator::TruthRow> held_;

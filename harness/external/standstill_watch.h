@@ -3,14 +3,14 @@
 
 #include <cmath>
 
-#include "emulator/plant_node.h"
+#include "emulator/plant_relay.h"
 
 namespace towbench::harness {
 
-class StandstillWatch final : public emulator::PlantObserver {
+class StandstillWatch final : public emulator::PlantRelay {
  public:
   // `observer` hears everything too, and outlives this.
-  explicit StandstillWatch(emulator::PlantObserver& observer) noexcept : observer_(observer) {}
+  explicit StandstillWatch(emulator::PlantObserver& observer) noexcept : PlantRelay(observer) {}
 
   void on_truth(const emulator::TruthRow& row) noexcept override {
     constexpr double kStanding_m_per_s = 2e-3;
@@ -20,18 +20,12 @@ class StandstillWatch final : public emulator::PlantObserver {
       }
     }
     now_ns_ = row.time_ns;
-    observer_.on_truth(row);
-  }
-  void on_event(const emulator::PlantEvent& event) noexcept override { observer_.on_event(event); }
-  void on_refusal(const protocol::Hello& ours, const protocol::Hello& theirs,
-                  core::ErrorCode why) noexcept override {
-    observer_.on_refusal(ours, theirs, why);
+    PlantRelay::on_truth(row);
   }
 
   [[nodiscard]] core::Nanoseconds stands_for_ns() const noexcept { return now_ns_ - moved_ns_; }
 
  private:
-  emulator::PlantObserver& observer_;
   core::Nanoseconds now_ns_ = 0;
   core::Nanoseconds moved_ns_ = 0;
 };

@@ -55,7 +55,7 @@ void Refusals::on_event(const emulator::PlantEvent& event) noexcept {
     tell(fmt::format("refused at {} ns: {}: {} ({})", event.time_ns, heard_.words(),
                      core::describe(event.code), core::number_of(event.code)));
   }
-  observer_.on_event(event);
+  PlantRelay::on_event(event);
 }
 
 void Refusals::on_refusal(const protocol::Hello& ours, const protocol::Hello& theirs,
@@ -63,7 +63,7 @@ void Refusals::on_refusal(const protocol::Hello& ours, const protocol::Hello& th
   std::array<char, 256> text{};
   tell(fmt::format("refused Hello: {} ({})", protocol::explain(why, ours, theirs, text),
                    core::number_of(why)));
-  observer_.on_refusal(ours, theirs, why);
+  PlantRelay::on_refusal(ours, theirs, why);
 }
 
 std::string Refusals::dropped(const protocol::LinkCounts& counts) {

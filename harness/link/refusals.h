@@ -7,24 +7,23 @@
 #include <functional>
 #include <string>
 
-#include "emulator/plant_node.h"
+#include "emulator/plant_relay.h"
 #include "protocol/each_message.h"
 #include "protocol/link_counts.h"
 
 namespace towbench::harness {
 
-class Refusals final : public emulator::PlantObserver {
+class Refusals final : public emulator::PlantRelay {
  public:
   // `tell` takes one line without its end; `observer` hears everything too. Both outlive this.
   Refusals(emulator::PlantObserver& observer, std::function<void(const std::string&)> tell)
-      : observer_(observer), tell_(std::move(tell)) {}
+      : PlantRelay(observer), tell_(std::move(tell)) {}
 
   // Hears the controller's messages before the plant does.
   [[nodiscard]] protocol::MessageSink& heard() noexcept { return heard_; }
   // Somebody else who hears them; outlives this.
   void pass_on_to(protocol::MessageSink& also) noexcept { heard_.also = &also; }
 
-  void on_truth(const emulator::TruthRow& row) noexcept override { observer_.on_truth(row); }
   void on_event(const emulator::PlantEvent& event) noexcept override;
   void on_refusal(const protocol::Hello& ours, const protocol::Hello& theirs,
                   core::ErrorCode why) noexcept override;
@@ -73,7 +72,6 @@ class Refusals final : public emulator::PlantObserver {
 
   void tell(const std::string& line);
 
-  emulator::PlantObserver& observer_;
   std::function<void(const std::string&)> tell_;
   Heard heard_;
   std::uint64_t refused_ = 0;

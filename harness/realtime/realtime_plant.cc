@@ -84,7 +84,7 @@ core::Status serve_plant_in_real_time(emulator::PlantNode& plant, protocol::Turn
 
 void ThinnedTruth::on_truth(const emulator::TruthRow& row) noexcept {
   if (exchange_ns_ <= 0 || row.time_ns % exchange_ns_ == 0) {
-    to_.on_truth(row);
+    PlantRelay::on_truth(row);
   }
 }
 

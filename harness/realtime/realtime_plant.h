@@ -9,6 +9,7 @@
 
 #include "core/result.h"
 #include "emulator/plant_node.h"
+#include "emulator/plant_relay.h"
 #include "harness/link/plant_end.h"
 #include "harness/link/wires.h"
 #include "harness/realtime/tick_loop.h"
@@ -37,17 +38,15 @@ struct PlantSurroundings {
                                                     const protocol::Hello& hello, TickLoop& loop,
                                                     const PlantSurroundings& around = {});
 
-// Passes on the rows of truth at whole exchanges, as a lockstep run records them; every event.
-class ThinnedTruth final : public emulator::PlantObserver {
+// Passes on truth at whole exchanges, as a lockstep run records it; all else as it is.
+class ThinnedTruth final : public emulator::PlantRelay {
  public:
   // `to` outlives this.
   ThinnedTruth(emulator::PlantObserver& to, core::Nanoseconds exchange_ns) noexcept
-      : to_(to), exchange_ns_(exchange_ns) {}
+      : PlantRelay(to), exchange_ns_(exchange_ns) {}
   void on_truth(const emulator::TruthRow& row) noexcept override;
-  void on_event(const emulator::PlantEvent& event) noexcept override { to_.on_event(event); }
 
  private:
-  emulator::PlantObserver& to_;
   core::Nanoseconds exchange_ns_;
 };
 

@@ -1,31 +1,30 @@
-// Hands on what a plant tells to two who listen.
+// Hands on what a plant tells to two who listen; the second hears truth and events alone.
 #pragma once
 
-#include "emulator/plant_node.h"
+#include "emulator/plant_relay.h"
 
 namespace towbench::harness {
 
-class TwoObservers final : public emulator::PlantObserver {
+class TwoObservers final : public emulator::PlantRelay {
  public:
   // Both outlive this; `second` may be null.
   TwoObservers(emulator::PlantObserver& first, emulator::PlantObserver* second) noexcept
-      : first_(first), second_(second) {}
+      : PlantRelay(first), second_(second) {}
 
   void on_truth(const emulator::TruthRow& row) noexcept override {
-    first_.on_truth(row);
+    PlantRelay::on_truth(row);
     if (second_ != nullptr) {
       second_->on_truth(row);
     }
   }
   void on_event(const emulator::PlantEvent& event) noexcept override {
-    first_.on_event(event);
+    PlantRelay::on_event(event);
     if (second_ != nullptr) {
       second_->on_event(event);
     }
   }
 
  private:
-  emulator::PlantObserver& first_;
   emulator::PlantObserver* second_;
 };
 
