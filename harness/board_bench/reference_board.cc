@@ -12,7 +12,7 @@ std::shared_ptr<const ReferenceRun> run_reference_board(const ExperimentFixture&
                                                         std::uint64_t seed) {
   auto run = std::make_shared<ReferenceRun>();
   auto& record = run->record;
-  PlantRecorder recorder(run->files.path(), nullptr);
+  PlantRecorder recorder(run->files.path(), sound.rig.parameters);
   TwoObservers both(recorder, &record);
   BoardTruth truth(both);
   InProcessPlant plant(sound.rig.parameters, seed, sound.experiment.events, truth);

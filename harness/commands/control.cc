@@ -203,7 +203,9 @@ int execute_control(const ControlOptions& options) {
     plant = &whole->whole();
   } else {
     const auto rig = load_rig(options.rig, sources);
-    plant_recorder = options.out.empty() ? nullptr : std::make_unique<PlantRecorder>(options.out);
+    plant_recorder = options.out.empty()
+                         ? nullptr
+                         : std::make_unique<PlantRecorder>(options.out, rig.parameters);
     emulator::PlantObserver& observer =
         plant_recorder ? static_cast<emulator::PlantObserver&>(*plant_recorder) : unrecorded;
     own = std::make_unique<InProcessPlant>(rig.parameters, 1,

@@ -166,7 +166,7 @@ int execute_emulate(const EmulateOptions& options) {
   std::unique_ptr<PlantRecorder> recorder;
   if (!options.out.empty()) {
     std::filesystem::create_directories(options.out);
-    recorder = std::make_unique<PlantRecorder>(options.out);
+    recorder = std::make_unique<PlantRecorder>(options.out, machine.rig);
   }
   emulator::PlantObserver& observer =
       recorder ? static_cast<emulator::PlantObserver&>(*recorder) : unrecorded;

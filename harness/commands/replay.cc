@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "harness/checks/sensor_files.h"
 #include "harness/commands/command.h"
 #include "harness/commands/exit_codes.h"
 #include "harness/commands/experiment_options.h"
@@ -106,13 +107,20 @@ int compare(const std::filesystem::path& recorded, const RunResult& run) {
     return kExitRuntime;
   }
   int exit_code = kExitPass;
-  for (const char* file : {"log.csv", "truth.csv", "events.jsonl"}) {
+  std::vector<std::string> files{"log.csv", "truth.csv", "events.jsonl"};
+  for (const auto& sensor : sensor_files()) {
+    if (std::filesystem::exists(recorded / sensor) ||
+        std::filesystem::exists(run.folder / sensor)) {
+      files.push_back(sensor);
+    }
+  }
+  for (const auto& file : files) {
     if (const auto difference = first_difference(recorded / file, run.folder / file);
         !difference.empty()) {
       std::printf("%s\n", difference.c_str());
       exit_code = kExitFail;
     } else {
-      std::printf("%-13s identical\n", file);
+      std::printf("%-13s identical\n", file.c_str());
     }
   }
   return exit_code;

@@ -98,7 +98,7 @@ RunOutcome play_external(const Play& what, const std::filesystem::path& folder) 
   const auto& fixture = what.fixture;
   const auto& how = what.how;
   Arrival arrival(how.controller, folder / kPrinted, how.watchers);
-  PlantRecorder files(folder, how.tap);
+  PlantRecorder files(folder, fixture.rig.parameters, how.tap);
   FirmwareRecorder recorder(folder, FirmwareRecorder::Log::kTelemetry);
   TwoObservers both(files, what.record);
   RunOutcome outcome;

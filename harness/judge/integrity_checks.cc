@@ -70,6 +70,22 @@ std::string why_log_incomplete(const RunData& data, const ExpectedRecord& expect
   return gaps.empty() ? not_finite_in(data.log) : gaps;
 }
 
+std::string why_sensor_incomplete(const RunData& data, const ExpectedRecord& expected,
+                                  const ExpectedSensor& sensor) {
+  const auto found = data.sensors.find(sensor.file);
+  if (found == data.sensors.end()) {
+    return "the file is missing";
+  }
+  if (found->second.torn()) {
+    return "the last row is torn";
+  }
+  // A plant that is heard once an exchange may end that much before the controller.
+  const auto slack_ns = std::max<core::Nanoseconds>(0, expected.exchange_ns - sensor.period_ns);
+  const auto gaps =
+      gaps_in(found->second.column("time_s"), sensor.period_ns, expected.end_ns - slack_ns);
+  return gaps.empty() ? not_finite_in(found->second) : gaps;
+}
+
 std::string why_truth_incomplete(const RunData& data, const ExpectedRecord& expected) {
   if (data.truth.torn()) {
     return "the last row is torn";
@@ -88,6 +104,12 @@ Check check_log_complete(const RunData& data, const ExpectedRecord& expected) {
 Check check_truth_complete(const RunData& data, const ExpectedRecord& expected) {
   return named("truth_complete", "truth.csv has every exchange",
                why_truth_incomplete(data, expected));
+}
+
+Check check_sensor_complete(const RunData& data, const ExpectedRecord& expected,
+                            const ExpectedSensor& sensor) {
+  return named(std::filesystem::path(sensor.file).stem().string() + "_complete",
+               sensor.file + " has every sample", why_sensor_incomplete(data, expected, sensor));
 }
 
 Check check_edges_seen(const RunData& data) {

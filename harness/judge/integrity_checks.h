@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/time.h"
@@ -22,10 +23,19 @@ struct ExpectedRecord {
   bool writes_succeeded = true;
 };
 
+// A sensor that the rig has.
+struct ExpectedSensor {
+  std::string file;
+  core::Nanoseconds period_ns = 0;
+};
+
 // log.csv: a row each control period from the first to the end, none lost, none torn.
 [[nodiscard]] Check check_log_complete(const RunData& data, const ExpectedRecord& expected);
 // truth.csv: a row each exchange up to the end.
 [[nodiscard]] Check check_truth_complete(const RunData& data, const ExpectedRecord& expected);
+// The sensor's file: a sample each period up to the end.
+[[nodiscard]] Check check_sensor_complete(const RunData& data, const ExpectedRecord& expected,
+                                          const ExpectedSensor& sensor);
 // Every axis that really moved was seen moving, and some axis was: an edge-class run without an
 // edge proves nothing (RUN-3).
 [[nodiscard]] Check check_edges_seen(const RunData& data);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/checks/sensor_files.h"
 #include "harness/judge/integrity_checks.h"
 
 namespace towbench::harness {
@@ -22,6 +23,22 @@ ExpectedRecord expected_of(const ExperimentFixture& fixture, const RunOutcome& o
     expected.unreached_events += reached || may_end_before ? 0U : 1U;
   }
   return expected;
+}
+
+std::vector<ExpectedSensor> sensors_of(const emulator::RigParameters& rig) {
+  std::vector<ExpectedSensor> sensors;
+  if (rig.force_sensor.fitted) {
+    sensors.push_back(
+        {std::string(kForceFile), core::nanoseconds(rig.force_sensor.sample_period_s)});
+  }
+  for (const auto which : core::kAxes) {
+    const auto& axis = rig.axes[which];
+    if (axis.exists && axis.current_monitor.fitted) {
+      sensors.push_back(
+          {current_file(which), core::nanoseconds(axis.current_monitor.sample_period_s)});
+    }
+  }
+  return sensors;
 }
 
 Check script_check(const RunOutcome& outcome) {
@@ -86,6 +103,9 @@ Judgement judge(const std::filesystem::path& folder, const ExperimentFixture& fi
     checks.push_back(script_check(outcome));
     checks.push_back(check_log_complete(data, expected));
     checks.push_back(check_truth_complete(data, expected));
+    for (const auto& sensor : sensors_of(fixture.rig.parameters)) {
+      checks.push_back(check_sensor_complete(data, expected, sensor));
+    }
     checks.push_back(check_edges_seen(data));
     checks.push_back(check_comes_to_rest(data));
     checks.push_back(check_events_fired(data, expected));

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/checks/sensor_files.h"
 #include "harness/files/regular_file.h"
 
 namespace towbench::harness {
@@ -61,6 +62,11 @@ RunData load_run_data(const std::filesystem::path& folder,
   RunData data;
   data.log = CsvTable::load(folder / "log.csv");
   data.truth = CsvTable::load(folder / "truth.csv");
+  for (const auto& file : sensor_files()) {
+    if (std::filesystem::exists(folder / file)) {
+      data.sensors.emplace(file, CsvTable::load(folder / file));
+    }
+  }
   data.events = load_events(folder / "events.jsonl");
   data.limits = limits;
   return data;

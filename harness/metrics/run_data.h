@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,6 +41,7 @@ struct RunEvent {
 struct RunData {
   CsvTable log;
   CsvTable truth;
+  std::map<std::string, CsvTable> sensors;  // by file; those that the folder holds
   std::vector<RunEvent> events;
   core::PerAxis<AxisLimits> limits;
 
@@ -48,7 +50,7 @@ struct RunData {
   [[nodiscard]] std::span<const double> truth_of(core::Axis axis, std::string_view name) const;
 };
 
-// Reads log.csv, truth.csv and events.jsonl. Throws CsvError when one cannot be read.
+// Reads log.csv, truth.csv, events.jsonl and the sensors' files. Throws CsvError when it cannot.
 [[nodiscard]] RunData load_run_data(const std::filesystem::path& folder,
                                     const core::PerAxis<AxisLimits>& limits);
 

@@ -4,11 +4,13 @@
 
 namespace towbench::harness {
 
-PlantRecorder::PlantRecorder(const std::filesystem::path& folder, RunTap* tap)
+PlantRecorder::PlantRecorder(const std::filesystem::path& folder,
+                             const emulator::RigParameters& rig, RunTap* tap)
     : tap_(tap),
       truth_(folder / "truth.csv", truth_header()),
       events_(folder / kPlantEventsFile),
-      rows_(writer_, WriteTruth{&truth_}) {}
+      rows_(writer_, WriteTruth{&truth_}),
+      sensors_(folder, rig, writer_) {}
 
 PlantRecorder::~PlantRecorder() {
   flush();
@@ -35,8 +37,10 @@ void PlantRecorder::on_event(const emulator::PlantEvent& event) noexcept {
 
 void PlantRecorder::flush() noexcept {
   rows_.hand_over();
+  sensors_.hand_over();
   writer_.wait();
   truth_.flush();
+  sensors_.flush();
   events_.flush();
 }
 

@@ -1,5 +1,5 @@
-// The emulator's side of the record: truth.csv and plant_events.jsonl, written by whichever process
-// runs the plant.
+// The emulator's side of the record: truth.csv, what the sensors said (sensor_recorder.h) and
+// plant_events.jsonl, written by whichever process runs the plant.
 #pragma once
 
 #include <filesystem>
@@ -10,22 +10,28 @@
 #include "harness/record/log_columns.h"
 #include "harness/record/row_block.h"
 #include "harness/record/run_tap.h"
+#include "harness/record/sensor_recorder.h"
 
 namespace towbench::harness {
 
 class PlantRecorder final : public emulator::PlantObserver {
  public:
-  // `tap` may be null; it outlives this.
-  explicit PlantRecorder(const std::filesystem::path& folder, RunTap* tap = nullptr);
+  // `rig`: whose sensors are recorded. `tap` may be null; it outlives this.
+  PlantRecorder(const std::filesystem::path& folder, const emulator::RigParameters& rig,
+                RunTap* tap = nullptr);
   ~PlantRecorder() override;
 
   void on_truth(const emulator::TruthRow& row) noexcept override;
   void on_event(const emulator::PlantEvent& event) noexcept override;
+  void on_force(const protocol::ForceSample& sample) noexcept override { sensors_.add(sample); }
+  void on_current(const protocol::CurrentSample& sample) noexcept override { sensors_.add(sample); }
 
   void flush() noexcept;
   // Both as of the last flush().
   [[nodiscard]] std::uint64_t rows() const noexcept { return truth_.rows(); }
-  [[nodiscard]] bool good() const noexcept { return truth_.good() && events_.good(); }
+  [[nodiscard]] bool good() const noexcept {
+    return truth_.good() && sensors_.good() && events_.good();
+  }
 
  private:
   struct WriteTruth {
@@ -38,6 +44,7 @@ class PlantRecorder final : public emulator::PlantObserver {
   LineWriter events_;
   BackgroundWriter writer_;  // ends before what it writes to
   RowBlock<emulator::TruthRow, WriteTruth> rows_;
+  SensorRecorder sensors_;  // its files outlive the last flush(), which waits for the writer
 };
 
 }  // namespace towbench::harness

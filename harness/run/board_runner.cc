@@ -7,7 +7,7 @@
 namespace towbench::harness {
 
 RunOutcome BoardRunner::play() {
-  PlantRecorder recorder(plan().folder, plan().options.tap);
+  PlantRecorder recorder(plan().folder, plan().fixture.rig.parameters, plan().options.tap);
   BoardTruth truth(recorder);
   InProcessPlant plant(plan().fixture.rig.parameters, plan().seed, plan().fixture.experiment.events,
                        truth);

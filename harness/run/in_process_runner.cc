@@ -7,7 +7,7 @@
 namespace towbench::harness {
 
 RunOutcome InProcessRunner::play() {
-  PlantRecorder recorder(plan().folder, plan().options.tap);
+  PlantRecorder recorder(plan().folder, plan().fixture.rig.parameters, plan().options.tap);
   InProcessPlant plant(plan().fixture.rig.parameters, plan().seed, plan().fixture.experiment.events,
                        recorder);
   auto outcome = converse(plan(), plant, plant);

@@ -53,7 +53,7 @@ RunOutcome replay_controller(const ExperimentFixture& fixture,
 bool replay_plant(const ExperimentFixture& fixture, std::uint64_t seed,
                   const std::filesystem::path& recorded, const std::filesystem::path& out) {
   MessageReplay inputs(recorded / kPlantInputsFile);
-  PlantRecorder recorder(out);
+  PlantRecorder recorder(out, fixture.rig.parameters);
   ThinnedTruth thinned(
       recorder, bbmc::exchange_period_ns(fixture.controller.configuration.control_period_ns()));
   emulator::PlantNode plant(fixture.rig.parameters, seed, fixture.experiment.events, thinned);

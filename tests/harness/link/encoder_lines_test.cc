@@ -81,7 +81,7 @@ class EncoderLinesTest : public testing::Test {
     for (auto& axis : fixture_.controller.configuration.axes) {
       axis.plausibility.index_fitted = lines.reader().has_index();
     }
-    PlantRecorder plant_recorder(folder());
+    PlantRecorder plant_recorder(folder(), fixture_.rig.parameters);
     PlantBehindLines plant(fixture_, plant_recorder, {.encoders = &lines.driver()});
     plant.before_exchange = before_exchange_;
     EncoderLinesAtController counted(plant, lines.reader(), EdgeTimes::kOfExchange);

@@ -31,7 +31,7 @@ TEST_F(TruthTailTest, ReadsWhatTheRecorderWrote) {
   row.axes[core::Axis::kX].current_A = 2;
   row.input_lines = 0x15;
   {
-    PlantRecorder recorder(folder_);
+    PlantRecorder recorder(folder_, {});
     recorder.on_truth(row);
     recorder.on_event({.time_ns = 7, .kind = emulator::PlantEventKind::kPeerLost});
   }

@@ -130,7 +130,7 @@ class WallClockRunTest : public testing::TestWithParam<Carried> {
         return core::failure(core::ErrorCode::kPeerSilent);
       }
     }
-    PlantRecorder recorder(folder());
+    PlantRecorder recorder(folder(), fixture_.rig.parameters);
     ThinnedTruth thinned(recorder, exchange_ns());
     emulator::PlantNode plant(fixture_.rig.parameters, 1, fixture_.experiment.events, thinned);
     MessageRecord heard(folder() / kPlantInputsFile);

@@ -1,0 +1,28 @@
+// The files of a run folder that hold what the rig's sensors said, each at its own rate
+// (docs/reference/run-folder.md).
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "core/axis.h"
+
+namespace towbench::harness {
+
+inline constexpr std::string_view kForceFile = "force.csv";
+inline constexpr std::string_view kForceHeader =
+    "time_s,force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm";
+
+[[nodiscard]] inline std::string current_file(core::Axis axis) {
+  return "current_" + std::string(core::name_of(axis)) + ".csv";
+}
+[[nodiscard]] inline std::string current_header(core::Axis axis) {
+  return "time_s," + std::string(core::name_of(axis)) + "_current_A";
+}
+// All that a run folder may hold.
+[[nodiscard]] inline std::array<std::string, 1 + core::kAxisCount> sensor_files() {
+  return {std::string(kForceFile), current_file(core::Axis::kY), current_file(core::Axis::kX)};
+}
+
+}  // namespace towbench::harness

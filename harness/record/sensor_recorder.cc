@@ -1,0 +1,76 @@
+#include "harness/record/sensor_recorder.h"
+
+#include "harness/checks/sensor_files.h"
+
+namespace towbench::harness {
+
+SensorRecorder::SensorRecorder(const std::filesystem::path& folder,
+                               const emulator::RigParameters& rig, BackgroundWriter& writer) {
+  if (rig.force_sensor.fitted) {
+    force_.emplace(folder / kForceFile, kForceHeader, writer);
+  }
+  for (const auto axis : core::kAxes) {
+    if (rig.axes[axis].exists && rig.axes[axis].current_monitor.fitted) {
+      currents_[axis].emplace(folder / current_file(axis), current_header(axis), writer);
+    }
+  }
+}
+
+void SensorRecorder::WriteForce::operator()(const protocol::ForceSample& sample) const noexcept {
+  csv->time(sample.time_ns);
+  for (const auto* three : {&sample.force_N, &sample.torque_Nm}) {
+    for (const float value : *three) {
+      csv->number(value);
+    }
+  }
+  csv->end_row();
+}
+
+void SensorRecorder::WriteCurrent::operator()(
+    const protocol::CurrentSample& sample) const noexcept {
+  csv->time(sample.time_ns).number(sample.armature_current_A).end_row();
+}
+
+void SensorRecorder::add(const protocol::ForceSample& sample) noexcept {
+  if (force_) {
+    force_->rows.add(sample);
+  }
+}
+
+void SensorRecorder::add(const protocol::CurrentSample& sample) noexcept {
+  if (auto& file = currents_[sample.axis]) {
+    file->rows.add(sample);
+  }
+}
+
+void SensorRecorder::hand_over() noexcept {
+  if (force_) {
+    force_->rows.hand_over();
+  }
+  for (auto& file : currents_) {
+    if (file) {
+      file->rows.hand_over();
+    }
+  }
+}
+
+void SensorRecorder::flush() noexcept {
+  if (force_) {
+    force_->csv.flush();
+  }
+  for (auto& file : currents_) {
+    if (file) {
+      file->csv.flush();
+    }
+  }
+}
+
+bool SensorRecorder::good() const noexcept {
+  bool good = !force_ || force_->csv.good();
+  for (const auto& file : currents_) {
+    good = good && (!file || file->csv.good());
+  }
+  return good;
+}
+
+}  // namespace towbench::harness
