@@ -70,6 +70,7 @@ void append_run(const RunContents& run, std::size_t index, int level, std::size_
   const PlotTable table = plot_table(run);
   parts.body += verdict_section(run, verdict_of(run));
   parts.body += plots_section(table, index, level);
+  parts.body += force_section(table, level);
   parts.body += checks_section(run, level);
   parts.body += events_section(run, events, level);
   parts.body += metrics_section(run, level);

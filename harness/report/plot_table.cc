@@ -79,12 +79,13 @@ void blank_before(std::size_t row, core::Axis axis, PlotTable& table) {
                   core::name_of(axis), table.columns[0].values[row]));
 }
 
-struct TruthSource {
+// A table with times of its own: truth.csv or a sensor's file.
+struct TimedSource {
   const CsvTable& csv;
   std::vector<std::size_t> rows;
   std::vector<double> time_s;
 
-  // Empty when truth.csv has no such column.
+  // Empty when there is no such column.
   [[nodiscard]] std::vector<double> at(const std::vector<double>& log_time_s,
                                        const std::string& name) const {
     const std::vector<double>* values = csv.find(name);
@@ -93,7 +94,7 @@ struct TruthSource {
   }
 };
 
-void add_carriage(const TruthSource& truth, core::Axis axis, double metres_per_count,
+void add_carriage(const TimedSource& truth, core::Axis axis, double metres_per_count,
                   PlotTable& table) {
   const auto name = [axis](std::string_view quantity) {
     return fmt::format("{}_{}", core::name_of(axis), quantity);
@@ -125,6 +126,13 @@ void add_carriage(const TruthSource& truth, core::Axis axis, double metres_per_c
   }
 }
 
+void remark_on_rows(const std::string& file, std::size_t rows, PlotTable& table) {
+  if (rows > table.rows + table.rows / 2) {
+    table.remarks.push_back(fmt::format(
+        "{} has {} rows; the plots show it at the {} times of log.csv.", file, rows, table.rows));
+  }
+}
+
 void add_truth(const CsvTable& truth, const nlohmann::json& limits, PlotTable& table) {
   const std::vector<double>* time_s = truth.find("time_s");
   if (time_s == nullptr) {
@@ -132,7 +140,7 @@ void add_truth(const CsvTable& truth, const nlohmann::json& limits, PlotTable& t
     return;
   }
   const std::vector<std::size_t> rows = rows_in_order(*time_s);
-  const TruthSource source{truth, rows, picked(*time_s, rows)};
+  const TimedSource source{truth, rows, picked(*time_s, rows)};
   for (const core::Axis axis : core::kAxes) {
     const nlohmann::json& ends = member(limits, core::name_of(axis));
     add_carriage(source, axis, number_at(ends, "metres_per_count").value_or(0), table);
@@ -144,11 +152,23 @@ void add_truth(const CsvTable& truth, const nlohmann::json& limits, PlotTable& t
           core::name_of(axis), readable_quantity(std::fabs(table.frame_offset_m[axis]), "m")));
     }
   }
-  if (rows.size() > table.rows + table.rows / 2) {
-    table.remarks.push_back(
-        fmt::format("truth.csv has {} rows; the plots show it at the {} times of log.csv.",
-                    rows.size(), table.rows));
+  remark_on_rows("truth.csv", rows.size(), table);
+}
+
+void add_sensor(const std::string& file, const CsvTable& csv, PlotTable& table) {
+  const std::vector<double>* time_s = csv.find("time_s");
+  if (time_s == nullptr) {
+    table.remarks.push_back(file + " has no time_s column and was left out.");
+    return;
   }
+  const std::vector<std::size_t> rows = rows_in_order(*time_s);
+  const TimedSource source{csv, rows, picked(*time_s, rows)};
+  for (const auto& name : csv.names) {
+    if (name != "time_s") {
+      table.columns.push_back({name, source.at(table.columns[0].values, name)});
+    }
+  }
+  remark_on_rows(file, rows.size(), table);
 }
 
 void add_error(PlotTable& table, core::Axis axis, std::string_view measured,
@@ -211,6 +231,9 @@ PlotTable plot_table(const RunContents& run) {
   }
   if (run.truth) {
     add_truth(*run.truth, member(run.result, "limits"), table);
+  }
+  for (const auto& [file, csv] : run.sensors) {
+    add_sensor(file, csv, table);
   }
   for (const core::Axis axis : core::kAxes) {
     add_error(table, axis, "position_m", "error_m");

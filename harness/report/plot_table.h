@@ -1,5 +1,5 @@
 // The one table that all plots of a run draw from: the controller's log, the tracking errors, and
-// the emulator's truth at the log's times.
+// the emulator's truth and what the sensors said at the log's times.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@
 namespace towbench::harness::report {
 
 struct PlotColumn {
-  std::string name;            // of log.csv; or y_error_m, y_carriage_m, y_carriage_speed_m_per_s,
-                               // y_carriage_error_m, likewise for x
+  std::string name;            // of log.csv or a sensor's file; or y_error_m, y_carriage_m,
+                               // y_carriage_speed_m_per_s, y_carriage_error_m, likewise for x
   std::vector<double> values;  // NaN where there is none
 };
 

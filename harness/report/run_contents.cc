@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/checks/sensor_files.h"
 #include "harness/files/regular_file.h"
 #include "harness/report/agreement.h"
 
@@ -113,6 +114,11 @@ RunContents read_run(const std::filesystem::path& run_folder) {
   run.log = read_table(folder / "log.csv", run.remarks);
   run.truth = read_table(folder / "truth.csv", run.remarks);
   run.timing = read_table(folder / "timing.csv", run.remarks);
+  for (const auto& file : sensor_files()) {
+    if (auto table = read_table(folder / file, run.remarks)) {
+      run.sensors.emplace(file, std::move(*table));
+    }
+  }
   auto agreement = agreement_of(folder, run.result, run.metrics);
   run.origin = agreement.origin;
   run.contradictions = std::move(agreement.contradictions);

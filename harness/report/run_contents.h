@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,6 +24,7 @@ struct RunContents {
   std::optional<CsvTable> log;
   std::optional<CsvTable> truth;
   std::optional<CsvTable> timing;
+  std::map<std::string, CsvTable> sensors;  // by file; those that the folder holds
   Origin origin = Origin::kUnknown;
   // What the folder says of itself that is not so (agreement.h), in sentences.
   std::vector<std::string> contradictions;

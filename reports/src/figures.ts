@@ -104,6 +104,14 @@ export function axisFigures(run: RunData, axis: string): Figure[] {
     },
     {
       ...plain,
+      id: `${axis}-current`,
+      title: "Motor current",
+      unit: "A",
+      zero: true,
+      curves: curves(table, axis, [["current_A", "amplifier's monitor", "measured"]]),
+    },
+    {
+      ...plain,
       id: `${axis}-edges`,
       title: "Encoder edges per tick",
       unit: "",
@@ -115,7 +123,7 @@ export function axisFigures(run: RunData, axis: string): Figure[] {
   return figures.filter((figure) => figure.curves.length > 0);
 }
 
-// Every other column of log.csv, one plot each: a force sensor, say.
+// Every other column, one plot each: those of a force sensor, say.
 export function otherFigures(run: RunData): Figure[] {
   const known = /^(time_s|fault|[xy]_.*)$/;
   return [...run.table.columns]

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "harness/report/sections.h"
+
 namespace towbench::harness::report {
 namespace {
 
@@ -82,6 +84,38 @@ TEST(PlotTable, SaysInWordsWhyThereIsNothing) {
   EXPECT_FALSE(plot_table(RunContents{}).remarks.empty());
   EXPECT_FALSE(plot_table(run_of("y_count\n1\n")).remarks.empty());
   EXPECT_FALSE(plot_table(run_of("time_s,y_count\n")).remarks.empty());
+}
+
+TEST(PlotTable, ShowsWhatASensorSaidAtTheLogsTimes) {
+  auto run = run_of("time_s,y_reference_m\n0,0\n1,0\n2,0\n");
+  run.sensors.emplace("force.csv", parse_csv("time_s,force_y_N\n0.5,1\n1.5,3\n2.5,5\n"));
+  const PlotTable table = plot_table(run);
+  const auto& force = *table.find("force_y_N");
+  EXPECT_TRUE(std::isnan(force[0])) << "before the first sample";
+  EXPECT_EQ(force[1], 2);
+  EXPECT_EQ(force[2], 4);
+}
+
+// 0.5 s at 0.2 m/s of which the axis follows its reference for 0.35 s: three whole means.
+TEST(ForceSection, DrawsAMeanForEachTenthOfASecondThatFollowedAReference) {
+  std::string log = "time_s,y_velocity_m_per_s,y_state\n";
+  std::string force = "time_s,force_y_N\n";
+  for (int k = 0; k < 500; ++k) {
+    const auto time = std::to_string(k / 1000) + "." + std::to_string(1000 + k).substr(1);
+    log += time + ",0.2," + (k < 350 ? "2" : "0") + "\n";
+    force += time + ",-1.5\n";
+  }
+  auto run = run_of(log);
+  run.sensors.emplace("force.csv", parse_csv(force));
+  const auto html = force_section(plot_table(run), 2);
+  std::size_t marks = 0;
+  for (auto at = html.find("<circle"); at != std::string::npos; at = html.find("<circle", at + 1)) {
+    ++marks;
+  }
+  EXPECT_EQ(marks, 3U);
+  EXPECT_NE(html.find("Force along y against the speed of y"), std::string::npos);
+  EXPECT_EQ(html.find("Force along x"), std::string::npos) << "it was not recorded";
+  EXPECT_EQ(force_section(plot_table(run_of(log)), 2), "");
 }
 
 }  // namespace
