@@ -47,11 +47,12 @@ std::uint64_t seed_of(std::uint64_t session, const std::string& name) {
 }  // namespace
 
 Machine::Machine(RigFixture rig, ControllerFixture controller, std::uint64_t seed,
-                 LoopWatchers watchers)
+                 LoopWatchers watchers, RunSource* source)
     : rig_(std::move(rig)),
       controller_(std::move(controller)),
       seed_(seed),
       watchers_(std::move(watchers)),
+      source_(source),
       has_force_sensor_(rig_.parameters.force_sensor.fitted) {
   for (const auto axis : core::kAxes) {
     nameplates_[axis] = nameplate_of(rig_.parameters, axis);
@@ -61,7 +62,7 @@ Machine::Machine(RigFixture rig, ControllerFixture controller, std::uint64_t see
 Machine Machine::reference(core::Axis axis, const emulator::AxisParameters& known) const {
   auto rig = rig_;
   rig.parameters.axes[axis].plant = known;
-  return {std::move(rig), controller_, seed_of(seed_, kSeedOfReference), watchers_};
+  return {std::move(rig), controller_, seed_of(seed_, kSeedOfReference), watchers_, source_};
 }
 
 identify::Recording Machine::play(const Conversation& conversation) const {
@@ -73,10 +74,12 @@ identify::Recording Machine::play(const Conversation& conversation,
   constexpr double kHandIsOff_m = 1e-3;
   const auto seed = seed_of(seed_, conversation.name);
   core::Random random(seed);
-  auto parameters = rig_.parameters;
+  auto rig = rig_;
   for (const auto axis : core::kAxes) {
-    parameters.axes[axis].start_m =
-        conversation.start_m[axis] + kHandIsOff_m * (2 * random.uniform() - 1);
+    const double off_m = kHandIsOff_m * (2 * random.uniform() - 1);
+    if (rig.parameters.axes[axis].exists) {
+      rig.parameters.axes[axis].start_m = conversation.start_m[axis] + off_m;
+    }
   }
   Experiment experiment;
   experiment.name = conversation.name;
@@ -84,21 +87,35 @@ identify::Recording Machine::play(const Conversation& conversation,
   experiment.console = conversation.steps;
   experiment.events = conversation.events;
 
-  UnrecordedPlant nobody;
-  InProcessPlant plant(parameters, seed, experiment.events, nobody);
-  MemoryRecorder recorder(conversation.keeps_idle_rows);
-  SensorTap tapped(plant, recorder);
-  LockstepBench bench(configuration, rig_.hash, tapped, &recorder);
-  const auto outcome = harness::play(experiment, bench, recorder, watchers_);
-
-  auto recording = recorder.take();
-  drop_other_frames(recording);
-  recording.period_s = core::seconds(configuration.control_period_ns());
+  auto controller = controller_;
+  controller.configuration = configuration;
+  const PlannedRun planned{rig, controller, experiment, seed};
+  auto recording = source_ != nullptr ? source_->run(planned)
+                                      : play_in_memory(planned, conversation.keeps_idle_rows);
+  if (source_ != nullptr && recording.rows() > 0) {
+    simulated_s_ += recording.time_s.back();
+  }
+  if (recording.period_s == 0) {
+    recording.period_s = core::seconds(configuration.control_period_ns());
+  }
   for (const auto axis : core::kAxes) {
     recording.rad_per_count[axis] = 2 * std::numbers::pi / nameplates_[axis].counts_per_turn;
     recording.metres_per_count[axis] =
         recording.rad_per_count[axis] * nameplates_[axis].metres_per_rad();
   }
+  return recording;
+}
+
+identify::Recording Machine::play_in_memory(const PlannedRun& planned, bool keeps_idle_rows) const {
+  UnrecordedPlant nobody;
+  InProcessPlant plant(planned.rig.parameters, planned.seed, planned.experiment.events, nobody);
+  MemoryRecorder recorder(keeps_idle_rows);
+  SensorTap tapped(plant, recorder);
+  LockstepBench bench(planned.controller.configuration, planned.rig.hash, tapped, &recorder);
+  const auto outcome = harness::play(planned.experiment, bench, recorder, watchers_);
+  auto recording = recorder.take();
+  simulated_s_ += core::seconds(outcome.end_ns);
+  drop_other_frames(recording);
   if (!recording.trouble.empty()) {
     // the fault that was latched says more than how the script ended
   } else if (!outcome.complete) {
@@ -108,7 +125,6 @@ identify::Recording Machine::play(const Conversation& conversation,
   } else if (outcome.rows_lost > 0) {
     recording.trouble = fmt::format("{} rows of the log were lost", outcome.rows_lost);
   }
-  simulated_s_ += core::seconds(outcome.end_ns);
   return recording;
 }
 

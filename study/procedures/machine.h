@@ -10,6 +10,7 @@
 #include "harness/fixtures/rig_fixture.h"
 #include "harness/lockstep/script_loop.h"
 #include "study/identify/recording.h"
+#include "study/procedures/run_source.h"
 
 namespace towbench::harness::procedures {
 
@@ -44,9 +45,10 @@ struct Conversation {
 class Machine {
  public:
   // `seed` feeds the sensors' noise and biases, and where exactly the carriage is put: within a
-  // millimetre of where it is meant to be, as a hand does it.
+  // millimetre of where it is meant to be, as a hand does it. Without `source` runs are played in
+  // memory; it outlives this.
   Machine(RigFixture rig, ControllerFixture controller, std::uint64_t seed,
-          LoopWatchers watchers = {});
+          LoopWatchers watchers = {}, RunSource* source = nullptr);
 
   [[nodiscard]] identify::Recording play(const Conversation& conversation) const;
   // The same with other gains, rate or law.
@@ -68,10 +70,14 @@ class Machine {
   [[nodiscard]] double simulated_s() const noexcept { return simulated_s_; }
 
  private:
+  [[nodiscard]] identify::Recording play_in_memory(const PlannedRun& planned,
+                                                   bool keeps_idle_rows) const;
+
   RigFixture rig_;
   ControllerFixture controller_;
   std::uint64_t seed_;
   LoopWatchers watchers_;
+  RunSource* source_;
   core::PerAxis<Nameplate> nameplates_;
   bool has_force_sensor_;
   mutable double simulated_s_ = 0;

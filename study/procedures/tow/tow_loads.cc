@@ -5,12 +5,13 @@
 namespace towbench::harness::procedures {
 
 TowLoads::TowLoads(RigFixture machine, ControllerFixture controller, std::uint64_t seed,
-                   std::filesystem::path rigs, LoopWatchers watchers)
+                   std::filesystem::path rigs, LoopWatchers watchers, RunSource* source)
     : machine_(std::move(machine)),
       controller_(std::move(controller)),
       seed_(seed),
       rigs_(std::move(rigs)),
-      watchers_(std::move(watchers)) {}
+      watchers_(std::move(watchers)),
+      source_(source) {}
 
 RigFixture TowLoads::fixture(const Load& load) const {
   SourceFiles sources;
@@ -27,7 +28,7 @@ RigFixture TowLoads::fixture(const Load& load) const {
 }
 
 Machine TowLoads::with(const Load& load) const {
-  return {fixture(load), controller_, seed_, watchers_};
+  return {fixture(load), controller_, seed_, watchers_, source_};
 }
 
 bool TowLoads::in_water(const Load& load) const {

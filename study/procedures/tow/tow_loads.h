@@ -21,9 +21,10 @@ struct Load {
 
 class TowLoads {
  public:
-  // `rigs`: the folder of the rig files. The machine's own water is not looked at.
+  // `rigs`: the folder of the rig files. The machine's own water is not looked at. `source`: where
+  // the runs come from (machine.h).
   TowLoads(RigFixture machine, ControllerFixture controller, std::uint64_t seed,
-           std::filesystem::path rigs, LoopWatchers watchers = {});
+           std::filesystem::path rigs, LoopWatchers watchers = {}, RunSource* source = nullptr);
 
   // Throws FixtureError.
   [[nodiscard]] Machine with(const Load& load) const;
@@ -40,6 +41,7 @@ class TowLoads {
   std::uint64_t seed_;
   std::filesystem::path rigs_;
   LoopWatchers watchers_;
+  RunSource* source_;
 };
 
 }  // namespace towbench::harness::procedures
