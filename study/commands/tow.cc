@@ -1,8 +1,10 @@
 // towbench tow: the tow experiments of chapter 8 on an emulated machine, judged.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +15,7 @@
 #include <unistd.h>
 
 #include "harness/checks/check.h"
-#include "harness/commands/option_checks.h"
+#include "harness/commands/experiment_options.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
@@ -21,6 +23,8 @@
 #include "study/procedures/study_page.h"
 #include "study/procedures/tow/tow_procedure.h"
 #include "study/recovery/tow/tow_recovery.h"
+#include "study/runs/kept_runs.h"
+#include "study/runs/recorded_runs.h"
 
 namespace towbench::harness {
 namespace {
@@ -29,13 +33,15 @@ using procedures::ProcedureOutcome;
 
 struct TowOptions {
   std::string rig;
-  std::string controller;
   std::vector<std::string> only;
   std::string settings;
-  std::string out = "tows";
-  std::uint64_t seed = 1;
-  bool quiet = false;
-  bool json = false;
+  std::string data;
+  bool no_runs = false;
+  ExperimentOptions run;  // of each tow, as `run` has them
+
+  [[nodiscard]] bool names_another_controller() const {
+    return run.controller.find(':') != std::string::npos;  // firmware:IMAGE.elf and the like
+  }
 };
 
 void tell(const std::string& id, const std::string& title, const procedures::TowOutcome& outcome,
@@ -67,14 +73,6 @@ void show_tow_progress(const std::string& what, double share, bool wanted) {
   }
 }
 
-bool is_wanted(std::string_view id, const std::vector<std::string>& only) {
-  bool wanted = only.empty();
-  for (const auto& each : only) {
-    wanted = wanted || each == id;
-  }
-  return wanted;
-}
-
 void refuse_unknown(const std::vector<std::string>& only) {
   const auto all = procedures::tow_procedures();
   for (const auto& id : only) {
@@ -102,95 +100,219 @@ int code_of(const procedures::TowOutcome& outcome, const std::vector<Recovery>& 
   return kExitPass;
 }
 
-int execute_tow(const TowOptions& options) {
+// What plays the tows or finds them: a record, run folders that are kept, or nobody: in memory.
+class Sources {
+ public:
+  explicit Sources(const TowOptions& options) : options_(options) {
+    if (!options.data.empty()) {
+      list_ = read_tow_list(options.data);
+    }
+  }
+
+  [[nodiscard]] bool is_wanted(std::string_view id) const {
+    const auto& only = options_.only;
+    if (!only.empty() || !list_) {
+      return only.empty() || std::find(only.begin(), only.end(), id) != only.end();
+    }
+    return std::any_of(list_->tows.begin(), list_->tows.end(),
+                       [&](const ListedTow& tow) { return tow.experiment == id; });
+  }
+
+  // Of one experiment; null: in memory.
+  [[nodiscard]] std::unique_ptr<procedures::RunSource> of(const std::string& id) {
+    if (list_) {
+      return std::make_unique<RecordedRuns>(id, *list_);
+    }
+    if (options_.no_runs) {
+      return nullptr;
+    }
+    auto kept = std::make_unique<KeptRuns>(
+        id, options_.run.out,
+        [this](const ExperimentFixture& fixture, const std::filesystem::path& below,
+               std::uint64_t seed) {
+          auto how = options_.run;
+          how.out = below.string();
+          how.seed = seed;
+          how.quiet = true;
+          how.json = false;
+          how.controller = options_.names_another_controller() ? how.controller : "";
+          return run_with_options(fixture, how);
+        },
+        tows_);
+    return kept;
+  }
+
+  // Beside the run folders: what they are, and what a later evaluation needs.
+  void write_list() const {
+    if (!tows_.empty()) {
+      write_atomically(std::filesystem::path(options_.run.out) / kTowListFile,
+                       tow_list_toml(tows_));
+    }
+  }
+
+ private:
+  const TowOptions& options_;
+  std::optional<TowList> list_;
+  std::vector<ListedTow> tows_;
+};
+
+struct TowSetup {
+  RigFixture rig;
+  ControllerFixture controller;
+  std::filesystem::path settings;  // folder of the experiments' own files
+};
+
+// Given on the command line, else beside the record, else of this repository.
+TowSetup setup_of(const TowOptions& options) {
+  const std::filesystem::path data = options.data;
   const auto fixtures = fixtures_directory();
-  const auto named = [&](const std::string& given, const char* folder, const char* standard) {
-    return given.empty() ? fixtures / folder / standard : std::filesystem::path(given);
+  const auto named = [&](const std::string& given, const std::filesystem::path& of_record,
+                         const std::filesystem::path& standard) {
+    const bool recorded = !data.empty() && std::filesystem::exists(data / of_record);
+    return !given.empty() ? std::filesystem::path(given) : recorded ? data / of_record : standard;
   };
-  refuse_unknown(options.only);
+  const auto controller = options.names_another_controller() ? "" : options.run.controller;
   SourceFiles sources;
-  const auto rig = load_rig(named(options.rig, "rigs", "tow-dry.toml"), sources);
-  const auto controller =
-      load_controller(named(options.controller, "controllers", "bbmc-tuned.toml"), sources);
-  const procedures::TowLoads loads(rig, controller, options.seed, fixtures / "rigs",
-                                   {.stop = &stop_requested(), .progress = {}});
-  std::filesystem::create_directories(options.out);
-  int code = kExitPass;
+  return {
+      load_rig(named(options.rig, "machine/rig.toml", fixtures / "rigs" / "tow-dry.toml"), sources),
+      load_controller(named(controller, "machine/controller.toml",
+                            fixtures / "controllers" / "bbmc-tuned.toml"),
+                      sources),
+      named(options.settings, "settings", fixtures / "tow")};
+}
+
+void refuse_together(const TowOptions& options) {
+  const bool how_to_run = !options.run.carrier.empty() || options.run.clock != "lockstep" ||
+                          !options.run.lines.empty() || !options.run.encoder_lines.empty() ||
+                          options.names_another_controller();
+  if (how_to_run && (!options.data.empty() || options.no_runs)) {
+    throw FixtureError({"command line", 0, options.no_runs ? "--no-runs" : "--data"},
+                       "beside a carrier, a clock or another controller",
+                       options.no_runs ? "tows in memory alone" : "tows that were made before");
+  }
+  if (!options.run.console.empty()) {
+    throw FixtureError({"command line", 0, "--console"}, options.run.console,
+                       "none: the tow's script types");
+  }
+}
+
+// What a later `tow --data` reads beside the run folders.
+void keep_setup(const TowSetup& setup, const std::filesystem::path& settings,
+                const std::filesystem::path& out) {
+  std::filesystem::create_directories(out / "machine");
+  write_machine(setup.rig, setup.controller, out / "machine");
+  if (!settings.empty()) {
+    std::filesystem::create_directories(out / "settings");
+    std::filesystem::copy_file(settings, out / "settings" / settings.filename(),
+                               std::filesystem::copy_options::overwrite_existing);
+  }
+}
+
+// One experiment's part of the page and of the exit code.
+struct TowSession {
   procedures::ChainResult shown;
   std::vector<Recovery> recoveries;
-  for (const auto& procedure : procedures::tow_procedures()) {
-    const std::string id(procedure->id());
-    if (!is_wanted(id, options.only)) {
-      continue;
-    }
-    auto settings = named(options.settings, "tow", "") / (id + ".toml");
-    if (!std::filesystem::exists(settings)) {
-      settings.clear();
-    }
-    const auto start = std::chrono::steady_clock::now();
-    auto outcome =
-        procedure->run({.loads = loads, .settings = settings, .progress = [&](double share) {
-                          show_tow_progress(id, share, !options.quiet);
-                        }});
-    const double wall_s =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    // Only now may anybody look at what is in the water.
-    const auto judged = judge_tow(loads.truth(procedure->load()), outcome);
-    code = std::max(code, code_of(outcome, judged));
-    for (auto& each : outcome.estimates) {
-      each.procedure = id;
-    }
-    if (!options.quiet && !options.json) {
-      show_tow_progress("", 0, false);
-      tell(id, std::string(procedure->title()), outcome, wall_s);
-      for (const auto& each : judged) {
-        tell(each);
-      }
-    }
-    recoveries.insert(recoveries.end(), judged.begin(), judged.end());
-    shown.estimates.insert(shown.estimates.end(), outcome.estimates.begin(),
-                           outcome.estimates.end());
-    shown.steps.push_back(
-        {id, std::string(procedure->title()), core::Axis::kY, std::move(outcome), false, wall_s});
+  int code = kExitPass;
+};
+
+void run_one(const procedures::TowProcedure& procedure, const TowSetup& setup, Sources& sources,
+             const TowOptions& options, TowSession& session) {
+  const std::string id(procedure.id());
+  const bool talks = !options.run.quiet && !options.run.json;
+  auto settings = setup.settings / (id + ".toml");
+  if (!std::filesystem::exists(settings)) {
+    settings.clear();
   }
-  const std::filesystem::path out = options.out;
-  identify::write_estimates(out / "estimates.json", shown.estimates);
+  if (options.data.empty() && !options.no_runs) {
+    keep_setup(setup, settings, options.run.out);
+  }
+  const auto source = sources.of(id);
+  const procedures::TowLoads loads(setup.rig, setup.controller, options.run.seed.value_or(1),
+                                   fixtures_directory() / "rigs",
+                                   {.stop = &stop_requested(), .progress = {}}, source.get());
+  const auto start = std::chrono::steady_clock::now();
+  auto outcome =
+      procedure.run({.loads = loads, .settings = settings, .progress = [&](double share) {
+                       show_tow_progress(id, share, talks);
+                     }});
+  const double wall_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  sources.write_list();
+  // Only now may anybody look at what is in the water; of a record nobody knows.
+  const auto judged = options.data.empty() ? judge_tow(loads.truth(procedure.load()), outcome)
+                                           : std::vector<Recovery>{};
+  session.code = std::max(session.code, code_of(outcome, judged));
+  for (auto& each : outcome.estimates) {
+    each.procedure = id;
+  }
+  if (talks) {
+    show_tow_progress("", 0, true);
+    tell(id, std::string(procedure.title()), outcome, wall_s);
+    for (const auto& each : judged) {
+      tell(each);
+    }
+  }
+  session.recoveries.insert(session.recoveries.end(), judged.begin(), judged.end());
+  auto& shown = session.shown;
+  shown.estimates.insert(shown.estimates.end(), outcome.estimates.begin(), outcome.estimates.end());
+  shown.steps.push_back(
+      {id, std::string(procedure.title()), core::Axis::kY, std::move(outcome), false, wall_s});
+}
+
+int execute_tow(const TowOptions& options) {
+  refuse_unknown(options.only);
+  refuse_together(options);
+  const auto setup = setup_of(options);
+  Sources sources(options);
+  const std::filesystem::path out = options.run.out;
+  std::filesystem::create_directories(out);
+  TowSession session;
+  for (const auto& procedure : procedures::tow_procedures()) {
+    if (sources.is_wanted(procedure->id())) {
+      run_one(*procedure, setup, sources, options, session);
+    }
+  }
+  identify::write_estimates(out / "estimates.json", session.shown.estimates);
   write_atomically(out / "report.html",
-                   procedures::study_page("Tow experiments on " + rig.name, shown, recoveries));
-  if (options.json) {
-    fmt::print("{}\n", identify::to_json(shown.estimates).dump(2));
+                   procedures::study_page("Tow experiments on " + setup.rig.name, session.shown,
+                                          session.recoveries));
+  if (options.run.json) {
+    fmt::print("{}\n", identify::to_json(session.shown.estimates).dump(2));
   } else {
     fmt::print("{}\n", (out / "report.html").string());
   }
-  return code;
+  return session.code;
 }
 
 }  // namespace
 
 void add_tow(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<TowOptions>();
+  options->run.out = "tows";
   auto* verb = app.add_subcommand("tow", "the tow experiments of chapter 8, judged");
   verb->add_option("rig", options->rig, "machine; fixtures/rigs/tow-dry.toml if not given")
       ->check(CLI::ExistingFile);
   verb->add_option("--only", options->only, "this experiment only (EXP-1); may be repeated");
-  verb->add_option("--controller", options->controller, "controller file")
-      ->check(CLI::ExistingFile);
   verb->add_option("--settings", options->settings, "folder of the experiments' own files")
       ->check(CLI::ExistingDirectory);
-  verb->add_option("--seed", options->seed, "of the sensors' noise and of where things stand")
-      ->check(whole_number())
-      ->check(whole_number());
-  verb->add_option("--out", options->out, "folder to write to")
-      ->check(folder_to_write())
-      ->check(folder_to_write());
-  verb->add_flag("--quiet", options->quiet, "no progress, no tables");
-  verb->add_flag("--json", options->json, "print estimates.json");
+  verb->add_option("--data", options->data,
+                   "evaluate the tows that this folder's tows.toml lists; nothing is emulated")
+      ->check(CLI::ExistingDirectory);
+  verb->add_flag("--no-runs", options->no_runs, "keep no run folders: every tow in memory alone");
+  add_experiment_options(*verb, options->run);
+  verb->get_option("--controller")
+      ->description(std::string("controller file, or ") + kControllerHelp);
   verb->footer(
       "Example: towbench tow --only EXP-1 --out tows\n"
+      "         towbench tow --data tows --out again\n"
       "The loads are those of fixtures/rigs/tow-*.toml, hung below the machine of the rig given.\n"
-      "Writes estimates.json, report.html. Exit: 0 all recovered, 1 an estimate misses the\n"
-      "emulated water by more than its demand allows or is too unsure, 2 bad arguments, 4 an\n"
-      "experiment was refused or its data are no good.");
+      "Writes estimates.json, report.html, and tows.toml with a run folder for each tow. Exit: 0 "
+      "all\n"
+      "recovered, 1 an estimate misses the emulated water by more than its demand allows or is "
+      "too\n"
+      "unsure, 2 bad arguments, 4 an experiment was refused or its data are no good. Recorded "
+      "tows\n"
+      "are judged by nobody. Guide: docs/guide/tow.md");
   verb->callback([options, &exit_code] { exit_code = execute_tow(*options); });
 }
 
