@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,34 +14,19 @@
 #include <unistd.h>
 
 #include "harness/checks/check.h"
-#include "harness/commands/experiment_options.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
+#include "study/commands/tow_sources.h"
 #include "study/commands/verbs.h"
 #include "study/procedures/study_page.h"
 #include "study/procedures/tow/tow_procedure.h"
 #include "study/recovery/tow/tow_recovery.h"
-#include "study/runs/kept_runs.h"
-#include "study/runs/recorded_runs.h"
 
 namespace towbench::harness {
 namespace {
 
 using procedures::ProcedureOutcome;
-
-struct TowOptions {
-  std::string rig;
-  std::vector<std::string> only;
-  std::string settings;
-  std::string data;
-  bool no_runs = false;
-  ExperimentOptions run;  // of each tow, as `run` has them
-
-  [[nodiscard]] bool names_another_controller() const {
-    return run.controller.find(':') != std::string::npos;  // firmware:IMAGE.elf and the like
-  }
-};
 
 void tell(const std::string& id, const std::string& title, const procedures::TowOutcome& outcome,
           double wall_s) {
@@ -100,114 +84,6 @@ int code_of(const procedures::TowOutcome& outcome, const std::vector<Recovery>& 
   return kExitPass;
 }
 
-// What plays the tows or finds them: a record, run folders that are kept, or nobody: in memory.
-class Sources {
- public:
-  explicit Sources(const TowOptions& options) : options_(options) {
-    if (!options.data.empty()) {
-      list_ = read_tow_list(options.data);
-    }
-  }
-
-  [[nodiscard]] bool is_wanted(std::string_view id) const {
-    const auto& only = options_.only;
-    if (!only.empty() || !list_) {
-      return only.empty() || std::find(only.begin(), only.end(), id) != only.end();
-    }
-    return std::any_of(list_->tows.begin(), list_->tows.end(),
-                       [&](const ListedTow& tow) { return tow.experiment == id; });
-  }
-
-  // Of one experiment; null: in memory.
-  [[nodiscard]] std::unique_ptr<procedures::RunSource> of(const std::string& id) {
-    if (list_) {
-      return std::make_unique<RecordedRuns>(id, *list_);
-    }
-    if (options_.no_runs) {
-      return nullptr;
-    }
-    auto kept = std::make_unique<KeptRuns>(
-        id, options_.run.out,
-        [this](const ExperimentFixture& fixture, const std::filesystem::path& below,
-               std::uint64_t seed) {
-          auto how = options_.run;
-          how.out = below.string();
-          how.seed = seed;
-          how.quiet = true;
-          how.json = false;
-          how.controller = options_.names_another_controller() ? how.controller : "";
-          return run_with_options(fixture, how);
-        },
-        tows_);
-    return kept;
-  }
-
-  // Beside the run folders: what they are, and what a later evaluation needs.
-  void write_list() const {
-    if (!tows_.empty()) {
-      write_atomically(std::filesystem::path(options_.run.out) / kTowListFile,
-                       tow_list_toml(tows_));
-    }
-  }
-
- private:
-  const TowOptions& options_;
-  std::optional<TowList> list_;
-  std::vector<ListedTow> tows_;
-};
-
-struct TowSetup {
-  RigFixture rig;
-  ControllerFixture controller;
-  std::filesystem::path settings;  // folder of the experiments' own files
-};
-
-// Given on the command line, else beside the record, else of this repository.
-TowSetup setup_of(const TowOptions& options) {
-  const std::filesystem::path data = options.data;
-  const auto fixtures = fixtures_directory();
-  const auto named = [&](const std::string& given, const std::filesystem::path& of_record,
-                         const std::filesystem::path& standard) {
-    const bool recorded = !data.empty() && std::filesystem::exists(data / of_record);
-    return !given.empty() ? std::filesystem::path(given) : recorded ? data / of_record : standard;
-  };
-  const auto controller = options.names_another_controller() ? "" : options.run.controller;
-  SourceFiles sources;
-  return {
-      load_rig(named(options.rig, "machine/rig.toml", fixtures / "rigs" / "tow-dry.toml"), sources),
-      load_controller(named(controller, "machine/controller.toml",
-                            fixtures / "controllers" / "bbmc-tuned.toml"),
-                      sources),
-      named(options.settings, "settings", fixtures / "tow")};
-}
-
-void refuse_together(const TowOptions& options) {
-  const bool how_to_run = !options.run.carrier.empty() || options.run.clock != "lockstep" ||
-                          !options.run.lines.empty() || !options.run.encoder_lines.empty() ||
-                          options.names_another_controller();
-  if (how_to_run && (!options.data.empty() || options.no_runs)) {
-    throw FixtureError({"command line", 0, options.no_runs ? "--no-runs" : "--data"},
-                       "beside a carrier, a clock or another controller",
-                       options.no_runs ? "tows in memory alone" : "tows that were made before");
-  }
-  if (!options.run.console.empty()) {
-    throw FixtureError({"command line", 0, "--console"}, options.run.console,
-                       "none: the tow's script types");
-  }
-}
-
-// What a later `tow --data` reads beside the run folders.
-void keep_setup(const TowSetup& setup, const std::filesystem::path& settings,
-                const std::filesystem::path& out) {
-  std::filesystem::create_directories(out / "machine");
-  write_machine(setup.rig, setup.controller, out / "machine");
-  if (!settings.empty()) {
-    std::filesystem::create_directories(out / "settings");
-    std::filesystem::copy_file(settings, out / "settings" / settings.filename(),
-                               std::filesystem::copy_options::overwrite_existing);
-  }
-}
-
 // One experiment's part of the page and of the exit code.
 struct TowSession {
   procedures::ChainResult shown;
@@ -215,7 +91,7 @@ struct TowSession {
   int code = kExitPass;
 };
 
-void run_one(const procedures::TowProcedure& procedure, const TowSetup& setup, Sources& sources,
+void run_one(const procedures::TowProcedure& procedure, const TowSetup& setup, TowSources& sources,
              const TowOptions& options, TowSession& session) {
   const std::string id(procedure.id());
   const bool talks = !options.run.quiet && !options.run.json;
@@ -263,7 +139,7 @@ int execute_tow(const TowOptions& options) {
   refuse_unknown(options.only);
   refuse_together(options);
   const auto setup = setup_of(options);
-  Sources sources(options);
+  TowSources sources(options);
   const std::filesystem::path out = options.run.out;
   std::filesystem::create_directories(out);
   TowSession session;
