@@ -1,16 +1,14 @@
 #include "study/results/identification_set.h"
 
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "core/random.h"
 #include "study/procedures/chain.h"
 #include "study/procedures/kept_outcome.h"
+#include "study/results/worker_processes.h"
 
 namespace towbench::harness {
 namespace {
@@ -46,7 +44,7 @@ nlohmann::json to_json(const std::vector<Recovery>& recoveries,
 }
 
 // One machine, one seed, in a process of its own.
-int identify_one(const IdentificationSet& set, std::uint64_t number, std::uint64_t seed) {
+void identify_one(const IdentificationSet& set, std::uint64_t number, std::uint64_t seed) {
   const auto rig = drawn_machine(set.rig, number, set.spread);
   const procedures::Machine machine(rig, set.controller, seed, {.stop = set.stop, .progress = {}});
   const auto folder = folder_of(set, number, seed);
@@ -61,11 +59,10 @@ int identify_one(const IdentificationSet& set, std::uint64_t number, std::uint64
                                              .progress = {},
                                              .stop = set.stop});
   if (set.stop != nullptr && set.stop->load()) {
-    return 1;
+    return;
   }
   procedures::keep_outcome(folder / "judged.json", procedures::program_fingerprint() + fingerprint,
                            to_json(judge_recovery(rig.parameters, result.estimates), result));
-  return 0;
 }
 
 SetRun read_run(const IdentificationSet& set, std::uint64_t machine, std::uint64_t seed) {
@@ -126,44 +123,19 @@ std::vector<SetRun> run_set(const IdentificationSet& set) {
       }
     }
   }
-  std::size_t busy = 0;
-  const auto wait_for_one = [&] {
-    int status = 0;
-    if (wait(&status) > 0) {
-      --busy;
-      ++there;
-    }
+  const auto progress = [&](std::size_t ended) {
     if (set.progress) {
-      set.progress(there, all);
+      set.progress(there + ended, all);
     }
   };
-  for (const auto& [machine, seed] : wanted) {
-    if (set.stop != nullptr && set.stop->load()) {
-      break;
+  run_in_processes(wanted.size(), {set.workers, set.stop, progress}, [&](std::size_t number) {
+    const auto [machine, seed] = wanted[number];
+    try {
+      identify_one(set, machine, seed);
+    } catch (const std::exception& error) {
+      throw std::runtime_error(fmt::format("machine {} seed {}: {}", machine, seed, error.what()));
     }
-    if (busy == set.workers) {
-      wait_for_one();
-    }
-    const pid_t child = fork();
-    if (child < 0) {
-      throw std::runtime_error("no process can be started");
-    }
-    if (child == 0) {
-      int code = 1;
-      try {
-        code = identify_one(set, machine, seed);
-      } catch (const std::exception& error) {
-        std::fprintf(stderr, "machine %llu seed %llu: %s\n",
-                     static_cast<unsigned long long>(machine),
-                     static_cast<unsigned long long>(seed), error.what());
-      }
-      _exit(code);
-    }
-    ++busy;
-  }
-  while (busy > 0) {
-    wait_for_one();
-  }
+  });
   std::vector<SetRun> runs;
   for (std::uint64_t machine = 0; machine < set.machines; ++machine) {
     for (std::uint64_t seed = 1; seed <= set.seeds; ++seed) {
