@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <stdexcept>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -30,6 +31,13 @@ Estimate with_deviation(Estimate estimate, double deviation) {
   return estimate;
 }
 
+Estimate withheld(Estimate estimate, std::string reason) {
+  estimate.low = estimate.value;
+  estimate.high = estimate.value;
+  estimate.no_interval = std::move(reason);
+  return estimate;
+}
+
 nlohmann::json to_json(const Estimates& estimates) {
   auto list = nlohmann::json::array();
   for (const auto& each : estimates) {
@@ -37,6 +45,10 @@ nlohmann::json to_json(const Estimates& estimates) {
                        {"value", each.value},        {"ci95", {each.low, each.high}},
                        {"unit", each.unit},          {"rests_on", each.rests_on},
                        {"procedure", each.procedure}};
+    if (!each.no_interval.empty()) {
+      one["ci95"] = nullptr;
+      one["no_interval"] = each.no_interval;
+    }
     if (each.at) {
       one["at"] = *each.at;
     }
@@ -52,8 +64,10 @@ Estimates estimates_from_json(const nlohmann::json& json) {
     one.at("quantity").get_to(each.quantity);
     one.at("axis").get_to(each.axis);
     one.at("value").get_to(each.value);
-    one.at("ci95").at(0).get_to(each.low);
-    one.at("ci95").at(1).get_to(each.high);
+    each.no_interval = one.value("no_interval", "");
+    const bool has_interval = each.no_interval.empty();
+    each.low = has_interval ? one.at("ci95").at(0).get<double>() : each.value;
+    each.high = has_interval ? one.at("ci95").at(1).get<double>() : each.value;
     one.at("unit").get_to(each.unit);
     one.at("rests_on").get_to(each.rests_on);
     one.at("procedure").get_to(each.procedure);

@@ -24,6 +24,7 @@ struct Estimate {
   std::string rests_on;        // one sentence: which data, which assumptions
   std::string procedure;       // experiment id, EXP-OL-2
   std::optional<double> at{};  // of a map: position in m or speed in m/s, as the quantity says
+  std::string no_interval{};   // why no interval is stated: low and high are then the value
 
   [[nodiscard]] double half_width() const noexcept { return 0.5 * (high - low); }
 };
@@ -36,6 +37,9 @@ using Estimates = std::vector<Estimate>;
 
 // Value +- 1.96 deviations.
 [[nodiscard]] Estimate with_deviation(Estimate estimate, double deviation);
+
+// Without an interval, for that reason.
+[[nodiscard]] Estimate withheld(Estimate estimate, std::string reason);
 
 // Schema `towbench/estimates/1`.
 [[nodiscard]] nlohmann::json to_json(const Estimates& estimates);

@@ -56,7 +56,9 @@ std::string recovery_table(const std::vector<Recovery>& recoveries) {
         "<td>{:.2f}</td><td>{}</td></tr>\n",
         each.agrees && each.narrow ? "" : " class=\"miss\"", escaped(name), escaped(e.axis),
         e.value, each.truth, each.error_pct, each.tolerance_pct, each.width_pct,
-        each.covered ? "yes" : "no");
+        !e.no_interval.empty() ? "withheld"
+        : each.covered         ? "yes"
+                               : "no");
   }
   return text + "</table>\n";
 }
@@ -66,7 +68,9 @@ std::string estimates_table(const identify::Estimates& estimates) {
                      row_of({"quantity", "axis", "value", "95 %", "unit", "rests on"}, "th");
   for (const auto& e : estimates) {
     text += row_of({e.at ? fmt::format("{} at {:.3f}", e.quantity, *e.at) : e.quantity, e.axis,
-                    fmt::format("{:.5g}", e.value), fmt::format("{:.5g} .. {:.5g}", e.low, e.high),
+                    fmt::format("{:.5g}", e.value),
+                    e.no_interval.empty() ? fmt::format("{:.5g} .. {:.5g}", e.low, e.high)
+                                          : "withheld: " + e.no_interval,
                     e.unit, e.procedure + ": " + e.rests_on},
                    "td");
   }

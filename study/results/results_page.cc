@@ -89,11 +89,15 @@ std::string recovered(const TowResult& tow) {
       "\n| quantity | bench | 95 % | expected | error | demand |\n| --- | --- | --- | --- | --- | "
       "--- |\n";
   for (const auto& r : tow.recoveries) {
-    text += fmt::format(
-        "| {}{} | {:.5g} | {:.5g} .. {:.5g} | {:.5g} | {:+.2f} % | {} % {} |\n",
-        r.estimate.quantity, r.estimate.at ? fmt::format(" at {:.0f}", *r.estimate.at) : "",
-        r.estimate.value, r.estimate.low, r.estimate.high, r.truth, r.error_pct, r.tolerance_pct,
-        r.agrees ? r.narrow ? "met" : "met, interval TOO WIDE" : "MISSED");
+    const auto& e = r.estimate;
+    const auto interval = e.no_interval.empty() ? fmt::format("{:.5g} .. {:.5g}", e.low, e.high)
+                                                : std::string("withheld");
+    const char* judged = r.agrees ? r.narrow ? "met" : "met, interval TOO WIDE" : "MISSED";
+    const auto demand =
+        r.tolerance_pct > 0 ? fmt::format("{} % {}", r.tolerance_pct, judged) : std::string("none");
+    text += fmt::format("| {}{} | {:.5g} | {} | {:.5g} | {:+.2f} % | {} |\n", e.quantity,
+                        e.at ? fmt::format(" at {:.3g}", *e.at) : "", e.value, interval, r.truth,
+                        r.error_pct, demand);
   }
   return text;
 }

@@ -13,6 +13,14 @@ namespace towbench::harness::procedures {
 
 using core::Axis;
 
+namespace {
+
+std::string interval_of(const identify::Estimate& e) {
+  return e.no_interval.empty() ? fmt::format("{:.3f} .. {:.3f}", e.low, e.high) : "withheld";
+}
+
+}  // namespace
+
 identify::Estimate scale_estimate(const identify::DriveScale& scale, const Machine& machine) {
   const auto& believed = machine.configuration().axes[Axis::kY].drive;
   const double table_7_1 =
@@ -124,8 +132,8 @@ ResultTable drag_table(const identify::Estimates& estimates) {
         std::tuple{"mbdp", "MBDP, friction by place", "-"}}) {
     const auto* found = identify::find(estimates, std::string(quantity) + "_drag_N_s2_per_m2", "y");
     if (found != nullptr) {
-      table.rows.push_back({name, thesis, fmt::format("{:.3f}", found->value),
-                            fmt::format("{:.3f} .. {:.3f}", found->low, found->high)});
+      table.rows.push_back(
+          {name, thesis, fmt::format("{:.3f}", found->value), interval_of(*found)});
     }
   }
   return table;

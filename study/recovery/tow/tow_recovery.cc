@@ -42,7 +42,7 @@ double force_per_duty(const RigParameters& rig) {
 
 struct Demand {
   std::string_view quantity;
-  double tolerance_pct;
+  double tolerance_pct;  // 0: none, its interval alone is judged
   double (*truth)(const RigParameters&, const Estimate&);
 };
 
@@ -54,11 +54,14 @@ constexpr auto kObjectDrag = [](const RigParameters& rig, const Estimate&) {
 constexpr auto kAddedMass = [](const RigParameters& rig, const Estimate&) {
   return emulator::added_mass_kg(rig.water);
 };
+constexpr auto kDragAtSpeed = [](const RigParameters& rig, const Estimate& estimate) {
+  return all_drag(rig) * std::pow(estimate.at.value_or(0), 2);
+};
 constexpr auto kThrust = [](const RigParameters& rig, const Estimate&) {
   return rig.water.fin.mean_thrust_N;
 };
 
-const std::array<Demand, 19> kDemands{{
+const std::array<Demand, 26> kDemands{{
     {"force_per_duty_N_per_pct", 1,
      [](const RigParameters& rig, const Estimate&) { return force_per_duty(rig); }},
     {"fsm_drag_N_s2_per_m2", 2, kAllDrag},
@@ -84,12 +87,21 @@ const std::array<Demand, 19> kDemands{{
        return 0.5 * rig.water.fin.thrust_frequency_Hz;
      }},
     {"sine_drag_N_s2_per_m2", 10, kAllDrag},
+    {"fsm_drag_N", 0, kDragAtSpeed},
+    {"mcd_drag_N", 0, kDragAtSpeed},
+    {"mbdp_drag_N", 0, kDragAtSpeed},
+    {"object_drag_N", 0,
+     [](const RigParameters& rig, const Estimate& estimate) {
+       return object_drag(rig) * std::pow(estimate.at.value_or(0), 2);
+     }},
+    {"shaft_drag_N_s2_per_m2", 0,
+     [](const RigParameters& rig, const Estimate&) {
+       return rig.water.shaft.quadratic_drag_N_s2_per_m2;
+     }},
+    {"mcd_added_mass_kg", 0, kAddedMass},
+    {"thrust_amplitude_N", 0,
+     [](const RigParameters& rig, const Estimate&) { return rig.water.fin.thrust_amplitude_N; }},
 }};
-
-bool is_blind(const procedures::TowOutcome& outcome, const Estimate& estimate) {
-  return std::any_of(outcome.blind.begin(), outcome.blind.end(),
-                     [&](const auto& each) { return each.quantity == estimate.quantity; });
-}
 
 double bias_of(const RigParameters& rig, const procedures::TowOutcome& outcome,
                const Estimate& estimate) {
@@ -120,10 +132,11 @@ std::vector<Recovery> judge_tow(const RigParameters& towed, const procedures::To
     // A bias is judged in per cent of the drag itself.
     one.error_pct = 100.0 * (estimate.value - one.truth) / plain;
     one.width_pct = 100.0 * (estimate.high - estimate.low) / std::fabs(plain);
-    one.agrees = std::fabs(one.error_pct) <= one.tolerance_pct;
-    // Of a blind model only the value is judged: friction by place scatters its means too.
-    one.narrow = is_blind(outcome, estimate) || one.width_pct <= 4.0 * one.tolerance_pct;
-    one.covered = estimate.low <= one.truth && one.truth <= estimate.high;
+    const bool demanded = one.tolerance_pct > 0;
+    one.agrees = !demanded || std::fabs(one.error_pct) <= one.tolerance_pct;
+    one.narrow = !demanded || one.width_pct <= 4.0 * one.tolerance_pct;
+    one.covered =
+        estimate.no_interval.empty() && estimate.low <= one.truth && one.truth <= estimate.high;
     judged.push_back(std::move(one));
   }
   return judged;

@@ -9,9 +9,10 @@
 
 namespace towbench::harness {
 
-// Of every estimate that docs/requirements.md (TOW) makes a demand on, in their order. `towed`: the
-// rig with the load whose drag was sought. Drag that a position-blind model predicted is judged
-// against the closed form of its bias (blind_model_bias.h).
+// Of every estimate that has a truth, in their order; a tolerance of 0: docs/requirements.md (TOW)
+// makes no demand on it. `towed`: the rig with the load whose drag was sought. Drag that a
+// position-blind model predicted is judged against the closed form of its bias
+// (blind_model_bias.h).
 [[nodiscard]] std::vector<Recovery> judge_tow(const emulator::RigParameters& towed,
                                               const procedures::TowOutcome& outcome);
 
