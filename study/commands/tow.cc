@@ -17,6 +17,7 @@
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
+#include "study/commands/tow_set.h"
 #include "study/commands/tow_sources.h"
 #include "study/commands/verbs.h"
 #include "study/procedures/study_page.h"
@@ -43,10 +44,13 @@ void tell(const std::string& id, const std::string& title, const procedures::Tow
 }
 
 void tell(const Recovery& r) {
-  const auto place = r.estimate.at ? fmt::format(" @{:.3g}", *r.estimate.at) : "";
-  fmt::print("  {:<40}{:>11.5g} [{:.5g}, {:.5g}]  expected {:.5g}, {:+.2f} % (of {} %){}{}\n",
-             r.estimate.quantity + place, r.estimate.value, r.estimate.low, r.estimate.high,
-             r.truth, r.error_pct, r.tolerance_pct, r.agrees ? "" : " MISSED",
+  const auto& e = r.estimate;
+  const auto place = e.at ? fmt::format(" @{:.3g}", *e.at) : "";
+  const auto interval = e.no_interval.empty() ? fmt::format("[{:.5g}, {:.5g}]", e.low, e.high)
+                                              : std::string("[withheld]");
+  const auto demand = r.tolerance_pct > 0 ? fmt::format(" (of {} %)", r.tolerance_pct) : "";
+  fmt::print("  {:<40}{:>11.5g} {}  expected {:.5g}, {:+.2f} %{}{}{}\n", e.quantity + place,
+             e.value, interval, r.truth, r.error_pct, demand, r.agrees ? "" : " MISSED",
              r.narrow ? "" : " TOO WIDE");
 }
 
@@ -82,6 +86,27 @@ int code_of(const procedures::TowOutcome& outcome, const std::vector<Recovery>& 
     }
   }
   return kExitPass;
+}
+
+int execute_drawn(const TowOptions& options, const TowSetup& setup) {
+  return execute_tow_set({.rig = setup.rig,
+                          .controller = setup.controller,
+                          .rigs = fixtures_directory() / "rigs",
+                          .settings = setup.settings,
+                          .out = options.run.out,
+                          .only = options.only,
+                          .machines = options.drawn,
+                          .seeds = options.seeds,
+                          .workers = options.workers,
+                          .stop = &stop_requested(),
+                          .progress =
+                              [&](std::size_t done, std::size_t all) {
+                                show_tow_progress(
+                                    fmt::format("{} of {} runs", done, all),
+                                    static_cast<double>(done) / static_cast<double>(all),
+                                    !options.run.quiet);
+                              }},
+                         options.run.quiet);
 }
 
 // One experiment's part of the page and of the exit code.
@@ -139,6 +164,9 @@ int execute_tow(const TowOptions& options) {
   refuse_unknown(options.only);
   refuse_together(options);
   const auto setup = setup_of(options);
+  if (options.drawn > 0) {
+    return execute_drawn(options, setup);
+  }
   TowSources sources(options);
   const std::filesystem::path out = options.run.out;
   std::filesystem::create_directories(out);
@@ -175,20 +203,27 @@ void add_tow(CLI::App& app, int& exit_code) {
                    "evaluate the tows that this folder's tows.toml lists; nothing is emulated")
       ->check(CLI::ExistingDirectory);
   verb->add_flag("--no-runs", options->no_runs, "keep no run folders: every tow in memory alone");
+  verb->add_option("--drawn", options->drawn, "so many machines, the first the rig, the rest drawn")
+      ->check(CLI::Range(1, 1000));
+  verb->add_option("--seeds", options->seeds, "with --drawn: seeds of each")
+      ->check(whole_number())
+      ->check(CLI::Range(1, 10000));
+  verb->add_option("--workers", options->workers, "with --drawn: processes at once")
+      ->check(whole_number())
+      ->check(CLI::Range(1, 256));
   add_experiment_options(*verb, options->run);
   verb->get_option("--controller")
       ->description(std::string("controller file, or ") + kControllerHelp);
   verb->footer(
       "Example: towbench tow --only EXP-1 --out tows\n"
       "         towbench tow --data tows --out again\n"
+      "         towbench tow --drawn 3 --seeds 40 --workers 2 --out set   (continues)\n"
       "The loads are those of fixtures/rigs/tow-*.toml, hung below the machine of the rig given.\n"
-      "Writes estimates.json, report.html, and tows.toml with a run folder for each tow. Exit: 0 "
-      "all\n"
-      "recovered, 1 an estimate misses the emulated water by more than its demand allows or is "
-      "too\n"
-      "unsure, 2 bad arguments, 4 an experiment was refused or its data are no good. Recorded "
-      "tows\n"
-      "are judged by nobody. Guide: docs/guide/tow.md");
+      "Writes estimates.json, report.html, and tows.toml with a run folder for each tow; with\n"
+      "--drawn set.md, the coverage of the intervals. Exit: 0 all recovered, 1 an estimate misses\n"
+      "the emulated water by more than its demand allows or is too unsure, or intervals cover too\n"
+      "seldom or too often, 2 bad arguments, 4 an experiment was refused or its data are no good.\n"
+      "Recorded tows are judged by nobody. Guide: docs/guide/tow.md");
   verb->callback([options, &exit_code] { exit_code = execute_tow(*options); });
 }
 

@@ -2,6 +2,7 @@
 // nowhere but memory.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -21,6 +22,9 @@ struct TowOptions {
   std::string settings;
   std::string data;
   bool no_runs = false;
+  std::uint64_t drawn = 0;  // machines of a set; 0: this rig alone
+  std::uint64_t seeds = 40;
+  std::size_t workers = 1;
   ExperimentOptions run;  // of each tow, as `run` has them
 
   [[nodiscard]] bool names_another_controller() const {

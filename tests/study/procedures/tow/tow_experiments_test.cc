@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/random.h"
 #include "study/procedures/tow/feasibility.h"
 #include "study/recovery/tow/tow_recovery.h"
+#include "study/results/tow_set.h"
 
 namespace towbench::harness {
 namespace {
@@ -28,30 +28,8 @@ ControllerFixture controller() {
   return load_controller("fixtures/controllers/bbmc-tuned.toml", sources);
 }
 
-// Friction, inertia, motor and chain as one built machine differs from the next. The motor constant
-// only ever lower: a higher one could not reach the thesis's 0.55 m/s at 10.8 V, and is refused.
-RigFixture drawn(std::uint64_t machine) {
-  auto rig = nominal();
-  core::Random random(0x746f77 + machine);
-  const auto factor = [&](double low, double high) {
-    return low + (high - low) * random.uniform();
-  };
-  for (const auto which : core::kAxes) {
-    auto& plant = rig.parameters.axes[which].plant;
-    plant.inertia_kg_m2 *= factor(0.9, 1.1);
-    plant.viscous_friction_Nm_s_per_rad *= factor(0.7, 1.1);
-    const double dry = factor(0.7, 1.1);
-    plant.coulomb_friction_Nm *= dry;
-    plant.friction.breakaway_Nm *= dry;
-    plant.torque_constant_Nm_per_A *= factor(0.9, 1.0);
-    plant.amplifier_gain_A_per_V *= factor(0.9, 1.1);
-    plant.chain.resonance_Hz *= factor(0.9, 1.2);
-  }
-  return rig;
-}
-
 RigFixture machine(int number) {
-  return number == 0 ? nominal() : drawn(static_cast<std::uint64_t>(number));
+  return drawn_for_towing(nominal(), static_cast<std::uint64_t>(number));
 }
 
 void expect_recovered(const procedures::TowProcedure& procedure, const RigFixture& rig,
