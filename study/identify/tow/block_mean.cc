@@ -106,15 +106,23 @@ UncertainMean steady_mean(std::span<const double> samples, double period_s) {
   if (samples.size() < kFewestSamples) {
     return {.deviation = std::numeric_limits<double>::infinity()};
   }
+  constexpr std::size_t kFewest = 4;
+  constexpr std::size_t kMost = 40;
   const auto swing = static_cast<std::size_t>(std::lround(kSwing_s / period_s));
-  auto mean = mean_about_line(means_of_blocks(samples, swing));
+  const auto blocks = std::min(samples.size() / (2 * swing), kMost);
+  std::vector<double> means;
+  for (std::size_t block = 0; blocks >= kFewest && block < blocks; ++block) {
+    const std::size_t first = block * samples.size() / blocks;
+    const std::size_t last = (block + 1) * samples.size() / blocks;
+    means.push_back(
+        mean_of_repeats(without_swing(samples.subspan(first, last - first), swing)).value);
+  }
+  if (means.empty()) {
+    means = means_of_blocks(samples, swing);
+  }
+  auto mean = mean_about_line(means);
   if (samples.size() > 2 * swing) {
-    double sum = 0;
-    const auto quiet = without_swing(samples, swing);
-    for (const double each : quiet) {
-      sum += each;
-    }
-    mean.value = sum / static_cast<double>(quiet.size());
+    mean.value = mean_of_repeats(without_swing(samples, swing)).value;
   }
   return mean;
 }

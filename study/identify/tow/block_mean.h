@@ -29,8 +29,10 @@ inline constexpr double kSwing_s = 0.243;
 // one that is a fifth slower or faster. Sample k of what is left belongs to sample k + rows - 1.
 [[nodiscard]] std::vector<double> without_swing(std::span<const double> samples, std::size_t rows);
 
-// Mean of steady motion: value without the swing, deviation by block means of one swing each about
-// their own straight line (friction rises along the track: that is no noise).
+// Mean of steady motion without the swing. Its deviation is the scatter of blocks of two swings or
+// more, each without its swing, about their own straight line (friction rises along the track: that
+// is no noise). A plain mean of a block also has what the motion gained in it, which the next block
+// gives back. What is too short for four such blocks: plain means of one swing each.
 [[nodiscard]] UncertainMean steady_mean(std::span<const double> samples, double period_s);
 
 // Mean of repeats that are independent of one another.

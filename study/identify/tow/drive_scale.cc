@@ -57,9 +57,9 @@ std::optional<DriveScale> drive_scale(const Recording& pulled, const Recording& 
   }
   // The drive answers what the weight pulls: opposite signs.
   DriveScale scale{.force_per_duty_N = -force->value / duty->value};
-  const double relative =
-      std::hypot(force->deviation / force->value, duty->deviation / duty->value);
-  scale.deviation_N = std::fabs(scale.force_per_duty_N) * relative;
+  const auto relative = combine(1.0 / force->value, *force, 1.0 / duty->value, *duty);
+  scale.deviation_N = std::fabs(scale.force_per_duty_N) * relative.deviation;
+  scale.freedom = relative.freedom;
   return scale;
 }
 

@@ -17,6 +17,7 @@ namespace towbench::harness::identify {
 struct DriveScale {
   double force_per_duty_N = 0;
   double deviation_N = 0;
+  double freedom = 0;  // degrees of freedom behind `deviation_N`
 };
 
 struct PullTimes {

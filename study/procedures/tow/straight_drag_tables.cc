@@ -25,15 +25,12 @@ identify::Estimate scale_estimate(const identify::DriveScale& scale, const Machi
   const auto& believed = machine.configuration().axes[Axis::kY].drive;
   const double table_7_1 =
       believed.full_duty_torque_Nm() / machine.nameplate(Axis::kY).metres_per_rad() / 100.0;
-  identify::Estimate estimate;
-  estimate.quantity = "force_per_duty_N_per_pct";
-  estimate.axis = "y";
-  estimate.unit = "N/%";
-  estimate.rests_on = fmt::format(
-      "a known weight over a pulley, weighed by the force sensor; Table 7.1 gives {:.4f}",
-      table_7_1);
-  estimate.value = scale.force_per_duty_N;
-  return identify::with_deviation(estimate, scale.deviation_N);
+  return identify::to_estimate(
+      {scale.force_per_duty_N, scale.deviation_N, scale.freedom}, "force_per_duty_N_per_pct", "y",
+      "N/%",
+      fmt::format(
+          "a known weight over a pulley, weighed by the force sensor; Table 7.1 gives {:.4f}",
+          table_7_1));
 }
 
 Curve curve_of(const std::string& name, std::span<const identify::DragPoint> points) {
