@@ -88,6 +88,37 @@ std::vector<Piece> pieces_of(std::span<const double> samples, double period_s, d
   return found;
 }
 
+// Phase of the pieces over time.
+struct PhaseLine {
+  double slope = 0;  // turns a second
+  double slope_deviation = 0;
+  double start = 0;  // turns at the record's start
+};
+
+PhaseLine line_through(const std::vector<Piece>& pieces) {
+  const auto count = static_cast<double>(pieces.size());
+  double middle = 0;
+  double phase = 0;
+  for (const auto& piece : pieces) {
+    middle += piece.middle_s / count;
+    phase += piece.phase_turns / count;
+  }
+  double cross = 0;
+  double square = 0;
+  for (const auto& piece : pieces) {
+    cross += (piece.middle_s - middle) * (piece.phase_turns - phase);
+    square += (piece.middle_s - middle) * (piece.middle_s - middle);
+  }
+  PhaseLine line{.slope = cross / square};
+  double residual = 0;
+  for (const auto& piece : pieces) {
+    residual += std::pow(piece.phase_turns - phase - line.slope * (piece.middle_s - middle), 2);
+  }
+  line.slope_deviation = std::sqrt(residual / (count - 2) / square);
+  line.start = phase - line.slope * middle;
+  return line;
+}
+
 }  // namespace
 
 std::optional<SpectralLine> strongest_line(std::span<const double> samples, double period_s,
@@ -101,33 +132,21 @@ std::optional<SpectralLine> strongest_line(std::span<const double> samples, doub
   if (static_cast<double>(samples.size()) * period_s * coarse < kFewestPeriods) {
     return std::nullopt;
   }
-  const auto pieces = pieces_of(samples, period_s, coarse, kPieces);
-  const auto count = static_cast<double>(pieces.size());
-  double middle = 0;
-  double phase = 0;
-  for (const auto& piece : pieces) {
-    middle += piece.middle_s / count;
-    phase += piece.phase_turns / count;
-  }
-  double cross = 0;
-  double square = 0;
+  // Once to correct the frequency, once more at the corrected one: beside the line, a piece has
+  // some of the line's own image in it.
+  const double near = coarse + line_through(pieces_of(samples, period_s, coarse, kPieces)).slope;
+  const auto pieces = pieces_of(samples, period_s, near, kPieces);
+  const auto found = line_through(pieces);
   std::vector<double> amplitudes;
   for (const auto& piece : pieces) {
-    cross += (piece.middle_s - middle) * (piece.phase_turns - phase);
-    square += (piece.middle_s - middle) * (piece.middle_s - middle);
     amplitudes.push_back(piece.amplitude);
   }
-  const double slope = cross / square;
-  double residual = 0;
-  for (const auto& piece : pieces) {
-    residual += std::pow(piece.phase_turns - phase - slope * (piece.middle_s - middle), 2);
-  }
   SpectralLine line;
-  const double freedom = count - 2;
-  line.frequency_Hz = {coarse + slope, std::sqrt(residual / freedom / square), freedom};
+  const double freedom = static_cast<double>(pieces.size()) - 2;
+  line.frequency_Hz = {near + found.slope, found.slope_deviation, freedom};
   line.amplitude = mean_of_repeats(amplitudes);
   constexpr double kSineAfterCosine = 0.25;
-  const double start = phase - slope * middle + kSineAfterCosine;
+  const double start = found.start + kSineAfterCosine;
   line.phase_turns = start - std::floor(start);
   const double mean = mean_of(samples);
   double variance = 0;
@@ -147,8 +166,9 @@ std::optional<UncertainMean> mean_over_periods(std::span<const double> samples, 
   if (periods < kFewest) {
     return std::nullopt;
   }
-  constexpr double kMostBlocks = 16;
-  const double a_block = std::max(1.0, std::floor(periods / kMostBlocks));
+  // Few and long: what the carriage gains in one period it gives back in the next.
+  constexpr double kMostBlocks = 8;
+  const double a_block = std::ceil(periods / kMostBlocks);
   std::vector<double> means;
   for (double at = 0; at + a_block <= periods; at += a_block) {
     const auto first = static_cast<std::size_t>(std::lround(at * rows_a_period));
