@@ -25,13 +25,17 @@ double YawDrag::along_at(double yaw_deg) const {
   return along_axis.value * cosine * cosine + across_axis.value * sine * sine;
 }
 
-std::optional<YawDrag> yaw_drag(std::span<const YawPoint> points) {
+std::optional<YawDrag> yaw_drag(std::span<const YawPoint> points, const CommonDoubt& common) {
+  // How a shift of all points of a kind moves the right side.
+  Eigen::Matrix2d shift = Eigen::Matrix2d::Zero();
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
   double squares = 0;
   double freedom = 0;
-  const auto add = [&](const Eigen::Vector2d& a, const UncertainMean& y) {
-    const double weight = 1.0 / (y.deviation * y.deviation);
+  const auto add = [&](const Eigen::Vector2d& a, const UncertainMean& y, int kind, double shared) {
+    const double own = y.deviation * y.deviation - shared * shared;
+    const double weight = 1.0 / std::max(own, 1e-2 * y.deviation * y.deviation);
+    shift.col(kind) += weight * a;
     normal += weight * a * a.transpose();
     right += weight * y.value * a;
     squares += weight * y.value * y.value;
@@ -39,8 +43,8 @@ std::optional<YawDrag> yaw_drag(std::span<const YawPoint> points) {
   };
   for (const auto& point : points) {
     const auto [sine, cosine] = direction_of(point.yaw_deg);
-    add({cosine * cosine, sine * sine}, point.along);
-    add({-sine * cosine, sine * cosine}, point.side);
+    add({cosine * cosine, sine * sine}, point.along, 0, common.along);
+    add({-sine * cosine, sine * cosine}, point.side, 1, common.side);
   }
   constexpr double kToldApart = 1e-4;
   if (points.empty() || normal.determinant() < kToldApart * normal(0, 0) * normal(1, 1) ||
@@ -55,6 +59,10 @@ std::optional<YawDrag> yaw_drag(std::span<const YawPoint> points) {
   if (free > 0 && chi_squared > free) {
     covariance *= chi_squared / free;
   }
+  const Eigen::Matrix2d moved = normal.inverse() * shift;
+  covariance +=
+      moved * Eigen::Vector2d(common.along * common.along, common.side * common.side).asDiagonal() *
+      moved.transpose();
   YawDrag drag;
   drag.along_axis = {solution(0), std::sqrt(covariance(0, 0)), freedom};
   drag.across_axis = {solution(1), std::sqrt(covariance(1, 1)), freedom};

@@ -31,7 +31,15 @@ struct YawDrag {
   [[nodiscard]] double along_at(double yaw_deg) const;
 };
 
+// What all points have from the same runs out of the water: standard deviations, each part of those
+// of the points.
+struct CommonDoubt {
+  double along = 0;
+  double side = 0;
+};
+
 // Empty when the angles cannot tell the two apart (all the same, or all 0).
-[[nodiscard]] std::optional<YawDrag> yaw_drag(std::span<const YawPoint> points);
+[[nodiscard]] std::optional<YawDrag> yaw_drag(std::span<const YawPoint> points,
+                                              const CommonDoubt& common = {});
 
 }  // namespace towbench::harness::identify

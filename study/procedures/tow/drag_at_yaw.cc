@@ -52,6 +52,23 @@ std::optional<identify::YawPoint> point_at(double yaw_deg,
                             identify::quadratic_drag(side)};
 }
 
+// Of all angles, by the runs that they share.
+std::optional<identify::CommonDoubt> common_doubt(const std::vector<identify::Recording>& out,
+                                                  double settle_s) {
+  core::PerAxis<std::vector<identify::DragPoint>> points;
+  for (const auto& run : out) {
+    for (const auto axis : core::kAxes) {
+      const auto point = identify::both_ways(run, run.force_N[axis], Axis::kY, -1.0, settle_s);
+      if (!point) {
+        return std::nullopt;
+      }
+      points[axis].push_back(*point);
+    }
+  }
+  return identify::CommonDoubt{identify::quadratic_drag(points[Axis::kY]).deviation,
+                               identify::quadratic_drag(points[Axis::kX]).deviation};
+}
+
 TowOutcome told(const std::vector<identify::YawPoint>& points, const identify::YawDrag& law) {
   const std::string by_sensor = "force sensor in the water less out of it, both ways";
   const std::string by_law = "cos^2 and sin^2 law through both forces at all angles";
@@ -130,7 +147,8 @@ class DragAtYaw final : public TowProcedure {
       simulated_s += wet.simulated_s();
       context.tell(static_cast<double>(points.size()) / static_cast<double>(s.yaw_deg.size()));
     }
-    const auto law = identify::yaw_drag(points);
+    const auto common = common_doubt(out.recordings, s.tows.settle_s);
+    const auto law = common ? identify::yaw_drag(points, *common) : std::nullopt;
     if (!law) {
       return tow_failed("the angles do not tell drag along and across the body apart");
     }
