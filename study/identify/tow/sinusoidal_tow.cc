@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -31,6 +32,35 @@ std::vector<std::size_t> period_starts(const Recording& run, core::Axis axis, st
 }
 
 }  // namespace
+
+std::optional<SinusoidalDrag> sinusoidal_force(const Recording& with, const Recording& without,
+                                               core::Axis axis, const CarriageChain& chain,
+                                               std::size_t skip) {
+  const std::size_t start = first_moving(with, axis);
+  const std::size_t other = first_moving(without, axis);
+  const auto starts = period_starts(with, axis, start);
+  if (with.force_N[axis].size() != with.rows() || without.force_N[axis].size() != without.rows()) {
+    return std::nullopt;
+  }
+  std::vector<double> masses;
+  std::vector<double> drags;
+  for (std::size_t k = skip; k + 1 + skip < starts.size(); ++k) {
+    const TurnRows rows{starts[k], other + (starts[k] - start), starts[k + 1] - starts[k]};
+    if (rows.first_out + rows.rows > without.rows()) {
+      break;
+    }
+    const std::array turn{carriage_turn(with, without, rows, axis, chain)};
+    const auto found = water_forces(turn, with.period_s).front();
+    masses.push_back(found.added_mass_kg);
+    drags.push_back(found.drag_N_s2_per_m2);
+  }
+  if (masses.size() < 2) {
+    return std::nullopt;
+  }
+  return SinusoidalDrag{.periods = masses.size(),
+                        .added_mass_kg = mean_of_repeats(masses),
+                        .quadratic_drag_N_s2_per_m2 = mean_of_repeats(drags)};
+}
 
 std::optional<SinusoidalDrag> sinusoidal_tow(const Recording& with,
                                              std::span<const double> column_with,

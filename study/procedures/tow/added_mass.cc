@@ -42,6 +42,13 @@ struct AddedMassSettings {
   [[nodiscard]] double peak_speed_m_per_s(double frequency_Hz) const {
     return 2 * std::numbers::pi * frequency_Hz * amplitude_m;
   }
+  [[nodiscard]] double mean_rate_rad_per_s() const {
+    double sum = 0;
+    for (const double frequency : frequencies_Hz) {
+      sum += 2 * std::numbers::pi * frequency;
+    }
+    return sum / static_cast<double>(frequencies_Hz.size());
+  }
   [[nodiscard]] double peak_acceleration(double frequency_Hz) const {
     return 2 * std::numbers::pi * frequency_Hz * peak_speed_m_per_s(frequency_Hz);
   }
@@ -114,28 +121,26 @@ class AddedMass final : public TowProcedure {
           return tow_failed(each->trouble);
         }
       }
-      if (!add(in, out, weighed.scale.force_per_duty_N, repeats)) {
+      if (!add(in, out, weighed, repeats)) {
         return tow_failed("fewer than two whole periods");
       }
       context.tell(static_cast<double>(repeats.drag.size()) /
                    static_cast<double>(s.frequencies_Hz.size()));
     }
-    auto outcome = told(repeats, weighed.scale.deviation_N / weighed.scale.force_per_duty_N);
+    auto outcome = told(repeats, identify::doubt_by_chain(weighed.chain, s.mean_rate_rad_per_s()));
     outcome.simulated_s = dry.simulated_s() + wet.simulated_s();
     return outcome;
   }
 
  private:
-  static bool add(const identify::Recording& in, const identify::Recording& out, double scale,
-                  Repeats& repeats) {
+  static bool add(const identify::Recording& in, const identify::Recording& out,
+                  const WeighedDrive& weighed, Repeats& repeats) {
     constexpr std::size_t kSkip = 2;
-    const auto sensor =
-        identify::sinusoidal_tow(in, in.force_N[Axis::kY], out, out.force_N[Axis::kY], Axis::kY,
-                                 {.scale = -1.0, .skip = kSkip});
+    const auto sensor = identify::sinusoidal_force(in, out, Axis::kY, weighed.chain, kSkip);
     // Whole periods: what friction does at the reversals has no part in phase with acceleration.
-    const auto drive =
-        identify::sinusoidal_tow(in, in.axes[Axis::kY].duty_pct, out, out.axes[Axis::kY].duty_pct,
-                                 Axis::kY, {.scale = scale, .skip = kSkip});
+    const auto drive = identify::sinusoidal_tow(
+        in, in.axes[Axis::kY].duty_pct, out, out.axes[Axis::kY].duty_pct, Axis::kY,
+        {.scale = weighed.scale.force_per_duty_N, .skip = kSkip});
     if (!sensor || !drive) {
       return false;
     }
@@ -145,21 +150,23 @@ class AddedMass final : public TowProcedure {
     return true;
   }
 
-  static TowOutcome told(const Repeats& repeats, double scale_doubt) {
+  // `doubt`: of drag, by the chain, as a share of it; all frequencies have it in common.
+  static TowOutcome told(const Repeats& repeats, double doubt) {
     TowOutcome outcome;
     const std::string by_sensor =
-        "force sensor in the water less out of it; scatter between frequencies";
-    auto by_drive = identify::mean_of_repeats(repeats.by_drive);
-    by_drive.deviation = std::hypot(by_drive.deviation, by_drive.value * scale_doubt);
+        "force sensor in the water and out of it, the carriage's own motion behind its chain; "
+        "scatter between frequencies";
+    auto drag = identify::mean_of_repeats(repeats.drag);
+    drag.deviation = std::hypot(drag.deviation, drag.value * doubt);
     outcome.estimates = {
         identify::to_estimate(identify::mean_of_repeats(repeats.by_sensor), "fsm_added_mass_kg",
                               "y", "kg", by_sensor),
-        identify::to_estimate(by_drive, "mcd_added_mass_kg", "y", "kg",
-                              "duty in the water less out of it, scaled by a known weight; wide, "
-                              "because what the carriage swings after reversals does not cancel; "
-                              "scatter between frequencies"),
-        identify::to_estimate(identify::mean_of_repeats(repeats.drag), "sine_drag_N_s2_per_m2", "y",
-                              "N s2/m2", by_sensor)};
+        identify::withheld(
+            identify::to_estimate(identify::mean_of_repeats(repeats.by_drive), "mcd_added_mass_kg",
+                                  "y", "kg",
+                                  "duty in the water less out of it, scaled by a known weight"),
+            "what the carriage swings after reversals does not cancel: half of the value"),
+        identify::to_estimate(drag, "sine_drag_N_s2_per_m2", "y", "N s2/m2", by_sensor)};
     return outcome;
   }
 };

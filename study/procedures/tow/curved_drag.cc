@@ -14,7 +14,6 @@ namespace towbench::harness::procedures {
 namespace {
 
 using core::Axis;
-using identify::Recording;
 
 struct Exp2Settings {
   double radius_m = 0.20;
@@ -54,54 +53,55 @@ Conversation circle(const Machine& machine, const std::string& name, const Exp2S
   return talk;
 }
 
-core::PerAxis<std::span<const double>> forces(const Recording& run) {
-  return {{run.force_N[Axis::kY], run.force_N[Axis::kX]}};
-}
-core::PerAxis<std::span<const double>> duties(const Recording& run) {
-  return {{run.axes[Axis::kY].duty_pct, run.axes[Axis::kX].duty_pct}};
-}
-
 ResultTable heading_table(const identify::CurvedDrag& drag) {
   ResultTable table{.title = "Drag along the circle, force sensor",
                     .head = {"heading, deg", "against the motion, N", "to its left, N"}};
   for (const auto& each : drag.headings) {
+    const double square = drag.speed_m_per_s * drag.speed_m_per_s;
     table.rows.push_back({fmt::format("{:.0f}", each.heading_deg),
-                          fmt::format("{:.4f}", each.along_N.value),
-                          fmt::format("{:+.4f}", each.across_N.value)});
+                          fmt::format("{:.4f}", square * each.along_N_s2_per_m2.value),
+                          fmt::format("{:+.4f}", square * each.across_N_s2_per_m2.value)});
   }
   return table;
 }
 
-TowOutcome told(const identify::CurvedDrag& sensor, const identify::CurvedDrag& drive,
-                double scale_doubt) {
+// No scatter between turns shows what every turn repeats.
+constexpr const char* kSwings =
+    "the carriage's swing after each reversal is the same in every turn";
+
+TowOutcome told(const identify::CurvedDrag& sensor, const identify::CurvedDrag& drive) {
   TowOutcome outcome;
-  const std::string by_sensor = "force sensor in the water less out of it, turn by turn";
-  auto of_drive = drive.quadratic_drag_N_s2_per_m2;
-  of_drive.deviation = std::hypot(of_drive.deviation, of_drive.value * scale_doubt);
-  outcome.estimates = {
-      identify::to_estimate(sensor.quadratic_drag_N_s2_per_m2, "curved_fsm_drag_N_s2_per_m2", "",
-                            "N s2/m2", by_sensor),
-      identify::to_estimate(of_drive, "curved_mcd_drag_N_s2_per_m2", "", "N s2/m2",
-                            "duty of both axes in the water less out of it (8.5), away from each "
-                            "axis's reversals, scaled by a known weight")};
+  const std::string by_sensor =
+      "force sensor in the water and out of it, turn by turn, the carriage's own motion behind its "
+      "chain";
+  const auto add = [&](const identify::UncertainMean& mean, const char* quantity, const char* axis,
+                       const std::string& rests_on) {
+    outcome.estimates.push_back(identify::to_estimate(mean, quantity, axis, "N s2/m2", rests_on));
+  };
+  add(sensor.quadratic_drag_N_s2_per_m2, "curved_fsm_drag_N_s2_per_m2", "", by_sensor);
+  for (const auto axis : core::kAxes) {
+    add(sensor.along_axis_N_s2_per_m2[axis], "axis_drag_N_s2_per_m2",
+        std::string(core::name_of(axis)).c_str(), by_sensor);
+  }
+  add(drive.quadratic_drag_N_s2_per_m2, "curved_mcd_drag_N_s2_per_m2", "",
+      "duty of both axes in the water less out of it (8.5), away from each axis's reversals, "
+      "scaled "
+      "by a known weight");
+  outcome.estimates.back() = identify::withheld(outcome.estimates.back(), kSwings);
   Curve along{.name = "against the motion", .mark = Mark::kDots};
   Curve across{.name = "to its left", .mark = Mark::kDots};
   for (const auto& each : sensor.headings) {
-    // Over the speed squared, so that what the map holds is a coefficient for every heading.
-    const double square = sensor.speed_m_per_s * sensor.speed_m_per_s;
-    identify::UncertainMean coefficient{each.along_N.value / square,
-                                        each.along_N.deviation / square, each.along_N.freedom};
-    outcome.estimates.push_back(
-        identify::to_estimate(coefficient, "heading_drag_N_s2_per_m2", "", "N s2/m2", by_sensor));
+    add(each.along_N_s2_per_m2, "heading_drag_N_s2_per_m2", "", by_sensor);
+    outcome.estimates.back() = identify::withheld(outcome.estimates.back(), kSwings);
     outcome.estimates.back().at = each.heading_deg;
     along.x.push_back(each.heading_deg);
-    along.y.push_back(each.along_N.value);
+    along.y.push_back(each.along_N_s2_per_m2.value);
     across.x.push_back(each.heading_deg);
-    across.y.push_back(each.across_N.value);
+    across.y.push_back(each.across_N_s2_per_m2.value);
   }
   outcome.figures = {{.title = "Drag as a vector along the circle",
                       .x_label = "heading, deg from +Y",
-                      .y_label = "N",
+                      .y_label = "N s2/m2",
                       .curves = {std::move(along), std::move(across)},
                       .caption = {}}};
   outcome.tables = {heading_table(sensor)};
@@ -127,14 +127,14 @@ class CurvedDragTow final : public TowProcedure {
       return tow_refused(why);
     }
     core::PerAxis<double> scale{};
-    double doubt = 0;
+    core::PerAxis<identify::CarriageChain> chain{};
     for (const auto axis : core::kAxes) {
       const auto weighed = weigh_drive(dry, axis, s.weigh);
       if (!weighed.trouble.empty()) {
         return tow_failed(weighed.trouble);
       }
       scale[axis] = weighed.scale.force_per_duty_N;
-      doubt = std::max(doubt, weighed.scale.deviation_N / weighed.scale.force_per_duty_N);
+      chain[axis] = weighed.chain;
     }
     context.tell(0.5);
     const auto in = wet.play(circle(wet, "circle in the water", s));
@@ -144,14 +144,13 @@ class CurvedDragTow final : public TowProcedure {
         return tow_failed(each->trouble);
       }
     }
-    const auto sensor =
-        identify::curved_tow(in, forces(in), out, forces(out), {.scale = {{-1.0, -1.0}}});
-    const auto drive = identify::curved_tow(in, duties(in), out, duties(out),
-                                            {.scale = scale, .slow_share = s.slow_share});
+    const auto sensor = identify::curved_force(in, out, chain);
+    const auto drive =
+        identify::curved_drive(in, out, {.scale = scale, .slow_share = s.slow_share});
     if (!sensor || !drive) {
       return tow_failed("fewer than two whole turns at speed");
     }
-    auto outcome = told(*sensor, *drive, doubt);
+    auto outcome = told(*sensor, *drive);
     outcome.simulated_s = dry.simulated_s() + wet.simulated_s();
     return outcome;
   }

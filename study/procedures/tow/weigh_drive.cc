@@ -1,7 +1,10 @@
 #include "study/procedures/tow/weigh_drive.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
+#include "study/identify/tow/chain_swing.h"
 #include "study/procedures/tow/feasibility.h"
 
 namespace towbench::harness::procedures {
@@ -12,6 +15,7 @@ constexpr double kWait_s = 0.5;
 constexpr double kWeighRamp_s = 0.8;
 constexpr double kWeighSmooth_s = 0.243;
 constexpr double kSettle_s = 2.0;
+constexpr double kOnset_s = 0.03;  // the sensor has followed the weight
 
 struct Plan {
   double speed_m_per_s;
@@ -65,6 +69,14 @@ Conversation conversation(const Machine& machine, core::Axis axis, const WeighSe
   return talk;
 }
 
+// Behind the chain, by the controller's belief of the inertia.
+double moved_mass_kg(const Machine& machine, core::Axis axis) {
+  const auto& plate = machine.nameplate(axis);
+  const double believed = machine.configuration().axes[axis].feed_forward.inertia_kg_m2;
+  const double r = plate.metres_per_rad();
+  return std::max(believed - plate.rotor_inertia_kg_m2, 0.1 * believed) / (r * r);
+}
+
 }  // namespace
 
 bbmc::Configuration expecting_load(const Machine& machine, double load_N) {
@@ -108,6 +120,14 @@ WeighedDrive weigh_drive(const Machine& machine, core::Axis axis, const WeighSet
     return found;
   }
   found.scale = *scale;
+  const double pull_s = plan_of(axis, settings).pull_s;
+  const auto swing = identify::chain_swing(pulled, axis, pull_s + kOnset_s, pull_s + kSettle_s);
+  if (!swing) {
+    found.trouble = "weighing the drive: the carriage does not swing where the weight sets in";
+    return found;
+  }
+  found.chain = {swing->rate_rad_per_s, moved_mass_kg(machine, axis),
+                 swing->deviation / swing->rate_rad_per_s};
   return found;
 }
 

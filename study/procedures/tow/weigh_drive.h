@@ -1,10 +1,12 @@
 // The drive's scale by a known weight (identify/tow/drive_scale.h): one tow in air with a weight
-// over a pulley that begins to pull on the way, and its simulated reference without.
+// over a pulley that begins to pull on the way, and the same without. The weight's onset makes the
+// carriage swing on its chain, which gives the chain (identify/tow/chain_swing.h).
 #pragma once
 
 #include <string>
 
 #include "core/parameter.h"
+#include "study/identify/tow/carriage_turn.h"
 #include "study/identify/tow/drive_scale.h"
 #include "study/procedures/tow/tow_loads.h"
 
@@ -33,6 +35,7 @@ struct WeighSettings {
 
 struct WeighedDrive {
   identify::DriveScale scale;
+  identify::CarriageChain chain;
   std::string trouble;  // empty: it was found
 };
 

@@ -61,7 +61,8 @@ constexpr auto kThrust = [](const RigParameters& rig, const Estimate&) {
   return rig.water.fin.mean_thrust_N;
 };
 
-const std::array<Demand, 26> kDemands{{
+const std::array<Demand, 27> kDemands{{
+    {"axis_drag_N_s2_per_m2", 5, kAllDrag},
     {"force_per_duty_N_per_pct", 1,
      [](const RigParameters& rig, const Estimate&) { return force_per_duty(rig); }},
     {"fsm_drag_N_s2_per_m2", 2, kAllDrag},
