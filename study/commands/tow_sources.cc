@@ -81,6 +81,11 @@ void refuse_together(const TowOptions& options) {
                        "beside a carrier, a clock or another controller",
                        options.no_runs ? "tows in memory alone" : "tows that were made before");
   }
+  if (options.drawn > 0 && (how_to_run || !options.data.empty())) {
+    throw FixtureError({"command line", 0, "--drawn"},
+                       "beside a record, a carrier, a clock or another controller",
+                       "drawn machines in this process");
+  }
   if (!options.run.console.empty()) {
     throw FixtureError({"command line", 0, "--console"}, options.run.console,
                        "none: the tow's script types");
