@@ -16,6 +16,7 @@
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
+#include "study/commands/identify_output.h"
 #include "study/commands/verbs.h"
 #include "study/procedures/chain.h"
 #include "study/procedures/data_study.h"
@@ -87,45 +88,6 @@ void refuse_unknown(const std::vector<std::string>& only,
   }
 }
 
-void tell_steps(const ChainResult& result) {
-  for (const auto& step : result.steps) {
-    const auto& outcome = step.outcome;
-    const char* word = outcome.status == ProcedureOutcome::Status::kDone      ? "done"
-                       : outcome.status == ProcedureOutcome::Status::kRefused ? "refused"
-                                                                              : "FAILED";
-    fmt::print("{:<9} {} {:<8} {:<34} {}{}\n", step.id, core::name_of(step.axis), word, step.title,
-               outcome.reason,
-               step.from_before ? " (from before)" : fmt::format("{:.1f} s", step.wall_s));
-  }
-}
-
-void tell_estimates(const identify::Estimates& estimates, const std::vector<Recovery>& against) {
-  fmt::print("\n{:<3}{:<31}{:>12}  {:>25}  {}\n", "", "quantity", "value", "95 %",
-             against.empty() ? "unit" : "truth, error");
-  std::size_t next = 0;
-  for (const auto& each : estimates) {
-    const bool judged = next < against.size() && against[next].estimate.quantity == each.quantity &&
-                        against[next].estimate.axis == each.axis &&
-                        against[next].estimate.at == each.at;
-    const auto place = each.at ? fmt::format(" @{:.3g}", *each.at) : "";
-    fmt::print("{:<3}{:<31}{:>12.5g}  {:>12.5g} {:>12.5g}  ", each.axis, each.quantity + place,
-               each.value, each.low, each.high);
-    if (judged) {
-      const auto& r = against[next++];
-      fmt::print("{:.5g}, {:+.2f} % (of {} %){}{}\n", r.truth, r.error_pct, r.tolerance_pct,
-                 r.agrees ? "" : " MISSED", r.covered ? "" : " not covered");
-    } else {
-      fmt::print("{}\n", each.unit);
-    }
-  }
-}
-
-// The emulator itself must take what was written.
-void write_plant(const std::filesystem::path& path, const std::string& text) {
-  (void)read_plant(FixtureFile::parse(text, path));
-  write_atomically(path, text);
-}
-
 int exit_code_of(const ChainResult& result, const std::vector<Recovery>& recoveries) {
   int code = result.steps.empty() ? kExitInvalid : kExitPass;
   for (const auto& each : recoveries) {
@@ -165,13 +127,11 @@ Bench bench_of(const IdentifyOptions& options) {
 }
 
 int tell_everything(const IdentifyOptions& options, const std::string& title,
-                    const procedures::Machine& machine, const ChainResult& result,
+                    const procedures::Machine& machine, ChainResult result,
                     const std::vector<Recovery>& recoveries) {
   const std::filesystem::path out = options.out;
   identify::write_estimates(out / "estimates.json", result.estimates);
-  if (const auto plant = procedures::identified_plant(machine, result.estimates); !plant.empty()) {
-    write_plant(out / "identified_plant.toml", plant);
-  }
+  write_plant(out, procedures::identified_plant(machine, result.estimates), result);
   write_atomically(out / "report.html", procedures::study_page(title, result, recoveries));
   if (options.json) {
     fmt::print("{}\n", identify::to_json(result.estimates).dump(2));
@@ -203,7 +163,8 @@ int execute_on_log(const IdentifyOptions& options, const Bench& bench) {
   result.estimates = step.outcome.estimates;
   result.steps.push_back(std::move(step));
   clear_progress(!options.quiet);
-  return tell_everything(options, "Identification from " + options.data, machine, result, {});
+  return tell_everything(options, "Identification from " + options.data, machine, std::move(result),
+                         {});
 }
 
 int execute_set(const IdentifyOptions& options, const Bench& bench) {
@@ -264,12 +225,12 @@ int execute_identify(const IdentifyOptions& options) {
       .progress = [&](const std::string& what,
                       double share) { show_progress(what, share, !options.quiet); },
       .stop = &stop_requested()};
-  const auto result = procedures::run_chain(machine, all, chain);
+  auto result = procedures::run_chain(machine, all, chain);
   clear_progress(!options.quiet);
   // Only now may anybody look at what the machine is.
   const auto recoveries = options.blind ? std::vector<Recovery>{}
                                         : judge_recovery(bench.rig.parameters, result.estimates);
-  return tell_everything(options, "Identification of " + bench.rig.name, machine, result,
+  return tell_everything(options, "Identification of " + bench.rig.name, machine, std::move(result),
                          recoveries);
 }
 
@@ -317,7 +278,8 @@ void add_identify(CLI::App& app, int& exit_code) {
       "         towbench identify --machine 2 --axis x --only EXP-P-1 --only EXP-P-3\n"
       "         towbench identify --drawn 10 --seeds 40 --workers 2 --out set   (hours; "
       "continues)\n"
-      "Writes estimates.json, identified_plant.toml, report.html. Exit: 0 all experiments done,\n"
+      "Writes estimates.json, report.html, identified_plant.toml (rejected_plant.toml where what "
+      "is\nfound contradicts a document or a belief). Exit: 0 all experiments done,\n"
       "1 an estimate misses the emulated machine's own value by more than its demand allows,\n"
       "2 bad arguments, 4 an experiment was refused or its data are no good.");
   verb->callback([options, &exit_code] { exit_code = execute_identify(*options); });

@@ -1,9 +1,12 @@
 #include "study/procedures/identified_plant.h"
 
 #include <algorithm>
+#include <sstream>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "harness/fixtures/rig_fixture.h"
 
 namespace towbench::harness::procedures {
 namespace {
@@ -177,6 +180,28 @@ std::string identified_plant(const Machine& machine, const Estimates& estimates)
                       : "# Written by `towbench identify`. SI at the motor shaft.\nschema = 1\n"
                         "name = \"identified\"\n" +
                             text;
+}
+
+std::string contradiction(const std::string& plant) {
+  std::string why;
+  try {
+    (void)read_plant(FixtureFile::parse(plant, "identified_plant.toml"));
+    return why;
+  } catch (const FixtureError& error) {
+    why = error.allowed();
+  }
+  // Each value that the reason names, with its source.
+  std::string given;
+  std::string table;
+  std::istringstream lines(plant);
+  for (std::string line; std::getline(lines, line);) {
+    table = line.starts_with('[') ? line : table;
+    const auto key = line.substr(0, line.find(" = "));
+    if (key.size() < line.size() && why.find(key) != std::string::npos) {
+      given += fmt::format("{} {} {}", given.empty() ? ": given" : ",", table, line);
+    }
+  }
+  return why + given;
 }
 
 }  // namespace towbench::harness::procedures

@@ -14,4 +14,8 @@ namespace towbench::harness::procedures {
 [[nodiscard]] std::string identified_plant(const Machine& machine,
                                            const identify::Estimates& estimates);
 
+// Why the emulator takes no such plant, with the values that contradict each other and where they
+// come from: what is found may lie beyond a data sheet or a belief. Empty: it takes it.
+[[nodiscard]] std::string contradiction(const std::string& plant);
+
 }  // namespace towbench::harness::procedures

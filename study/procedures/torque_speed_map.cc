@@ -147,8 +147,11 @@ class TorqueSpeedMap final : public Procedure {
     if (stribeck == nullptr || excess == nullptr || context.find("inertia_kg_m2") == nullptr) {
       return std::nullopt;
     }
-    const auto plant = read_plant(FixtureFile::parse(
-        identified_plant(context.machine, context.known), "identified_plant.toml"));
+    const auto text = identified_plant(context.machine, context.known);
+    if (!contradiction(text).empty()) {
+      return std::nullopt;
+    }
+    const auto plant = read_plant(FixtureFile::parse(text, "identified_plant.toml"));
     const auto& of_reference = plant.parameters.axes[context.axis].plant;
     const auto reference = context.machine.reference(context.axis, of_reference);
     const auto seen = collect({.machine = reference, .axis = context.axis, .known = context.known},

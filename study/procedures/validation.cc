@@ -119,8 +119,11 @@ class Validation final : public Procedure {
                       start_m, track.max_m));
     }
     // Through the file that is handed out, not past it.
-    const auto plant = read_plant(FixtureFile::parse(
-        identified_plant(context.machine, context.known), "identified_plant.toml"));
+    const auto text = identified_plant(context.machine, context.known);
+    if (const auto why = contradiction(text); !why.empty()) {
+      return ProcedureOutcome::refused("the identified plant contradicts itself: " + why);
+    }
+    const auto plant = read_plant(FixtureFile::parse(text, "identified_plant.toml"));
     auto identified = plant.parameters.axes[context.axis].plant;
     identified.hard_ends.fitted = false;
     const ProcedureContext before{.machine = context.machine, .axis = context.axis};
