@@ -19,6 +19,9 @@ void tell_steps(const ChainResult& result) {
     fmt::print("{:<9} {} {:<8} {:<34} {}{}\n", step.id, core::name_of(step.axis), word, step.title,
                outcome.reason,
                step.from_before ? " (from before)" : fmt::format("{:.1f} s", step.wall_s));
+    for (const auto& each : outcome.withheld) {
+      fmt::print("            withheld: {}: {}\n", each.quantity, each.reason);
+    }
   }
 }
 

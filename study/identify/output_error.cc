@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "study/identify/long_run_covariance.h"
+#include "study/identify/model_error.h"
 #include "study/identify/secant_cost.h"
 
 namespace towbench::harness::identify {
@@ -220,6 +221,13 @@ class Problem {
   std::vector<std::size_t> rows_;
 };
 
+// A right model leaves a third of a count; one that is stuck beside a wrong swing leaves tens, and
+// one in which break-away and Stribeck's fall have made up for one another a half or more.
+constexpr double kStuck_counts = 2;
+constexpr double kRight_counts = 0.5;
+constexpr double kNormal95 = 1.959964;
+constexpr double kRoundings_counts = 0.408;  // of two counts: sqrt(2/12)
+
 // By differences alone the way to the minimum is slower but more robust.
 enum class Way { kQuick, kCareful };
 
@@ -232,6 +240,10 @@ SecantCost cost_of(const Problem& problem, Way way) {
           problem.residuals(), std::move(steps), way == Way::kQuick ? 0.5 : 0.0};
 }
 
+double cost_of_rms(const Problem& problem, double counts) {
+  return 0.5 * problem.data_residuals() * counts * counts;
+}
+
 TwoMassFit fit_from(const TwoMassStart& start, const Recording& data, core::Axis axis, Way way) {
   TwoMassFit fit;
   // Short spans first: they have no memory of what a wrong guess did a second ago.
@@ -242,9 +254,13 @@ TwoMassFit fit_from(const TwoMassStart& start, const Recording& data, core::Axis
   auto cost = cost_of(fine, way);
   fit.converged = minimise(
       first, {.bounds = coarse.swing_only(p), .tolerance = 1e-3, .most_rounds = 1}, p, fit.message);
-  fit.converged =
-      fit.converged &&
-      minimise(cost, {.bounds = fine.bounds_around(p), .tolerance = 1e-7}, p, fit.message);
+  // What a wrong structure leaves need not be known to a ten-millionth.
+  fit.converged = fit.converged && minimise(cost,
+                                            {.bounds = fine.bounds_around(p),
+                                             .tolerance = 1e-7,
+                                             .rough_above = cost_of_rms(fine, kStuck_counts),
+                                             .rough_tolerance = 3e-4},
+                                            p, fit.message);
   fit.axis = fine.axis_of(p.data());
   fit.path = fine.path_of(p.data());
   if (auto counts = fine.simulate(p.data())) {
@@ -257,9 +273,14 @@ TwoMassFit fit_from(const TwoMassStart& start, const Recording& data, core::Axis
   const auto& residual = cost.residual();
   const auto& jacobian = cost.jacobian();
   const Eigen::MatrixXd priors = jacobian.bottomRows(fine.prior_residuals());
+  const Eigen::MatrixXd prior = priors.transpose() * priors;
   const Eigen::MatrixXd covariance =
-      sandwich(jacobian.topRows(m), residual.head(m), priors.transpose() * priors, fine.lags());
-  const auto deviation = [&](int i) { return std::sqrt(std::max(0.0, covariance(i, i))); };
+      sandwich(jacobian.topRows(m), residual.head(m), prior, fine.lags());
+  const Eigen::VectorXd bent =
+      most_bent(jacobian.topRows(m), residual.head(m), prior, kRoundings_counts);
+  const auto deviation = [&](int i) {
+    return std::hypot(std::sqrt(std::max(0.0, covariance(i, i))), bent[i] / kNormal95);
+  };
   fit.inertia_deviation = fit.axis.inertia_kg_m2 * deviation(kInertia);
   fit.viscous_deviation = fit.axis.viscous_friction_Nm_s_per_rad * deviation(kViscous);
   fit.resonance_deviation_Hz = fit.axis.chain.resonance_Hz * deviation(kResonance);
@@ -282,10 +303,6 @@ TwoMassFit fit_from(const TwoMassStart& start, const Recording& data, core::Axis
 }  // namespace
 
 TwoMassFit fit_two_mass(const TwoMassStart& start, const Recording& data, core::Axis axis) {
-  // A right model leaves a third of a count; one that is stuck beside a wrong swing leaves tens,
-  // and one in which break-away and Stribeck's fall have made up for one another a half or more.
-  constexpr double kStuck_counts = 2;
-  constexpr double kRight_counts = 0.5;
   auto best = fit_from(start, data, axis, Way::kQuick);
   const auto leaves_more_than = [&](double counts) {
     return !best.converged || best.residual_rms_counts > counts;
@@ -316,10 +333,10 @@ TwoMassFit fit_two_mass(const TwoMassStart& start, const Recording& data, core::
     lost = another(other, Way::kQuick) && leaves_more_than(kRight_counts);
   }
   if (lost) {
-    (void)another(start, Way::kCareful);
+    lost = another(start, Way::kCareful);
   }
   for (const double factor : {0.7, 1.4}) {
-    if (leaves_more_than(kStuck_counts)) {
+    if (lost && leaves_more_than(kStuck_counts)) {
       auto other = start;
       other.axis.chain.resonance_Hz *= factor;
       (void)another(other, Way::kCareful);

@@ -88,6 +88,24 @@ bool SecantCost::difference(const Eigen::VectorXd& point) const {
   return true;
 }
 
+namespace {
+
+class RoughEnd final : public ceres::IterationCallback {
+ public:
+  explicit RoughEnd(const Search& search) : search_(search) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
+    const bool rough = search_.rough_above > 0 && step.cost > search_.rough_above;
+    const bool small = step.iteration > 0 && step.step_is_successful &&
+                       step.cost_change < search_.rough_tolerance * step.cost;
+    return rough && small ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const Search& search_;
+};
+
+}  // namespace
+
 bool minimise(SecantCost& cost, const Search& search, Eigen::VectorXd& parameters,
               std::string& message) {
   ceres::Problem::Options ownership;
@@ -104,6 +122,8 @@ bool minimise(SecantCost& cost, const Search& search, Eigen::VectorXd& parameter
   options.parameter_tolerance = 1e-8;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
+  RoughEnd rough_end(search);
+  options.callbacks.push_back(&rough_end);
   for (int round = 0; round < search.most_rounds; ++round) {
     cost.forget();
     ceres::Solver::Summary summary;
@@ -112,7 +132,9 @@ bool minimise(SecantCost& cost, const Search& search, Eigen::VectorXd& parameter
     if (!summary.IsSolutionUsable()) {
       return false;
     }
-    if (!(summary.initial_cost - summary.final_cost > 10 * search.tolerance * summary.final_cost)) {
+    const bool rough = search.rough_above > 0 && summary.final_cost > search.rough_above;
+    const double tolerance = rough ? search.rough_tolerance : search.tolerance;
+    if (!(summary.initial_cost - summary.final_cost > 10 * tolerance * summary.final_cost)) {
       break;
     }
   }

@@ -28,6 +28,9 @@ struct Bounds {
 struct Search {
   Bounds bounds;
   double tolerance = 1e-7;  // ends when a step gains less than this share of the cost
+  // Above this cost (half the sum of squares) that share is the rough one. 0: at none.
+  double rough_above = 0;
+  double rough_tolerance = 1e-7;
   int most_rounds = 8;
 };
 

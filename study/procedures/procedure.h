@@ -37,6 +37,12 @@ struct ProcedureContext {
   }
 };
 
+// A quantity that the data do not tell, and why.
+struct Withheld {
+  std::string quantity;
+  std::string reason;
+};
+
 struct ProcedureOutcome {
   enum class Status {
     kDone,
@@ -46,6 +52,7 @@ struct ProcedureOutcome {
   Status status = Status::kDone;
   std::string reason{};
   identify::Estimates estimates{};
+  std::vector<Withheld> withheld{};
   std::vector<ResultTable> tables{};
   std::vector<Figure> figures{};
   double simulated_s = 0;

@@ -86,6 +86,9 @@ std::string step_section(const ChainStep& step) {
         (outcome.status == ProcedureOutcome::Status::kRefused ? "Refused: " : "Failed: ") +
         outcome.reason);
   }
+  for (const auto& each : outcome.withheld) {
+    text += report::missing_note(fmt::format("Withheld: {}: {}", each.quantity, each.reason));
+  }
   for (const auto& table : outcome.tables) {
     text += table_of(table);
   }

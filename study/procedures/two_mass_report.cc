@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -15,9 +17,11 @@ namespace {
 // The origin of a log is where a hand put the axis: evenly spread over 1 mm to each side.
 constexpr double kOrigin_m = 0.58e-3;  // 1 mm / sqrt(3)
 // What quantisation leaves is 1/sqrt(12) of a count (a right model was seen to leave 0.285). A fit
-// that leaves more has bent its parameters round something that it does not know, and its
-// intervals, which suppose the model, say nothing.
+// that leaves more has bent its parameters round something that it does not know; its intervals
+// hold by how much (identify/model_error.h), and what they hold to no better than half is withheld.
 constexpr double kMostLeft_counts = 2;
+constexpr double kWidest = 0.5;
+constexpr double kRight_counts = 0.5;  // as the search has it (identify/output_error.cc)
 
 void add_estimates(const TwoMassReport& report, ProcedureOutcome& outcome) {
   const auto& context = report.context;
@@ -28,17 +32,31 @@ void add_estimates(const TwoMassReport& report, ProcedureOutcome& outcome) {
       "output error of the two-mass model over {} rows, residual {:.2f} counts; torque by {}",
       report.data.rows(), fit.residual_rms_counts,
       scale.measured ? "EXP-P-1" : "the believed K_T K_amp, whose error is not in the interval");
+  const bool right = fit.residual_rms_counts <= kRight_counts;
   const auto add = [&](const char* quantity, double value, double deviation, const char* unit,
-                       bool scales) {
+                       bool scales, std::optional<double> at = std::nullopt) {
     const double whole = std::hypot(deviation, scales ? value * scale.relative_deviation : 0.0);
-    outcome.estimates.push_back(
-        identify::with_deviation({.quantity = quantity,
-                                  .axis = std::string(core::name_of(context.axis)),
-                                  .value = value,
-                                  .unit = unit,
-                                  .rests_on = rests,
-                                  .procedure = report.procedure},
-                                 whole));
+    auto estimate = identify::with_deviation({.quantity = quantity,
+                                              .axis = std::string(core::name_of(context.axis)),
+                                              .value = value,
+                                              .unit = unit,
+                                              .rests_on = rests,
+                                              .procedure = report.procedure,
+                                              .at = at},
+                                             whole);
+    // A Stribeck speed means another one in each form of the law.
+    const bool formless = !right && quantity == std::string_view("stribeck_speed_rad_per_s");
+    if (formless || (!right && estimate.half_width() > kWidest * std::fabs(value))) {
+      outcome.withheld.push_back(
+          {.quantity = quantity,
+           .reason =
+               fmt::format("{:.3g} {} +-{:.0f} %: the two-mass model leaves {:.1f} counts RMS "
+                           "of the pulses",
+                           value, unit, 100 * estimate.half_width() / std::fabs(value),
+                           fit.residual_rms_counts)});
+      return;
+    }
+    outcome.estimates.push_back(std::move(estimate));
   };
   add("inertia_kg_m2", fit.axis.inertia_kg_m2, fit.inertia_deviation, "kg m2", true);
   add("viscous_friction_Nm_s_per_rad", fit.axis.viscous_friction_Nm_s_per_rad,
@@ -51,6 +69,7 @@ void add_estimates(const TwoMassReport& report, ProcedureOutcome& outcome) {
   add("stribeck_speed_rad_per_s", fit.axis.friction.stribeck_speed_rad_per_s,
       fit.stribeck_deviation, "rad/s", false);
   add("stiction_excess_Nm", fit.excess_Nm, fit.excess_deviation_Nm, "N m", true);
+  add(kLeftByPulses, fit.residual_rms_counts, 0, "counts RMS", false);
   const auto slope = [&](std::size_t i) {
     return (fit.coulomb_Nm[i + 1] - fit.coulomb_Nm[i]) / (knots[i + 1] - knots[i]);
   };
@@ -63,8 +82,7 @@ void add_estimates(const TwoMassReport& report, ProcedureOutcome& outcome) {
       bend = std::fabs(fit.coulomb_Nm[i - 1] - 2 * fit.coulomb_Nm[i] + fit.coulomb_Nm[i + 1]) / 8;
     }
     add("coulomb_friction_Nm", fit.coulomb_Nm[i],
-        std::hypot(fit.coulomb_deviation_Nm[i], bend, steepest * kOrigin_m), "N m", true);
-    outcome.estimates.back().at = knots[i];
+        std::hypot(fit.coulomb_deviation_Nm[i], bend, steepest * kOrigin_m), "N m", true, knots[i]);
   }
 }
 
@@ -100,13 +118,13 @@ void add_figures(const TwoMassReport& report, ProcedureOutcome& outcome) {
 }  // namespace
 
 std::string unexplained(const identify::TwoMassFit& fit) {
-  if (!fit.converged || fit.simulated_counts.empty()) {
-    return "output error did not converge: " + fit.message;
-  }
-  return fit.residual_rms_counts > kMostLeft_counts
-             ? fmt::format("{:.1f} counts RMS are left, a right one leaves the encoder's own 0.29",
-                           fit.residual_rms_counts)
+  return !fit.converged || fit.simulated_counts.empty()
+             ? "output error did not converge: " + fit.message
              : std::string();
+}
+
+bool leaves_much(const identify::TwoMassFit& fit) {
+  return fit.residual_rms_counts > kMostLeft_counts;
 }
 
 void report_two_mass(const TwoMassReport& report, ProcedureOutcome& outcome) {

@@ -10,6 +10,9 @@
 
 namespace towbench::harness::procedures {
 
+// What the model leaves, an estimate of its own: later experiments rest on that model.
+inline constexpr const char* kLeftByPulses = "model_left_counts";
+
 struct TwoMassReport {
   const ProcedureContext& context;
   const identify::Recording& data;
@@ -19,8 +22,10 @@ struct TwoMassReport {
   std::string input;             // what drove the axis, for the criteria's title
 };
 
-// Why the model does not explain the data; empty: it does.
+// Why there is no model; empty: there is one, right or wrong.
 [[nodiscard]] std::string unexplained(const identify::TwoMassFit& fit);
+// More than two counts: the model's structure is wrong, and its intervals are as wide as that asks.
+[[nodiscard]] bool leaves_much(const identify::TwoMassFit& fit);
 
 void report_two_mass(const TwoMassReport& report, ProcedureOutcome& outcome);
 
