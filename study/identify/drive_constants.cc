@@ -86,6 +86,38 @@ Slope common_slope(const std::vector<PushedRun>& runs, X x_of, Y y_of) {
 
 }  // namespace
 
+double bend_under_load(const std::vector<PushedRun>& pushed, const std::vector<PushedRun>& free) {
+  double bend = 0;
+  for (const bool towards_max : {true, false}) {
+    const auto mean = [&](const std::vector<PushedRun>& runs, const Mean PushedRun::*of) {
+      double sum = 0;
+      double n = 0;
+      for (const auto& run : runs) {
+        if (run.towards_max == towards_max) {
+          sum += (run.*of).value;
+          n += 1;
+        }
+      }
+      return n > 0 ? sum / n : std::nan("");
+    };
+    const auto line = direction_of(
+        pushed, towards_max, [](const PushedRun& run) -> const Mean& { return run.force_N; },
+        [](const PushedRun& run) -> const Mean& { return run.current_A; });
+    double push_N = 0;
+    const double middle_N = mean(pushed, &PushedRun::force_N);
+    for (const auto& run : pushed) {
+      if (run.towards_max == towards_max) {
+        push_N = std::max(push_N, std::fabs(run.force_N.value - middle_N));
+      }
+    }
+    const double expected_A = mean(pushed, &PushedRun::current_A) +
+                              line.slope * (mean(free, &PushedRun::force_N) - middle_N);
+    const double off_A = mean(free, &PushedRun::current_A) - expected_A;
+    bend += 0.5 * std::fabs(off_A / (line.slope * push_N));
+  }
+  return std::isfinite(bend) ? bend : 0;
+}
+
 DriveConstants find_drive_constants(const std::vector<PushedRun>& runs, double metres_per_rad) {
   DriveConstants constants;
   const auto current = [](const PushedRun& run) -> const Mean& { return run.current_A; };

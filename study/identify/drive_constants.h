@@ -28,6 +28,13 @@ struct PushedRun {
   Mean command_V;
 };
 
+// How far current is from a straight line over force: the current without a push beside the line
+// through the pushed runs, over the current of a push; mean of both directions. A loss that grows
+// with the load bends the line, and then a slope from a push along to a push against the motion is
+// off by up to that share. 0 where no run is without a push.
+[[nodiscard]] double bend_under_load(const std::vector<PushedRun>& pushed,
+                                     const std::vector<PushedRun>& free);
+
 struct DriveConstants {
   double torque_constant_Nm_per_A = 0;
   double torque_constant_deviation = 0;
