@@ -7,6 +7,9 @@
 //
 // Their difference is B (w2 - w1) at every place, which separates speed from place; what is left
 // is a line through places, with as many bends as the data bear (identify/bent_line.h).
+//
+// Two speeds do not tell how friction falls from break-away S. By (3.26), (S - C)/(1 + (w/w_s)^2)
+// is left at w, by (3.25) nothing; intervals hold the difference, w_s as it is believed.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -174,7 +177,12 @@ class TorquePlaceMap final : public Procedure {
     const double viscous = sum / weight / apart;
     // By how far the places are from telling the same.
     const double scatter = std::max(0.0, square - sum * sum / weight) / (n - 1);
-    const double viscous_deviation = std::sqrt(scatter / weight) / apart;
+    const double slow_w = speeds[0] * rad_per_m;
+    const double slow_tail_Nm = lorentz_tail_Nm(context, levels[0], viscous * slow_w, slow_w);
+    const double fast_tail_Nm =
+        lorentz_tail_Nm(context, levels[0], viscous * slow_w, speeds[1] * rad_per_m);
+    const double viscous_deviation =
+        std::hypot(std::sqrt(scatter / weight), (slow_tail_Nm - fast_tail_Nm) / kNormal95) / apart;
     std::vector<identify::LinePoint> points;
     for (std::size_t i = 0; i < speeds.size(); ++i) {
       for (const auto& each : levels.at(i)) {
@@ -201,9 +209,9 @@ class TorquePlaceMap final : public Procedure {
           std::hypot(deviation, value * scale.relative_deviation)));
     };
     add("steady_viscous_Nm_s_per_rad", viscous, viscous_deviation, "N m s/rad");
-    const double slow_w = speeds[0] * rad_per_m;
     for (std::size_t i = 0; i < map.x.size(); ++i) {
-      add("sliding_friction_Nm", map.y[i], std::hypot(map.deviation[i], viscous_deviation * slow_w),
+      add("sliding_friction_Nm", map.y[i],
+          std::hypot(map.deviation[i], viscous_deviation * slow_w, slow_tail_Nm / kNormal95),
           "N m");
       outcome.estimates.back().at = map.x[i];
     }
@@ -229,6 +237,31 @@ class TorquePlaceMap final : public Procedure {
                                .caption = "Compare Fig. 7.13."});
   }
 
+  // S by the ramps where they were made, else as it is believed; C by `levels` less `viscous_Nm`.
+  static double lorentz_tail_Nm(const ProcedureContext& context, const std::vector<Level>& levels,
+                                double viscous_Nm, double speed_rad_per_s) {
+    double excess_Nm = 0;
+    double n = 0;
+    for (const auto& each : context.known) {
+      if (each.quantity == "breakaway_Nm" && each.axis == core::name_of(context.axis)) {
+        const auto near = std::min_element(
+            levels.begin(), levels.end(), [&](const Level& one, const Level& other) {
+              return std::fabs(one.place_m - *each.at) < std::fabs(other.place_m - *each.at);
+            });
+        excess_Nm +=
+            each.value - (near == levels.end() ? each.value : near->torque_Nm - viscous_Nm);
+        n += 1;
+      }
+    }
+    const auto& belief = context.machine.configuration().axes[context.axis];
+    const auto believed = believed_axis(context);
+    excess_Nm =
+        n > 0 ? excess_Nm / n : believed.friction.breakaway_Nm - believed.coulomb_friction_Nm;
+    const double ratio = speed_rad_per_s / belief.friction.stribeck_speed_rad_per_s;
+    return std::max(0.0, excess_Nm) / (1 + ratio * ratio);
+  }
+
+  static constexpr double kNormal95 = 1.959964;
   static constexpr double kRounding_pct = 2e-3;  // of a mean of duties in steps of 0.1 %
 };
 
