@@ -15,6 +15,7 @@
 #include "study/procedures/procedures.h"
 #include "study/procedures/settings.h"
 #include "study/procedures/switch_study.h"
+#include "study/procedures/two_mass_report.h"
 
 namespace towbench::harness::procedures {
 namespace {
@@ -146,6 +147,10 @@ class SafeRange final : public Procedure {
     for (const double each : doubted) {
       square += each * each;
     }
+    // A chain that the model does not describe, one with play: of both edges.
+    if (const auto* left = context.find(kLeftByPulses); left != nullptr && left->value > kRight) {
+      square += 2 * left->value * left->value;
+    }
     const double m = belief.m_per_count();
     ProcedureOutcome outcome;
     const auto add = [&](const char* quantity, double value) {
@@ -171,6 +176,7 @@ class SafeRange final : public Procedure {
 
   static constexpr double kFurther = 0.073;  // of the way back, no part of a slip's length
   static constexpr std::size_t kSeek_rows = 100;
+  static constexpr double kRight = 0.41;  // counts: two roundings
   // A switch's own delay, the row in which it closed, the encoder's phase: of both edges.
   static constexpr double kEdge_counts = 2;
 };
