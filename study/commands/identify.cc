@@ -32,6 +32,8 @@ using procedures::ChainResult;
 using procedures::ProcedureOutcome;
 
 constexpr double kSpread = 0.4;  // of drawn machines, ID-0
+constexpr const char* kAllStructures = "all";
+constexpr std::uint64_t kDrawnOfStructures = 10;  // machines that the seeds of a structure go round
 
 struct IdentifyOptions {
   std::string rig;
@@ -47,6 +49,7 @@ struct IdentifyOptions {
   bool blind = false;
   std::string data;
   std::string columns;
+  std::string structure;
   std::uint64_t drawn = 0;
   std::uint64_t machine = 0;
   std::uint64_t seeds = 1;
@@ -86,6 +89,14 @@ void refuse_unknown(const std::vector<std::string>& only,
       throw FixtureError({.file = "--only"}, id, ids);
     }
   }
+}
+
+std::vector<std::string> structure_names() {
+  std::vector<std::string> names{kAllStructures};
+  for (const auto& each : foreign_structures()) {
+    names.emplace_back(each.name);
+  }
+  return names;
 }
 
 int exit_code_of(const ChainResult& result, const std::vector<Recovery>& recoveries) {
@@ -172,7 +183,7 @@ int execute_set(const IdentifyOptions& options, const Bench& bench) {
                         .controller = bench.controller,
                         .settings = bench.settings,
                         .out = options.out,
-                        .machines = options.drawn,
+                        .machines = options.drawn > 0 ? options.drawn : kDrawnOfStructures,
                         .seeds = options.seeds,
                         .spread = kSpread,
                         .workers = options.workers,
@@ -183,9 +194,13 @@ int execute_set(const IdentifyOptions& options, const Bench& bench) {
                                         static_cast<double>(done) / static_cast<double>(all),
                                         !options.quiet);
                         }};
+  const bool foreign = options.structure == kAllStructures;
+  if (foreign) {
+    set.structures = foreign_structures();
+  }
   const auto runs = run_set(set);
   clear_progress(!options.quiet);
-  const auto page = set_page(set, runs);
+  const auto page = foreign ? foreign_page(set, runs) : set_page(set, runs);
   write_atomically(set.out / "set.md", page);
   fmt::print("{}{}\n", options.quiet ? "" : page, (set.out / "set.md").string());
   int code = kExitPass;
@@ -205,22 +220,24 @@ int execute_identify(const IdentifyOptions& options) {
   if (!options.data.empty()) {
     return execute_on_log(options, bench);
   }
-  if (options.drawn > 0) {
+  if (options.drawn > 0 || options.structure == kAllStructures) {
     return execute_set(options, bench);
   }
   const auto all = procedures::identification_procedures();
   refuse_unknown(options.only, all);
-  bench.rig = drawn_machine(std::move(bench.rig), options.machine, kSpread);
+  const auto drawn =
+      drawn_rig(bench.rig, options.machine, kSpread, find_structure(options.structure));
+  bench.rig = drawn.truth;
   std::filesystem::create_directories(options.out);
   const LoopWatchers watchers{.stop = &stop_requested(), .progress = {}};
-  const procedures::Machine machine(bench.rig, bench.controller, options.seed, watchers);
+  const auto machine = drawn.machine(bench.controller, options.seed, watchers);
   const procedures::ChainOptions chain{
       .only = options.only,
       .axes = axes_of(options.axis),
       .settings = bench.settings,
       .out = options.out,
-      .fingerprint = fmt::format("{:016x}-{:016x}-{}-{}", bench.rig.hash, bench.controller.hash,
-                                 options.machine, options.seed),
+      .fingerprint = fmt::format("{:016x}-{:016x}-{}-{}{}", bench.rig.hash, bench.controller.hash,
+                                 options.machine, options.seed, options.structure),
       .resume = options.resume,
       .progress = [&](const std::string& what,
                       double share) { show_progress(what, share, !options.quiet); },
@@ -266,6 +283,9 @@ void add_identify(CLI::App& app, int& exit_code) {
   verb->add_option("--machine", options->machine,
                    "the machine of that number in such a set, 0: the rig itself")
       ->check(CLI::Range(0, 999));
+  verb->add_option("--structure", options->structure,
+                   "the machine with what no estimator assumes, or all of them as a set")
+      ->check(CLI::IsMember(structure_names()));
   verb->add_option("--seeds", options->seeds, "with --drawn: seeds of each")
       ->check(whole_number())
       ->check(CLI::Range(1, 10000));
@@ -278,6 +298,7 @@ void add_identify(CLI::App& app, int& exit_code) {
       "         towbench identify --machine 2 --axis x --only EXP-P-1 --only EXP-P-3\n"
       "         towbench identify --drawn 10 --seeds 40 --workers 2 --out set   (hours; "
       "continues)\n"
+      "         towbench identify --structure all --seeds 5 --workers 2 --out foreign\n"
       "Writes estimates.json, report.html, identified_plant.toml (rejected_plant.toml where what "
       "is\nfound contradicts a document or a belief). Exit: 0 all experiments done,\n"
       "1 an estimate misses the emulated machine's own value by more than its demand allows,\n"

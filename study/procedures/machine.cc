@@ -59,6 +59,14 @@ Machine::Machine(RigFixture rig, ControllerFixture controller, std::uint64_t see
   }
 }
 
+Machine Machine::documented_by(const emulator::RigParameters& documents) const {
+  auto machine = *this;
+  for (const auto axis : core::kAxes) {
+    machine.nameplates_[axis] = nameplate_of(documents, axis);
+  }
+  return machine;
+}
+
 Machine Machine::reference(core::Axis axis, const emulator::AxisParameters& known) const {
   auto rig = rig_;
   rig.parameters.axes[axis].plant = known;

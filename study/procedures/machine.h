@@ -55,6 +55,9 @@ class Machine {
   [[nodiscard]] identify::Recording play(const Conversation& conversation,
                                          const bbmc::Configuration& configuration) const;
 
+  // The same machine under the documents of another one: what they do not tell stays hidden.
+  [[nodiscard]] Machine documented_by(const emulator::RigParameters& documents) const;
+
   // The same with an axis that is known, for what an experiment shows of it. Nothing of what this
   // machine truly is on that axis is in it but its sensors and wires.
   [[nodiscard]] Machine reference(core::Axis axis, const emulator::AxisParameters& known) const;

@@ -88,6 +88,21 @@ double ten_counts_pct(const RigAxisParameters& axis) {
   return 100 * 10 * metres_per_count / (axis.hall_max.position_m - axis.hall_min.position_m);
 }
 
+// What must be overcome to leave rest towards max, the way the ramps go: dry friction of that way
+// (of the place alike both ways), gravity on a tilted rail, a cable's pull.
+double breakaway_Nm(const emulator::AxisParameters& p, const Estimate& estimate) {
+  constexpr double kGravity_m_per_s2 = 9.80665;
+  const double metres_per_rad = p.sprocket_radius_m / p.gear_ratio;
+  const double carriage_kg =
+      (p.inertia_kg_m2 - p.rotor_inertia_kg_m2) / (metres_per_rad * metres_per_rad);
+  const auto& pushes = p.disturbances;
+  const double force_N =
+      carriage_kg * kGravity_m_per_s2 * std::sin(pushes.tilt_deg * std::numbers::pi / 180) +
+      pushes.cable.stiffness_N_per_m * (estimate.at.value_or(0) - pushes.cable.reference_m);
+  return p.friction.breakaway_Nm * (1 + p.friction.options.asymmetry.breakaway) +
+         position_friction_at(p, estimate) + force_N * metres_per_rad;
+}
+
 struct Demand {
   std::string_view quantity;
   double tolerance_pct;  // 0: absolute, see tolerance_pct()
@@ -108,9 +123,7 @@ const std::array<Demand, 20> kDemands{{
     {"hall_max_m", 1,
      [](const auto&, const auto& a, const auto&) { return a.hall_max.position_m; }},
     {"breakaway_Nm", 5,
-     [](const auto&, const auto& a, const auto& e) {
-       return a.plant.friction.breakaway_Nm + position_friction_at(a.plant, e);
-     }},
+     [](const auto&, const auto& a, const auto& e) { return breakaway_Nm(a.plant, e); }},
     {"inertia_kg_m2", 3,
      [](const auto&, const auto& a, const auto&) { return a.plant.inertia_kg_m2; }},
     {"viscous_friction_Nm_s_per_rad", 10,

@@ -22,19 +22,35 @@ std::filesystem::path folder_of(const IdentificationSet& set, std::uint64_t mach
 
 std::string fingerprint_of(const IdentificationSet& set, const RigFixture& rig,
                            std::uint64_t machine, std::uint64_t seed) {
-  return fmt::format("{:016x}-{:016x}-{}-{}-{}", rig.hash, set.controller.hash, machine, set.spread,
-                     seed);
+  return fmt::format("{:016x}-{:016x}-{}-{}-{}{}", rig.hash, set.controller.hash, machine,
+                     set.spread, seed,
+                     set.structures.empty() ? std::string_view() : set.structures[machine].name);
+}
+
+DrawnRig rig_of(const IdentificationSet& set, std::uint64_t machine, std::uint64_t seed) {
+  return set.structures.empty()
+             ? drawn_rig(set.rig, machine, set.spread, nullptr)
+             : drawn_rig(set.rig, (seed - 1) % set.machines, set.spread, &set.structures[machine]);
+}
+
+std::uint64_t rows_of(const IdentificationSet& set) {
+  return set.structures.empty() ? set.machines : set.structures.size();
 }
 
 nlohmann::json to_json(const std::vector<Recovery>& recoveries,
                        const procedures::ChainResult& result) {
   nlohmann::json json{{"recoveries", nlohmann::json::array()},
-                      {"not_done", nlohmann::json::array()}};
+                      {"not_done", nlohmann::json::array()},
+                      {"withheld", nlohmann::json::array()}};
   for (const auto& each : recoveries) {
     json["recoveries"].push_back(
         {{"estimate", identify::to_json({each.estimate})}, {"truth", each.truth}});
   }
   for (const auto& step : result.steps) {
+    for (const auto& each : step.outcome.withheld) {
+      json["withheld"].push_back(
+          fmt::format("{} {}: {}", each.quantity, core::name_of(step.axis), each.reason));
+    }
     if (step.outcome.status != ProcedureOutcome::Status::kDone) {
       json["not_done"].push_back(
           fmt::format("{} {}: {}", step.id, core::name_of(step.axis), step.outcome.reason));
@@ -45,8 +61,9 @@ nlohmann::json to_json(const std::vector<Recovery>& recoveries,
 
 // One machine, one seed, in a process of its own.
 void identify_one(const IdentificationSet& set, std::uint64_t number, std::uint64_t seed) {
-  const auto rig = drawn_machine(set.rig, number, set.spread);
-  const procedures::Machine machine(rig, set.controller, seed, {.stop = set.stop, .progress = {}});
+  const auto drawn = rig_of(set, number, seed);
+  const auto& rig = drawn.truth;
+  const auto machine = drawn.machine(set.controller, seed, {.stop = set.stop, .progress = {}});
   const auto folder = folder_of(set, number, seed);
   const auto fingerprint = fingerprint_of(set, rig, number, seed);
   const auto result = procedures::run_chain(machine, procedures::identification_procedures(),
@@ -67,7 +84,7 @@ void identify_one(const IdentificationSet& set, std::uint64_t number, std::uint6
 
 SetRun read_run(const IdentificationSet& set, std::uint64_t machine, std::uint64_t seed) {
   SetRun run{.machine = machine, .seed = seed};
-  const auto rig = drawn_machine(set.rig, machine, set.spread);
+  const auto rig = rig_of(set, machine, seed).truth;
   const auto kept = procedures::kept_outcome(
       folder_of(set, machine, seed) / "judged.json",
       procedures::program_fingerprint() + fingerprint_of(set, rig, machine, seed));
@@ -76,6 +93,7 @@ SetRun read_run(const IdentificationSet& set, std::uint64_t machine, std::uint64
   }
   run.done = true;
   kept->at("not_done").get_to(run.not_done);
+  kept->at("withheld").get_to(run.withheld);
   for (const auto& each : kept->at("recoveries")) {
     const auto judged =
         judge_recovery(rig.parameters, identify::estimates_from_json(each.at("estimate")));
@@ -109,13 +127,31 @@ RigFixture drawn_machine(RigFixture rig, std::uint64_t number, double spread) {
   return rig;
 }
 
+procedures::Machine DrawnRig::machine(const ControllerFixture& controller, std::uint64_t seed,
+                                      LoopWatchers watchers) const {
+  return procedures::Machine(truth, controller, seed, std::move(watchers))
+      .documented_by(documents.parameters);
+}
+
+DrawnRig drawn_rig(const RigFixture& rig, std::uint64_t number, double spread,
+                   const ForeignStructure* structure) {
+  DrawnRig drawn{.documents = drawn_machine(rig, number, spread), .truth = {}};
+  drawn.truth = drawn.documents;
+  if (structure != nullptr) {
+    drawn.truth.parameters = built(drawn.truth.parameters, *structure);
+    drawn.truth.name += fmt::format(" ({})", structure->name);
+  }
+  return drawn;
+}
+
 std::vector<SetRun> run_set(const IdentificationSet& set) {
   std::vector<std::pair<std::uint64_t, std::uint64_t>> wanted;
   std::size_t there = 0;
-  const auto all = static_cast<std::size_t>(set.machines * set.seeds);
+  const auto machines = rows_of(set);
+  const auto all = static_cast<std::size_t>(machines * set.seeds);
   // Seed after seed of all machines: a set that is stopped is a smaller one of all of them.
   for (std::uint64_t seed = 1; seed <= set.seeds; ++seed) {
-    for (std::uint64_t machine = 0; machine < set.machines; ++machine) {
+    for (std::uint64_t machine = 0; machine < machines; ++machine) {
       if (read_run(set, machine, seed).done) {
         ++there;
       } else {
@@ -137,7 +173,7 @@ std::vector<SetRun> run_set(const IdentificationSet& set) {
     }
   });
   std::vector<SetRun> runs;
-  for (std::uint64_t machine = 0; machine < set.machines; ++machine) {
+  for (std::uint64_t machine = 0; machine < machines; ++machine) {
     for (std::uint64_t seed = 1; seed <= set.seeds; ++seed) {
       runs.push_back(read_run(set, machine, seed));
     }

@@ -11,7 +11,9 @@
 
 #include "harness/fixtures/controller_fixture.h"
 #include "harness/fixtures/rig_fixture.h"
+#include "study/procedures/machine.h"
 #include "study/recovery/recovery.h"
+#include "study/results/foreign_machines.h"
 
 namespace towbench::harness {
 
@@ -19,11 +21,24 @@ namespace towbench::harness {
 // same number; 0 is `rig` itself.
 [[nodiscard]] RigFixture drawn_machine(RigFixture rig, std::uint64_t number, double spread);
 
+// A machine of a set as it is, under the documents that it has; structure: null is its own.
+struct DrawnRig {
+  RigFixture documents;
+  RigFixture truth;
+  [[nodiscard]] procedures::Machine machine(const ControllerFixture& controller, std::uint64_t seed,
+                                            LoopWatchers watchers) const;
+};
+[[nodiscard]] DrawnRig drawn_rig(const RigFixture& rig, std::uint64_t number, double spread,
+                                 const ForeignStructure* structure);
+
 struct IdentificationSet {
   RigFixture rig;
   ControllerFixture controller;
   std::filesystem::path settings;
   std::filesystem::path out;  // machine-<i>/seed-<j>: what is done there stays
+  // Empty: `machines` of the rig's own structure. Else one machine of each structure, drawn anew
+  // for each seed, the first nominal.
+  std::span<const ForeignStructure> structures{};
   std::uint64_t machines = 10;
   std::uint64_t seeds = 40;
   double spread = 0.4;
@@ -38,6 +53,7 @@ struct SetRun {
   std::uint64_t seed = 0;
   bool done = false;                    // false: interrupted
   std::vector<std::string> not_done{};  // experiments refused or failed, with the reason
+  std::vector<std::string> withheld{};  // "inertia_kg_m2 y: reason"
   std::vector<Recovery> recoveries{};
 };
 
@@ -47,5 +63,8 @@ struct SetRun {
 
 // Markdown: coverage of the intervals, widths and misses, by quantity and pooled.
 [[nodiscard]] std::string set_page(const IdentificationSet& set, const std::vector<SetRun>& runs);
+// The same by structure.
+[[nodiscard]] std::string foreign_page(const IdentificationSet& set,
+                                       const std::vector<SetRun>& runs);
 
 }  // namespace towbench::harness
