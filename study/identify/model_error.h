@@ -8,8 +8,8 @@
 //
 //   |delta_i| <= sqrt([(J^T J + P)^-1]_ii) |d|        (Cauchy-Schwarz)
 //
-// The bound is *assumed* where it equates the two parts;
-// docs/measurements/identification-foreign.md shows how far it holds.
+// That the two parts are alike is *assumed*; docs/measurements/identification-foreign.md shows how
+// far it holds, and the fit takes twice the bound.
 #pragma once
 
 #include <Eigen/Core>
