@@ -13,6 +13,7 @@ namespace towbench::harness::procedures {
 [[nodiscard]] std::unique_ptr<Procedure> smallest_command();   // EXP-P-4
 [[nodiscard]] std::unique_ptr<Procedure> safe_range();         // EXP-P-5
 [[nodiscard]] std::unique_ptr<Procedure> relay_tuning();
+[[nodiscard]] std::unique_ptr<Procedure> model_tuning();     // pole placement
 [[nodiscard]] std::unique_ptr<Procedure> break_away_map();   // EXP-OL-1
 [[nodiscard]] std::unique_ptr<Procedure> pulse_responses();  // EXP-OL-2
 

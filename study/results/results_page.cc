@@ -81,6 +81,24 @@ std::string markdown(const procedures::ResultTable& table) {
   return text;
 }
 
+std::string tuning(const Results& results) {
+  std::string text =
+      "\n## Tuning: by the model, by Table 4.1, by the thesis\n\nPoles placed on the model that "
+      "EXP-OL-2 has found (`study/identify/pole_placement.h`). Stiff: the fastest loop within the\n"
+      "sensitivity M_s; the carriage swings behind it nearly undamped. Chain damped: no pole "
+      "decays "
+      "slower than the placed ones.\n";
+  for (const auto& step : results.identified.steps) {
+    if (step.id != "pole-placement") {
+      continue;
+    }
+    for (const auto& table : step.outcome.tables) {
+      text += fmt::format("\nAxis {}.{}", core::name_of(step.axis), markdown(table));
+    }
+  }
+  return text;
+}
+
 std::string recovered(const TowResult& tow) {
   if (tow.recoveries.empty()) {
     return {};
@@ -164,6 +182,7 @@ std::string results_page(const Results& results) {
       "95 %\nintervals. Truth: what the emulated machine is, which no estimator sees.\n\n",
       results.rig);
   text += identification_tables(results.truth, results.identified);
+  text += tuning(results);
   text += tracking(results);
   text += fast_tracking(results);
   text += own_gains_tables(results.own_gains);

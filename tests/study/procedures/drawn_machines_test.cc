@@ -175,6 +175,27 @@ TEST(Tuning, LooksAtSmallerAmplitudesWhereTheLargerDoNotSettle) {
   EXPECT_EQ(outcome.status, ProcedureOutcome::Status::kDone) << outcome.reason;
 }
 
+// Gains from the model drive machines that the controller's defaults do not know; each row beside
+// them is tried at the same speeds.
+TEST(Tuning, PolesPlacedOnADrawnMachinesModelDriveIt) {
+  const auto bench = drawn(2);
+  for (const auto axis : core::kAxes) {
+    const Machine machine(bench.rig, bench.controller, 1);
+    const auto outcome =
+        model_tuning()->run({.machine = machine, .axis = axis, .known = model_of(bench.rig, axis)});
+    ASSERT_EQ(outcome.status, ProcedureOutcome::Status::kDone)
+        << core::name_of(axis) << ": " << outcome.reason;
+    ASSERT_EQ(outcome.tables.size(), 1U);
+    const auto& table = outcome.tables[0];
+    ASSERT_GE(table.rows.size(), 3U);
+    for (const auto& row : table.rows) {
+      EXPECT_EQ(row.size(), table.head.size());
+    }
+    EXPECT_EQ(table.rows[0][0], "poles placed, stiff");
+    EXPECT_NE(table.rows[0].back().find(" / "), std::string::npos) << table.rows[0].back();
+  }
+}
+
 // What goes before EXP-OL-2 finds of the axis; friction's map with its bend at `bend_m`.
 Estimates before_pulses(const RigFixture& rig, Axis axis, std::vector<double> places_m) {
   const auto& plant = rig.parameters.axes[axis].plant;
