@@ -116,4 +116,24 @@ struct ForceSensorParameters {
   }
 };
 
+// Camera above the tank (camera.h). All assumed: a USB camera at 25 Hz whose pixel covers half a
+// millimetre, and what transport and image processing take.
+struct CameraParameters {
+  bool fitted = false;
+  double frame_period_s = 0.04;
+  double delay_s = 0.08;
+  double noise_m = 2e-4;
+  double resolution_m = 5e-4;
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("fitted", fitted, core::any_finite(), "whether the carriage is watched");
+    v.value("frame_period_s", frame_period_s, core::between(1e-3, 10.0),
+            "whole number of milliseconds");
+    v.value("delay_s", delay_s, core::between(0.0, 0.5), "from exposure to arrival");
+    v.value("noise_m", noise_m, core::between(0.0, 0.1), "standard deviation, each frame");
+    v.value("resolution_m", resolution_m, core::between(1e-6, 0.1), "step of what is seen");
+  }
+};
+
 }  // namespace towbench::emulator
