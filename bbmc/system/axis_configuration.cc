@@ -16,6 +16,8 @@ AxisConfiguration x_axis_defaults() noexcept {
                 .coulomb_friction_Nm = 1.6e-3,                           // assumed
                 .viscous_friction_Nm_s_per_rad = 4e-6};                  // assumed
   x.disturbance_observer = {.inertia_kg_m2 = 1.3e-6, .limit_Nm = 5e-3};  // assumed
+  x.nonlinear_observer.inertia_kg_m2 = 1.3e-6;                           // assumed
+  x.nonlinear_observer.limit_Nm = 5e-3;                                  // assumed
   x.chain.carriage_friction_Nm = 1.04e-3;                                // 0.65 C, assumed
   x.homing.carriage_friction_Nm = 1.56e-3;     // 0.65 of break-away, assumed
   x.drive.torque_constant_Nm_per_A = 23.5e-3;  // assumed

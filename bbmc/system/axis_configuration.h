@@ -10,6 +10,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "bbmc/system/observer_configuration.h"
 #include "core/parameter.h"
 
 namespace towbench::bbmc {
@@ -76,30 +77,6 @@ struct FrictionCompensation {
             "speed over which S falls to C");
     v.value("smoothing_rad_per_s", smoothing_rad_per_s, core::above(0.0),
             "reference speed at which half of the dry friction is given");
-  }
-};
-
-// What the motor feels beyond its own inertia, estimated from torque and speed (thesis 9.3.1). Its
-// slow part is taken off; its fast part is the carriage swinging on the chain, and the motor gives
-// way to that as a damper would.
-struct DisturbanceObserverSettings {
-  bool enabled = false;
-  double bandwidth_rad_per_s = 150.0;  // well above the chain's mode
-  double inertia_kg_m2 = 3.6e-6;       // of what turns with the motor, App. A
-  double compensation_rad_per_s = 5.0;
-  double damping_ratio = 0.2;
-  double limit_Nm = 8e-3;  // twice (7.2)
-
-  template <typename Visitor>
-  void visit(Visitor& v) {
-    v.value("enabled", enabled, core::any_finite(), "whether the law uses what it estimates");
-    v.value("bandwidth_rad_per_s", bandwidth_rad_per_s, core::between(0.1, 1e3), "of the estimate");
-    v.value("inertia_kg_m2", inertia_kg_m2, core::above(0.0), "of what turns with the motor");
-    v.value("compensation_rad_per_s", compensation_rad_per_s, core::between(0.1, 1e3),
-            "what is slower than this is taken off, what is faster is damped");
-    v.value("damping_ratio", damping_ratio, core::between(0.0, 1.0),
-            "that the motor adds to the chain's mode; 0 for none");
-    v.value("limit_Nm", limit_Nm, core::above(0.0), "largest torque of either");
   }
 };
 
@@ -287,6 +264,7 @@ struct AxisConfiguration {
   FeedForward feed_forward;
   FrictionCompensation friction;
   DisturbanceObserverSettings disturbance_observer;
+  NonlinearObserverSettings nonlinear_observer;
   ChainFeedForward chain;
   VelocityEstimation velocity;
   DriveConfiguration drive;
@@ -307,6 +285,7 @@ struct AxisConfiguration {
     v.group("feed_forward", feed_forward, "model torque added to the law");
     v.group("friction", friction, "friction compensation added to the law");
     v.group("disturbance_observer", disturbance_observer, "what the model leaves over");
+    v.group("nonlinear_observer", nonlinear_observer, "what friction compensation leaves over");
     v.group("chain", chain, "stretch of the chain added to the reference");
     v.group("velocity", velocity, "velocity estimation");
     v.group("drive", drive, "from torque to PWM");

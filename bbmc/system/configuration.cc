@@ -17,6 +17,10 @@ const char* inconsistency_of(const AxisConfiguration& axis, double control_rate_
   if (axis.braking.rotor_inertia_kg_m2 > axis.braking.inertia_kg_m2) {
     return "braking.rotor_inertia_kg_m2: is part of inertia_kg_m2 and cannot exceed it";
   }
+  if (axis.disturbance_observer.enabled && axis.nonlinear_observer.enabled) {
+    return "nonlinear_observer.enabled: takes off what disturbance_observer takes off; one of the "
+           "two is allowed";
+  }
   if (gains_are_unstable(axis, axis.gains, control_rate_Hz)) {
     return "gains.derivative_Nm_s_per_rad: the sampled loop is unstable from 2 x inertia x control "
            "rate on";

@@ -19,7 +19,7 @@ double friction_torque_Nm(const FrictionCompensation& model, double speed_rad_pe
 }
 
 ControlLaw::ControlLaw(const AxisConfiguration& axis) noexcept
-    : rad_per_m_(1.0 / axis.m_per_rad()), pid_(axis.gains) {
+    : nonlinear_(axis.nonlinear_observer), rad_per_m_(1.0 / axis.m_per_rad()), pid_(axis.gains) {
   set_additions(axis);
 }
 
@@ -27,6 +27,8 @@ void ControlLaw::set_additions(const AxisConfiguration& axis) noexcept {
   feed_forward_ = axis.feed_forward;
   friction_ = axis.friction;
   observer_ = axis.disturbance_observer;
+  nonlinear_ = NonlinearObserver(axis.nonlinear_observer);
+  nonlinear_enabled_ = axis.nonlinear_observer.enabled;
   chain_ = axis.chain;
   held_rad_per_s_ = 2.0 * std::numbers::pi * axis.braking.held_motor_chain_Hz;
   inverse_held_s2_ = 1.0 / (held_rad_per_s_ * held_rad_per_s_);
@@ -42,6 +44,7 @@ void ControlLaw::forget_disturbance() noexcept {
   slow_unexplained_Nm_ = 0;
   give_way_rad_ = 0;
   observing_ = false;
+  nonlinear_.reset();
 }
 
 void ControlLaw::reset() noexcept {
@@ -129,6 +132,12 @@ double ControlLaw::torque_Nm(const Input& input) noexcept {
                 (feed_forward_.enabled ? feed_forward_.inertia_kg_m2 * reference_rad_per_s2 : 0.0)
           : feed_forward_torque_Nm(feed_forward_, reference_rad_per_s, reference_rad_per_s2);
   added_Nm += disturbance_Nm_;
+  const bool observes = nonlinear_enabled_ && moves_reference_;
+  if (observes) {
+    const double speed_rad_per_s = input.velocity_m_per_s * rad_per_m_;
+    added_Nm += nonlinear_.update(input.applied_Nm, speed_rad_per_s,
+                                  friction_torque_Nm(friction_, speed_rad_per_s), input.step_s);
+  }
   added_Nm += pid_.gains().proportional_Nm_per_rad * input.across_path_m * rad_per_m_;
   return pid_.update(
       {.error_rad = (wanted.position_m - input.position_m) * rad_per_m_,
@@ -136,7 +145,8 @@ double ControlLaw::torque_Nm(const Input& input) noexcept {
        .feed_forward_Nm = added_Nm,
        .limit_Nm = input.limit_Nm,
        .step_s = input.step_s,
-       .integral_ratio = input.integral_ratio});
+       .integral_ratio =
+           observes && input.reference.velocity_m_per_s != 0 ? 0.0 : input.integral_ratio});
 }
 
 }  // namespace towbench::bbmc

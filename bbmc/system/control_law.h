@@ -5,7 +5,8 @@
 //   forwards
 //                                 +  [C + (S - C)/(1 + (q'/w_s)^2)] s(q') + B q'    friction,
 //                                 (3.26)
-//                                 +  d                                 disturbance observer, 9.3.1
+//                                 +  d                                 disturbance observer
+//                                 +  d_e                               nonlinear_observer.h, 9.3.1
 //                                 +  r K_P e_n                         cross-coupling, 9.3.2
 //
 // q_c  the reference, or the reference plus the stretch of the chain (J_l q'' + C_l s(q')) / k
@@ -17,10 +18,13 @@
 //      on.
 // e_n  the part of both axes' errors, against q_c, that is across the path
 //
-// When friction compensation is on, the feed-forward gives J q'' only.
+// When friction compensation is on, the feed-forward gives J q'' only, and the nonlinear observer
+// leaves its friction out of d_e. While that observer works and the reference moves, the integral
+// is held.
 #pragma once
 
 #include "bbmc/system/axis_configuration.h"
+#include "bbmc/system/nonlinear_observer.h"
 #include "bbmc/system/pid.h"
 #include "bbmc/system/trajectory/reference.h"
 #include "core/realtime.h"
@@ -54,7 +58,10 @@ class ControlLaw {
   [[nodiscard]] double integral_Nm() const noexcept { return pid_.integral_Nm(); }
   // By how much the last reference was moved on purpose.
   [[nodiscard]] double lead_m() const noexcept { return lead_m_; }
-  [[nodiscard]] double disturbance_Nm() const noexcept { return disturbance_Nm_; }
+  // Of the observer that is enabled.
+  [[nodiscard]] double disturbance_Nm() const noexcept {
+    return disturbance_Nm_ + nonlinear_.estimate_Nm();
+  }
 
  private:
   [[nodiscard]] Reference with_stretch(const Reference& reference, double step_s) noexcept;
@@ -65,6 +72,8 @@ class ControlLaw {
   FeedForward feed_forward_;
   FrictionCompensation friction_;
   DisturbanceObserverSettings observer_;
+  NonlinearObserver nonlinear_;
+  bool nonlinear_enabled_ = false;
   ChainFeedForward chain_;
   double rad_per_m_;
   double inverse_held_s2_ = 0;       // 1 / w_h^2

@@ -38,10 +38,15 @@ core::Status SystemManager::set_law(Axis axis, const AxisConfiguration& parts) n
        {parts.friction.stribeck_speed_rad_per_s, parts.friction.smoothing_rad_per_s,
         parts.disturbance_observer.bandwidth_rad_per_s, parts.disturbance_observer.inertia_kg_m2,
         parts.disturbance_observer.compensation_rad_per_s, parts.disturbance_observer.limit_Nm,
-        parts.chain.smoothing_rad_per_s}) {
+        parts.chain.smoothing_rad_per_s, parts.nonlinear_observer.gain_rad_per_s,
+        parts.nonlinear_observer.inertia_kg_m2, parts.nonlinear_observer.rest_speed_rad_per_s,
+        parts.nonlinear_observer.limit_Nm}) {
     if (!std::isfinite(value) || value <= 0) {
       return failure(ErrorCode::kRequestOutOfRange);
     }
+  }
+  if (parts.disturbance_observer.enabled && parts.nonlinear_observer.enabled) {
+    return failure(ErrorCode::kRequestOutOfRange);
   }
   if (!motion_.at_rest()) {
     return failure(ErrorCode::kRequestWrongState);
@@ -50,6 +55,7 @@ core::Status SystemManager::set_law(Axis axis, const AxisConfiguration& parts) n
   settings.feed_forward = parts.feed_forward;
   settings.friction = parts.friction;
   settings.disturbance_observer = parts.disturbance_observer;
+  settings.nonlinear_observer = parts.nonlinear_observer;
   settings.chain = parts.chain;
   motion_.axis(axis).set_law(settings);
   return {};

@@ -21,6 +21,7 @@ struct Law {
   bool cross_coupling = false;
   bool chain = false;  // with S-curve profiles, which it needs
   bool stiff = false;  // the gains of fixtures/controllers/bbmc-stiff.toml
+  bool nonlinear_observer = false;
 };
 
 inline constexpr std::array<Law, 8> kLaws{{
@@ -40,6 +41,15 @@ inline constexpr std::array<Law, 8> kLaws{{
      .friction = true,
      .observer = true,
      .chain = true},
+}};
+
+// Of thesis 9.3, each beside the law that it is added to.
+inline constexpr std::array<Law, 5> kLaws9_3{{
+    {.name = "PID"},
+    {.name = "PID, nonlinear observer", .nonlinear_observer = true},
+    {.name = "PID, friction", .friction = true},
+    {.name = "PID, friction, nonlinear observer", .friction = true, .nonlinear_observer = true},
+    {.name = "PID, linear observer", .observer = true},
 }};
 
 // The gains of fixtures/controllers/bbmc-tuned.toml and the parts of the law.
