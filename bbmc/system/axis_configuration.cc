@@ -18,7 +18,9 @@ AxisConfiguration x_axis_defaults() noexcept {
   x.disturbance_observer = {.inertia_kg_m2 = 1.3e-6, .limit_Nm = 5e-3};  // assumed
   x.nonlinear_observer.inertia_kg_m2 = 1.3e-6;                           // assumed
   x.nonlinear_observer.limit_Nm = 5e-3;                                  // assumed
-  x.chain.carriage_friction_Nm = 1.04e-3;                                // 0.65 C, assumed
+  x.state_observer.load_Nm_per_sqrt_s = 6e-3;  // assumed, as break-away: 2/3 of Y's
+  x.state_observer.torque_noise_Nm = 3e-4;     // assumed
+  x.chain.carriage_friction_Nm = 1.04e-3;      // 0.65 C, assumed
   x.homing.carriage_friction_Nm = 1.56e-3;     // 0.65 of break-away, assumed
   x.drive.torque_constant_Nm_per_A = 23.5e-3;  // assumed
   x.ends = {.hard_min_count = 0,

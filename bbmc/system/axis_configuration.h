@@ -265,6 +265,7 @@ struct AxisConfiguration {
   FrictionCompensation friction;
   DisturbanceObserverSettings disturbance_observer;
   NonlinearObserverSettings nonlinear_observer;
+  StateObserverSettings state_observer;
   ChainFeedForward chain;
   VelocityEstimation velocity;
   DriveConfiguration drive;
@@ -286,6 +287,7 @@ struct AxisConfiguration {
     v.group("friction", friction, "friction compensation added to the law");
     v.group("disturbance_observer", disturbance_observer, "what the model leaves over");
     v.group("nonlinear_observer", nonlinear_observer, "what friction compensation leaves over");
+    v.group("state_observer", state_observer, "motor, carriage and load from the encoder");
     v.group("chain", chain, "stretch of the chain added to the reference");
     v.group("velocity", velocity, "velocity estimation");
     v.group("drive", drive, "from torque to PWM");

@@ -13,6 +13,7 @@ AxisControl::AxisControl(const AxisConfiguration& axis, const SafetyConfiguratio
       standstill_count_per_s_(axis.braking.standstill_m_per_s * axis.counts_per_m()),
       observer_(axis, exchange_rate_Hz),
       velocity_(axis.velocity, control_rate_Hz),
+      state_observer_(axis, control_rate_Hz),
       law_(axis),
       brake_(axis),
       end_stops_(axis),
@@ -89,13 +90,24 @@ void AxisControl::estimate_velocity() noexcept {
   }
 }
 
+double AxisControl::speed_for_the_law_m_per_s(double step_s) noexcept {
+  if (!state_observer_.works()) {
+    return velocity_m_per_s();
+  }
+  return settings_.m_per_rad() * state_observer_
+                                     .update(motor_rad(),
+                                             velocity_count_per_s() * settings_.rad_per_count(),
+                                             torque_Nm(), step_s)
+                                     .motor_rad_per_s;
+}
+
 void AxisControl::follow(const Reference& reference, AxisMode mode, double step_s,
                          double across_path_m, double integral_ratio) noexcept {
   mode_ = mode;
   reference_ = reference;
   const double wanted_Nm = law_.torque_Nm({.reference = reference,
                                            .position_m = position_m(),
-                                           .velocity_m_per_s = velocity_m_per_s(),
+                                           .velocity_m_per_s = speed_for_the_law_m_per_s(step_s),
                                            .across_path_m = across_path_m,
                                            .applied_Nm = torque_Nm(),
                                            .limit_Nm = torque_limit_Nm_,
@@ -121,6 +133,7 @@ void AxisControl::begin(AxisMode mode, core::Nanoseconds now_ns) noexcept {
   start_count_ = observer_.count();
   reference_ = {.position_m = position_m()};
   law_.reset();
+  state_observer_.reset();
   end_stops_.arm(observer_.raw_count());
 }
 
@@ -179,6 +192,7 @@ void AxisControl::declare_position(std::int64_t count) noexcept {
   // The local state is relative to a place, whatever that place is called.
   start_count_ += count - observer_.count();
   observer_.declare(count);
+  state_observer_.reset();
   calibrated_ = true;
 }
 
@@ -186,6 +200,7 @@ void AxisControl::set_velocity_estimation(const VelocityEstimation& velocity,
                                           double control_rate_Hz) noexcept {
   settings_.velocity = velocity;
   velocity_ = VelocityEstimator(velocity, control_rate_Hz);
+  state_observer_ = StateObserver(settings_, control_rate_Hz);
 }
 
 void AxisControl::set_ticks(double ticks) noexcept {

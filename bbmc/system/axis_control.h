@@ -12,6 +12,7 @@
 #include "bbmc/system/dead_reckoning.h"
 #include "bbmc/system/encoder_plausibility.h"
 #include "bbmc/system/end_stop_guard.h"
+#include "bbmc/system/state_observer.h"
 #include "bbmc/system/stopping_distance.h"
 #include "bbmc/system/telemetry_row.h"
 #include "bbmc/system/trajectory/reference.h"
@@ -101,6 +102,10 @@ class AxisControl {
   }
   // Estimated by the law, if it does; + pushes towards max.
   [[nodiscard]] double disturbance_Nm() const noexcept { return law_.disturbance_Nm(); }
+  // Motor, carriage and load, of the motion that is followed; null where it is not enabled.
+  [[nodiscard]] const AxisState* full_state() const noexcept {
+    return state_observer_.works() ? &state_observer_.state() : nullptr;
+  }
   [[nodiscard]] double lead_m() const noexcept { return law_.lead_m(); }
   [[nodiscard]] double integral_Nm() const noexcept { return law_.integral_Nm(); }
   [[nodiscard]] double motor_rad() const noexcept {
@@ -123,6 +128,7 @@ class AxisControl {
 
  private:
   void set_ticks(double ticks) noexcept;
+  [[nodiscard]] double speed_for_the_law_m_per_s(double step_s) noexcept;
   [[nodiscard]] double speed_limit_here_m_per_s(double speed_m_per_s) const noexcept;
   [[nodiscard]] BrakeInput brake_input(core::Nanoseconds now_ns) const noexcept;
 
@@ -135,6 +141,7 @@ class AxisControl {
   double standstill_count_per_s_;
   AxisObserver observer_;
   VelocityEstimator velocity_;
+  StateObserver state_observer_;
   ControlLaw law_;
   Brake brake_;
   EndStopGuard end_stops_;

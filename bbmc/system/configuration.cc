@@ -21,6 +21,11 @@ const char* inconsistency_of(const AxisConfiguration& axis, double control_rate_
     return "nonlinear_observer.enabled: takes off what disturbance_observer takes off; one of the "
            "two is allowed";
   }
+  if (axis.state_observer.enabled &&
+      !(axis.braking.rotor_inertia_kg_m2 < axis.braking.inertia_kg_m2)) {
+    return "state_observer.enabled: braking.rotor_inertia_kg_m2 must be below inertia_kg_m2, or "
+           "there is no carriage";
+  }
   if (gains_are_unstable(axis, axis.gains, control_rate_Hz)) {
     return "gains.derivative_Nm_s_per_rad: the sampled loop is unstable from 2 x inertia x control "
            "rate on";

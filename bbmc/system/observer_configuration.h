@@ -1,4 +1,4 @@
-// Settings of what estimates a load from torque and encoder. SI at the motor shaft.
+// Settings of what estimates a load or a state from torque and encoder. SI at the motor shaft.
 #pragma once
 
 #include "core/parameter.h"
@@ -46,6 +46,26 @@ struct NonlinearObserverSettings {
     v.value("rest_speed_rad_per_s", rest_speed_rad_per_s, core::above(0.0),
             "speed at which the gain has risen to it");
     v.value("limit_Nm", limit_Nm, core::above(0.0), "largest torque taken off");
+  }
+};
+
+// Of state_observer.h, thesis 9.3.1. Inertias and the chain are those of `braking`.
+struct StateObserverSettings {
+  bool enabled = false;
+  double carriage_share = 0.65;  // of friction, *assumed*
+  // *Assumed*: break-away (7.2) comes and goes within a second at 2 Hz of stick-slip.
+  double load_Nm_per_sqrt_s = 1e-2;
+  double torque_noise_Nm = 5e-4;  // *assumed*: ripple and commutation, 1/7 of break-away
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("enabled", enabled, core::any_finite(), "whether the law takes its speed from it");
+    v.value("carriage_share", carriage_share, core::between(0.0, 1.0),
+            "of the load, behind the chain");
+    v.value("load_Nm_per_sqrt_s", load_Nm_per_sqrt_s, core::between(1e-6, 10.0),
+            "random walk of the load, standard deviation after a second");
+    v.value("torque_noise_Nm", torque_noise_Nm, core::between(1e-9, 1.0),
+            "of the motor, standard deviation from sample to sample");
   }
 };
 

@@ -4,6 +4,7 @@
 namespace towbench::tests {
 
 void print_tracking();
+void print_observers();
 // docs/measurements/tracking-summary.md.
 void print_results();
 // The estimators' errors against truth as a table, and as a picture.

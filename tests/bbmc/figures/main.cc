@@ -9,6 +9,8 @@ int main(int argc, char** argv) {
   const std::string_view page = argc == 2 ? argv[1] : "";
   if (page == "tracking") {
     towbench::tests::print_tracking();
+  } else if (page == "observers") {
+    towbench::tests::print_observers();
   } else if (page == "results") {
     towbench::tests::print_results();
   } else if (page == "session") {
@@ -18,7 +20,8 @@ int main(int argc, char** argv) {
   } else if (page == "velocity.svg") {
     towbench::tests::print_velocity_picture();
   } else {
-    std::fputs("usage: bbmc_figures tracking|results|session|velocity|velocity.svg\n", stderr);
+    std::fputs("usage: bbmc_figures tracking|observers|results|session|velocity|velocity.svg\n",
+               stderr);
     return 2;
   }
   return 0;

@@ -68,6 +68,7 @@ bbmc::Configuration tuned(const Law& law) {
     axis.disturbance_observer.enabled = law.observer;
     axis.chain.enabled = law.chain;
     axis.nonlinear_observer.enabled = law.nonlinear_observer;
+    axis.state_observer.enabled = law.full_state;
     axis.chain.smoothing_rad_per_s = 0.3;
   }
   // As bbmc-best.toml: where an axis reverses, it is break-away that stretches the chain.

@@ -22,6 +22,7 @@ struct Law {
   bool chain = false;  // with S-curve profiles, which it needs
   bool stiff = false;  // the gains of fixtures/controllers/bbmc-stiff.toml
   bool nonlinear_observer = false;
+  bool full_state = false;  // the law's speed from the state observer
 };
 
 inline constexpr std::array<Law, 8> kLaws{{
@@ -44,12 +45,13 @@ inline constexpr std::array<Law, 8> kLaws{{
 }};
 
 // Of thesis 9.3, each beside the law that it is added to.
-inline constexpr std::array<Law, 5> kLaws9_3{{
+inline constexpr std::array<Law, 6> kLaws9_3{{
     {.name = "PID"},
     {.name = "PID, nonlinear observer", .nonlinear_observer = true},
     {.name = "PID, friction", .friction = true},
     {.name = "PID, friction, nonlinear observer", .friction = true, .nonlinear_observer = true},
     {.name = "PID, linear observer", .observer = true},
+    {.name = "PID, speed of the state observer", .full_state = true},
 }};
 
 // The gains of fixtures/controllers/bbmc-tuned.toml and the parts of the law.
