@@ -13,6 +13,7 @@
 #include "harness/experiment/hand_act.h"
 #include "harness/experiment/reference.h"
 #include "harness/fault_plan/fault.h"
+#include "harness/requirements/requirement.h"
 
 namespace towbench::harness {
 
@@ -60,6 +61,7 @@ struct Experiment {
   std::vector<HandAct> hand;              // sorted by time; empty: nobody interfered
   std::vector<EvaluationWindow> windows;  // the first is "whole"
   std::vector<Budget> budgets;
+  std::vector<Requirement> requirements;
   bool budgets_apply = true;  // not to a machine that was broken on the command line or by hand
 };
 

@@ -8,6 +8,7 @@
 #include "harness/experiment/event_text.h"
 #include "harness/experiment/reference_table.h"
 #include "harness/experiment/reference_text.h"
+#include "harness/experiment/requirement_text.h"
 #include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/canonical_hash.h"
 #include "harness/metrics/metric.h"
@@ -157,6 +158,7 @@ Experiment read_script(TableReader& reader) {
   for (auto& budget : reader.tables("budget")) {
     experiment.budgets.push_back(read_budget(budget, experiment.windows));
   }
+  experiment.requirements = read_requirements(reader, experiment.windows);
   return experiment;
 }
 

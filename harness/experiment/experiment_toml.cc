@@ -7,6 +7,7 @@
 #include "harness/experiment/board_plan_text.h"
 #include "harness/experiment/event_text.h"
 #include "harness/experiment/reference_text.h"
+#include "harness/experiment/requirement_text.h"
 #include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/toml_number.h"
 #include "harness/fixtures/toml_string.h"
@@ -85,6 +86,8 @@ std::string to_toml(const ExperimentFixture& fixture, const std::string& rig,
   append(text, experiment.hand, hand_toml);
   append(text, std::span(experiment.windows).subspan(1), window_toml);  // "whole" always exists
   append(text, experiment.budgets, budget_toml);
+  append(text, experiment.requirements,
+         [](const Requirement& requirement) { return to_toml(requirement); });
   return text;
 }
 

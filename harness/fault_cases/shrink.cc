@@ -225,6 +225,7 @@ ShrunkCase shrink(const ExperimentFixture& failing, const CaseJudge& judge) {
   auto plain = failing;
   plain.experiment.windows.resize(1);
   plain.experiment.budgets.clear();
+  plain.experiment.requirements.clear();
   const auto broken = broken_rule(plain, judge, "");
   if (!broken) {
     throw FixtureError({.file = failing.file.string()}, "a run that breaks no requirement",

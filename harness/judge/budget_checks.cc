@@ -62,6 +62,16 @@ std::vector<ResolvedWindow> resolve_windows(const std::vector<EvaluationWindow>&
   return resolved;
 }
 
+std::map<std::string, TraceWindow> trace_windows(const std::vector<ResolvedWindow>& windows) {
+  std::map<std::string, TraceWindow> found;
+  for (const auto& window : windows) {
+    if (window.found) {
+      found[window.name] = {window.span.from_s, window.span.to_s};
+    }
+  }
+  return found;
+}
+
 std::vector<Measurement> measure(const RunData& data, const std::vector<ResolvedWindow>& windows) {
   std::vector<Measurement> measurements;
   for (const auto& window : windows) {

@@ -1,12 +1,14 @@
 // Every metric over every window, and the budgets judged on them.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
 #include "harness/checks/check.h"
 #include "harness/experiment/experiment.h"
 #include "harness/metrics/metric.h"
+#include "harness/signal_logic/trace.h"
 
 namespace towbench::harness {
 
@@ -19,6 +21,10 @@ struct ResolvedWindow {
 
 [[nodiscard]] std::vector<ResolvedWindow> resolve_windows(
     const std::vector<EvaluationWindow>& windows, const RunData& data);
+
+// As formulas see them; those that the run does not have are left out.
+[[nodiscard]] std::map<std::string, TraceWindow> trace_windows(
+    const std::vector<ResolvedWindow>& windows);
 
 struct Measurement {
   const Metric* metric = nullptr;

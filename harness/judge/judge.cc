@@ -4,6 +4,7 @@
 
 #include "harness/checks/sensor_files.h"
 #include "harness/judge/integrity_checks.h"
+#include "harness/requirements/run_signals.h"
 
 namespace towbench::harness {
 namespace {
@@ -53,7 +54,7 @@ Check script_check(const RunOutcome& outcome) {
 // An experiment that demands nothing shows nothing.
 Check no_budget() {
   return invalid_check("budgets", "the experiment states what must come out",
-                       "the experiment has no [[budget]]");
+                       "the experiment has no [[budget]] and no [[requirement]]");
 }
 
 // What a person typed besides the script makes budgets of the script say nothing.
@@ -61,6 +62,28 @@ Check driven_by_hand() {
   return invalid_check(
       "driven_by_hand", "the experiment is the one that its budgets speak of",
       "typed or changed by hand; the run is recorded and replays, but proves nothing");
+}
+
+void judge_requirements(const Experiment& experiment, const RunData& data, Judgement& judgement) {
+  std::vector<const Requirement*> asked;
+  for (const auto& requirement : experiment.requirements) {
+    if (experiment.budgets_apply || requirement.under_faults) {
+      asked.push_back(&requirement);
+    }
+  }
+  if (asked.empty()) {
+    return;
+  }
+  const auto trace = trace_of(data, trace_windows(judgement.windows));
+  judgement.time_s = trace.time_s;
+  for (const auto* requirement : asked) {
+    auto judged = judge_requirement(*requirement, trace);
+    // A fault may take the occasion away, as with the rules for every run.
+    if (judged.check.verdict != Verdict::kInvalid || experiment.budgets_apply) {
+      judgement.checks.push_back(judged.check);
+      judgement.requirements.push_back(std::move(judged));
+    }
+  }
 }
 
 }  // namespace
@@ -93,8 +116,10 @@ Judgement judge(const std::filesystem::path& folder, const ExperimentFixture& fi
         checks.push_back(judge_budget(budget, judgement.measurements));
       }
     }
+    judge_requirements(fixture.experiment, data, judgement);
     // Faults bring their own requirements.
-    if (fixture.experiment.budgets.empty() && fixture.experiment.faults.empty()) {
+    if (fixture.experiment.budgets.empty() && judgement.requirements.empty() &&
+        fixture.experiment.faults.empty()) {
       checks.push_back(no_budget());
     }
     if (!fixture.experiment.budgets_apply && fixture.experiment.faults.empty()) {

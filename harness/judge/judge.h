@@ -9,6 +9,7 @@
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/judge/budget_checks.h"
 #include "harness/lockstep/run_outcome.h"
+#include "harness/requirements/judged_requirement.h"
 
 namespace towbench::harness {
 
@@ -18,6 +19,9 @@ struct Judgement {
   std::vector<Check> checks;
   std::vector<ResolvedWindow> windows;
   std::vector<Measurement> measurements;
+  // Their checks stand among `checks`; these have the margins over time, at the times of log.csv.
+  std::vector<JudgedRequirement> requirements;
+  std::vector<double> time_s;
 };
 
 // Reads the record; never throws: a record that cannot be read is INVALID and says why.

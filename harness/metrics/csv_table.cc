@@ -79,6 +79,13 @@ CsvTable CsvTable::parse(std::string_view text, const std::filesystem::path& pat
   return table;
 }
 
+CsvTable CsvTable::of(std::map<std::string, std::vector<double>, std::less<>> columns) {
+  CsvTable table;
+  table.rows_ = columns.empty() ? 0 : columns.begin()->second.size();
+  table.columns_ = std::move(columns);
+  return table;
+}
+
 bool CsvTable::has(std::string_view column) const {
   return columns_.find(column) != columns_.end();
 }

@@ -24,6 +24,9 @@ class CsvTable {
   // The same of a text that is there already; `path` names it.
   [[nodiscard]] static CsvTable parse(std::string_view text, const std::filesystem::path& path);
 
+  // Columns that are in memory, all of the same length.
+  [[nodiscard]] static CsvTable of(std::map<std::string, std::vector<double>, std::less<>> columns);
+
   [[nodiscard]] std::size_t rows() const noexcept { return rows_; }
   [[nodiscard]] bool has(std::string_view column) const;
   [[nodiscard]] std::vector<std::string> names() const;

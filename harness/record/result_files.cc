@@ -1,5 +1,7 @@
 #include "harness/record/result_files.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -109,6 +111,22 @@ json metrics_json(const Judgement& judgement, double end_s) {
   return {{"schema", 1}, {"windows", windows}, {"metrics", metrics}};
 }
 
+// One column a requirement, empty where it demands nothing.
+void write_margins(const std::filesystem::path& path, const Judgement& judgement) {
+  std::string text = "time_s";
+  for (const auto& requirement : judgement.requirements) {
+    text += ',' + requirement.check.name;
+  }
+  for (std::size_t i = 0; i < judgement.time_s.size(); ++i) {
+    text += fmt::format("\n{}", judgement.time_s[i]);
+    for (const auto& requirement : judgement.requirements) {
+      const double margin = requirement.robustness.over_time[i];
+      text += std::isfinite(margin) ? fmt::format(",{}", margin) : ",";
+    }
+  }
+  write_atomically(path, text + '\n');
+}
+
 void write_json(const std::filesystem::path& path, const json& value) {
   constexpr int kIndent = 2;
   write_atomically(path, value.dump(kIndent, ' ', false, json::error_handler_t::replace) + "\n");
@@ -143,6 +161,9 @@ void write_judged(const std::filesystem::path& folder, const ExperimentFixture& 
   result["checks"] = json::array();
   for (const auto& check : judgement.checks) {
     result["checks"].push_back(check_json(check));
+  }
+  if (!judgement.requirements.empty()) {
+    write_margins(folder / "margins.csv", judgement);
   }
   write_json(folder / "metrics.json", metrics_json(judgement, core::seconds(outcome.end_ns)));
   write_atomically(folder / "junit.xml",

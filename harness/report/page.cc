@@ -72,6 +72,7 @@ void append_run(const RunContents& run, std::size_t index, int level, std::size_
   parts.body += plots_section(table, index, level);
   parts.body += force_section(table, level);
   parts.body += checks_section(run, level);
+  parts.body += margins_section(run, level);
   parts.body += events_section(run, events, level);
   parts.body += metrics_section(run, level);
   parts.body += console_section(run, level);

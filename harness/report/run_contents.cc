@@ -119,6 +119,9 @@ RunContents read_run(const std::filesystem::path& run_folder) {
       run.sensors.emplace(file, std::move(*table));
     }
   }
+  if (std::filesystem::exists(folder / "margins.csv")) {
+    run.margins = read_table(folder / "margins.csv", run.remarks);
+  }
   auto agreement = agreement_of(folder, run.result, run.metrics);
   run.origin = agreement.origin;
   run.contradictions = std::move(agreement.contradictions);

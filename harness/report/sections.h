@@ -30,6 +30,8 @@ inline constexpr std::size_t kMaxOfRoutineKind = 6;
 [[nodiscard]] std::string run_title(const RunContents& run);
 [[nodiscard]] std::string verdict_section(const RunContents& run, const Verdict& verdict);
 [[nodiscard]] std::string checks_section(const RunContents& run, int level);
+// Each requirement's margin over time with its worst moment; empty where none was judged.
+[[nodiscard]] std::string margins_section(const RunContents& run, int level);
 [[nodiscard]] std::string plots_section(const PlotTable& table, std::size_t run_index, int level);
 // Force against speed; empty without a force sensor.
 [[nodiscard]] std::string force_section(const PlotTable& table, int level);
