@@ -48,7 +48,7 @@ std::unique_ptr<CaseRecord> run_case(const ExperimentFixture& fixture,
   LockstepBench bench(fixture.controller.configuration, fixture.rig.hash, link, record.get());
   bench.run_on(injection.host);
   record->keep_time_of(&injection.host);
-  record->outcome = play(experiment, bench, *record, {}, RunEnd::kUndriven);
+  record->outcome = play(experiment, bench, *record, {}, RunEnd::kUndriven, options.hand);
   record->keep_time_of(nullptr);
   record->outcome.control_period_ns = fixture.controller.configuration.control_period_ns();
   return record;

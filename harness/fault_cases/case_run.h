@@ -8,6 +8,7 @@
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/fault_cases/case_link.h"
 #include "harness/fault_cases/case_record.h"
+#include "harness/lockstep/hand.h"
 #include "harness/lockstep/injection.h"
 
 namespace towbench::harness {
@@ -20,6 +21,7 @@ struct CaseOptions {
   std::uint64_t seed = 1;
   std::optional<FullReverse> reverse{};
   std::optional<double> until_s{};  // instead of the experiment's own limit
+  Hand* hand = nullptr;             // null: the experiment's own, if it has one
 };
 
 // `built` is the fixture's rig with what the plan builds in.

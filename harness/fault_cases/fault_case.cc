@@ -118,11 +118,9 @@ std::unique_ptr<CaseRecord> run_reference(const ExperimentFixture& plain, std::u
   return run_case(plain, plain.rig.parameters, nothing, {.seed = seed});
 }
 
-CaseVerdict judge_case(const ExperimentFixture& plain, const PreparedPlan& prepared,
-                       const CaseRecord& reference, std::uint64_t seed,
-                       std::unique_ptr<CaseRecord>* run_out) {
+CaseVerdict judge_run(const ExperimentFixture& plain, const PreparedPlan& prepared,
+                      const CaseRecord& reference, std::uint64_t seed, const CaseRecord& run) {
   CaseVerdict verdict;
-  auto run = run_case(plain, prepared.built, prepared.injection, {.seed = seed});
   core::Nanoseconds cause_ns = -1;
   verdict.fired = true;
   for (std::size_t i = 0; i < prepared.plan.size(); ++i) {
@@ -130,29 +128,37 @@ CaseVerdict judge_case(const ExperimentFixture& plain, const PreparedPlan& prepa
       continue;
     }
     core::Nanoseconds fired_ns = -1;
-    verdict.checks.push_back(fired_check(plain, prepared, reference, *run, seed, i, fired_ns));
+    verdict.checks.push_back(fired_check(plain, prepared, reference, run, seed, i, fired_ns));
     verdict.fired = verdict.fired && fired_ns >= 0;
     if (fired_ns >= 0) {
       // Signals are compared once an exchange; a cause inside it is known to the nanosecond.
       const auto onset_ns = prepared.onsets_ns[i];
-      const bool inside = onset_ns <= fired_ns && fired_ns - onset_ns <= run->outcome.exchange_ns;
+      const bool inside = onset_ns <= fired_ns && fired_ns - onset_ns <= run.outcome.exchange_ns;
       const auto exact_ns = inside ? onset_ns : fired_ns;
       cause_ns = cause_ns < 0 ? exact_ns : std::min(cause_ns, exact_ns);
     }
   }
   cause_ns = std::max<core::Nanoseconds>(cause_ns, 0);
-  const auto* fault = run->first_fault();
+  const auto* fault = run.first_fault();
   const auto* reference_fault = reference.first_fault();
   verdict.detected =
       fault != nullptr && (reference_fault == nullptr || reference_fault->code != fault->code ||
                            reference_fault->time_ns != fault->time_ns);
-  verdict.figures = figures_of(*run, cause_ns);
-  const CaseEvidence evidence{plain, prepared, reference, *run, cause_ns, seed};
+  verdict.figures = figures_of(run, cause_ns);
+  const CaseEvidence evidence{plain, prepared, reference, run, cause_ns, seed};
   if (verdict.fired) {  // what did not happen says nothing about the controller
     judge_requirements(evidence, verdict);
   }
   verdict.handled = std::all_of(verdict.checks.begin(), verdict.checks.end(),
                                 [](const auto& check) { return check.verdict == Verdict::kPass; });
+  return verdict;
+}
+
+CaseVerdict judge_case(const ExperimentFixture& plain, const PreparedPlan& prepared,
+                       const CaseRecord& reference, std::uint64_t seed,
+                       std::unique_ptr<CaseRecord>* run_out) {
+  auto run = run_case(plain, prepared.built, prepared.injection, {.seed = seed});
+  auto verdict = judge_run(plain, prepared, reference, seed, *run);
   if (run_out != nullptr) {
     *run_out = std::move(run);
   }

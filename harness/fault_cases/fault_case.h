@@ -54,6 +54,11 @@ struct CaseVerdict {
 [[nodiscard]] std::unique_ptr<CaseRecord> run_reference(const ExperimentFixture& plain,
                                                         std::uint64_t seed, bool over_can = false);
 
+// Judges a run that was made as prepared.
+[[nodiscard]] CaseVerdict judge_run(const ExperimentFixture& plain, const PreparedPlan& prepared,
+                                    const CaseRecord& reference, std::uint64_t seed,
+                                    const CaseRecord& run);
+
 // Runs and judges. Faults that strike the record are left out: there is none in memory. `plain` is
 // without expectations; `run_out` takes the record when it is not null.
 [[nodiscard]] CaseVerdict judge_case(const ExperimentFixture& plain, const PreparedPlan& prepared,
