@@ -1,6 +1,6 @@
 #!/bin/sh
 # The pages of docs/reference that the programs and the sources define: verbs.md, metrics.md,
-# errors.md, faults.md.
+# signals.md, errors.md, faults.md.
 # usage: write_reference.sh ROOT BENCH PANEL STUDY [FOLDER]     FOLDER: write there instead of docs/reference
 #        write_reference.sh --check ROOT BENCH PANEL STUDY      exit 1 where the pages differ from the programs
 # shellcheck disable=SC2016  # the backticks are Markdown
@@ -28,7 +28,7 @@ help_of() { # help_of PROGRAM VERB
 
 {
   printf '# Verbs\n\n`./towbench VERB --help`, as the programs print it. Written by `tools/write_reference.sh`.\n'
-  for verb in demo run list validate emulate control replay report campaign conform doctor completion; do help_of "$bench" "$verb"; done
+  for verb in demo run list validate emulate control replay report campaign falsify conform doctor completion; do help_of "$bench" "$verb"; done
   help_of "$panel" panel
   for verb in identify tow results diagnose; do help_of "$study" "$verb"; done
   for verb in test package; do
@@ -43,6 +43,12 @@ help_of() { # help_of PROGRAM VERB
   "$bench" list --metrics | sed 's/ *$//'
   printf '```\n'
 } >"$out/metrics.md"
+
+{
+  printf '# Signals and events\n\nWhat the formula of a `[[requirement]]` may name (`./towbench list --signals`). Written by `tools/write_reference.sh`.\n\n```text\n'
+  "$bench" list --signals | sed 's/ *$//'
+  printf '```\n'
+} >"$out/signals.md"
 
 # Numbers and names from core/error.h, phrases from core/error.cc.
 {
@@ -84,7 +90,7 @@ help_of() { # help_of PROGRAM VERB
 
 if $check; then
   status=0
-  for page in verbs metrics errors faults; do
+  for page in verbs metrics signals errors faults; do
     if ! diff -u "$root/docs/reference/$page.md" "$out/$page.md"; then
       echo "docs/reference/$page.md differs: run tools/write_reference.sh" >&2
       status=1

@@ -19,6 +19,7 @@ void add_emulate(CLI::App& app, int& exit_code);
 void add_control(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_campaign(CLI::App& app, int& exit_code);
+void add_falsify(CLI::App& app, int& exit_code);
 void add_conform(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);

@@ -31,13 +31,17 @@ std::string experiment_names() {
   return words;
 }
 
+bool takes_experiments(const std::string& verb) {
+  return verb == "run" || verb == "falsify";
+}
+
 std::string bash_script(const CLI::App& app) {
   std::string verbs;
   std::string cases;
   for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
     verbs += " " + verb->get_name();
     cases += fmt::format("    {}) words='{}{}' ;;\n", verb->get_name(), long_options_of(*verb),
-                         verb->get_name() == "run" ? experiment_names() : "");
+                         takes_experiments(verb->get_name()) ? experiment_names() : "");
   }
   return fmt::format(
       "_towbench() {{\n"

@@ -1,4 +1,5 @@
-// towbench list: the experiments there are, or the metrics that a budget may name.
+// towbench list: the experiments there are, the metrics that a budget may name, the signals and
+// events of a requirement.
 #include <cstdio>
 #include <memory>
 
@@ -10,12 +11,14 @@
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/metrics/metric.h"
+#include "harness/requirements/run_signals.h"
 
 namespace towbench::harness {
 namespace {
 
 struct ListOptions {
   bool metrics = false;
+  bool signals = false;
   bool json = false;
 };
 
@@ -28,6 +31,32 @@ int list_metrics(bool json) {
       std::printf("%-36s %-5s %s\n", metric.name.c_str(), metric.unit.c_str(),
                   metric.meaning.c_str());
     }
+  }
+  if (json) {
+    std::printf("%s\n", array.dump(2).c_str());
+  }
+  return kExitPass;
+}
+
+int list_signals(bool json) {
+  auto array = nlohmann::json::array();
+  const auto tell = [&](const std::string& name, std::string_view unit, std::string_view meaning) {
+    if (json) {
+      array.push_back({{"name", name}, {"unit", unit}, {"meaning", meaning}});
+    } else {
+      std::printf("%-20s %-6s %s\n", name.c_str(), std::string(unit).c_str(),
+                  std::string(meaning).c_str());
+    }
+  };
+  for (const auto axis : core::kAxes) {
+    for (const auto& signal : run_signals()) {
+      tell(std::string(core::name_of(axis)) + '_' + std::string(signal.name), signal.unit,
+           signal.meaning);
+    }
+  }
+  tell("fault", "1", "number of the first latched fault; 0: none");
+  for (const auto& event : run_event_names()) {
+    tell(std::string(event.name), "event", event.meaning);
   }
   if (json) {
     std::printf("%s\n", array.dump(2).c_str());
@@ -64,12 +93,17 @@ int list_experiments(bool json) {
 
 void add_list(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ListOptions>();
-  auto* verb = app.add_subcommand("list", "list the experiments, or the metrics for budgets");
+  auto* verb =
+      app.add_subcommand("list", "list the experiments, or what budgets and requirements may name");
   verb->add_flag("--metrics", options->metrics, "the metrics that a [[budget]] may name");
+  verb->add_flag("--signals", options->signals,
+                 "the signals and events that a [[requirement]] may name");
   verb->add_flag("--json", options->json, "print JSON");
   verb->footer("Example: towbench list --metrics");
   verb->callback([options, &exit_code] {
-    exit_code = options->metrics ? list_metrics(options->json) : list_experiments(options->json);
+    exit_code = options->metrics   ? list_metrics(options->json)
+                : options->signals ? list_signals(options->json)
+                                   : list_experiments(options->json);
   });
 }
 

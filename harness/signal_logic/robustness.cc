@@ -63,7 +63,7 @@ double distance(Comparison comparison, double left, double right) {
     case Comparison::kEqual:
       break;
   }
-  return -std::fabs(left - right);
+  return 0 - std::fabs(left - right);  // 0, not -0
 }
 
 double truth(Comparison comparison, double left, double right) {

@@ -1,0 +1,54 @@
+// Searches the unit box for the smallest value of a function that is costly and may be undefined:
+// a share of uniform samples, so that it can be said what was covered, then an optimiser of NLopt
+// from the best of them.
+//
+// Everything follows from the seed: the same seed gives the same points.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace towbench::harness {
+
+using BoxPoint = std::vector<double>;  // each 0 .. 1
+
+enum class Optimiser : std::uint8_t {
+  kUniform,  // nothing but samples
+  kSubplex,  // from the best samples, one after the other (Rowan 1990; NLopt LN_SBPLX)
+  kCrs,      // controlled random search (Kaelo and Ali 2006; NLopt GN_CRS2_LM)
+  kDirect,   // dividing rectangles (Gablonsky and Kelley 2001; NLopt GN_DIRECT_L)
+  kEsch,     // evolutionary (da Silva Santos 2010; NLopt GN_ESCH)
+};
+inline constexpr std::string_view kOptimiserNames[] = {"uniform", "sbplx", "crs2", "direct",
+                                                       "esch"};
+
+struct BoxSearchSettings {
+  std::size_t variables = 1;
+  std::size_t runs = 100;
+  std::uint64_t seed = 1;
+  Optimiser optimiser = Optimiser::kSubplex;
+  double uniform_share = 0.5;          // of the runs; not of kUniform
+  std::optional<double> stop_below{};  // the search is over at a smaller value
+};
+
+struct BoxTrial {
+  BoxPoint point{};
+  std::optional<double> value{};  // none: undefined there
+  bool uniform = false;           // sampled, not chosen
+};
+
+struct BoxSearchResult {
+  std::vector<BoxTrial> trials{};     // in the order in which they were made
+  std::optional<std::size_t> best{};  // of the smallest value, the first
+};
+
+// `measure` is called once a trial; it returns the value there, or none.
+[[nodiscard]] BoxSearchResult search_box(
+    const BoxSearchSettings& settings,
+    const std::function<std::optional<double>(const BoxTrial& trial)>& measure);
+
+}  // namespace towbench::harness

@@ -1,0 +1,86 @@
+#include <algorithm>
+
+#include "harness/falsify/objective.h"
+#include "harness/falsify/rule_margin.h"
+#include "harness/fault_cases/faulted_experiment.h"
+#include "harness/record/temporary_folder.h"
+#include "harness/run/experiment_run.h"
+
+namespace towbench::harness {
+namespace {
+
+class Candidate final : public Objective {
+ public:
+  Candidate(const ExperimentFixture& fixture, Asked asked, CandidateController controller)
+      : fixture_(fixture), asked_(std::move(asked)), controller_(std::move(controller)) {
+    auto& requirements = fixture_.experiment.requirements;
+    requirements.clear();
+    if (asked_.requirement) {
+      requirements.push_back(*asked_.requirement);
+      requirements.front().under_faults = true;
+    }
+    reference_ = reference_run_of(controller_, fixture_);
+    if (!reference_->record.outcome.complete) {
+      throw FixtureError({.file = fixture.file.string()}, reference_->record.outcome.reason,
+                         "a controller whose run without faults comes to its end");
+    }
+  }
+
+  Outcome measure(const FaultPlan& plan) override {
+    try {
+      return run(plan);
+    } catch (const FixtureError& error) {
+      return {.reason = error.what()};
+    }
+  }
+
+  double end_s() const override { return core::seconds(reference_->record.outcome.end_ns); }
+
+ private:
+  Outcome run(const FaultPlan& plan) const {
+    auto faulted = fixture_;
+    add_faults(faulted, plan);
+    const TemporaryFolder folder;
+    RunOptions options;
+    options.out = folder.path();
+    options.reference = reference_;
+    choose_candidate(controller_, options);
+    const auto run = run_experiment(faulted, options);
+    Outcome outcome;
+    if (!run.complete) {
+      outcome.reason = run.reason;
+      return outcome;
+    }
+    auto checks = run.judgement.checks;
+    outcome.fired = std::none_of(checks.begin(), checks.end(), [](const Check& check) {
+      return check.name.starts_with("fault_") && check.name.ends_with("_fired") &&
+             check.verdict != Verdict::kPass;
+    });
+    if (asked_.requirement) {
+      std::erase_if(checks,
+                    [&](const Check& check) { return check.name != asked_.requirement->id; });
+      if (!checks.empty() && outcome.fired) {
+        outcome.margin = checks.front().margin;
+        outcome.broken = checks.front().verdict == Verdict::kFail;
+        outcome.reason = checks.front().reason;
+      }
+    } else if (outcome.fired) {
+      add_margin_of(checks, outcome);
+    }
+    return outcome;
+  }
+
+  ExperimentFixture fixture_;
+  Asked asked_;
+  CandidateController controller_;
+  std::shared_ptr<const ReferenceRun> reference_;
+};
+
+}  // namespace
+
+std::unique_ptr<Objective> candidate_objective(const ExperimentFixture& fixture, Asked asked,
+                                               CandidateController controller) {
+  return std::make_unique<Candidate>(fixture, std::move(asked), std::move(controller));
+}
+
+}  // namespace towbench::harness

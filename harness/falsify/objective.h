@@ -1,0 +1,58 @@
+// By how much one run with faults keeps what is asked of it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "harness/campaign/candidate_controller.h"
+#include "harness/experiment/experiment_fixture.h"
+#include "harness/fault_plan/fault.h"
+
+namespace towbench::harness {
+
+struct Outcome {
+  bool fired = false;              // each fault took effect; else nothing was tried
+  std::optional<double> margin{};  // none: no occasion
+  bool broken = false;
+  std::string reason{};
+};
+
+// What is asked: a requirement of the experiment, or the rules that hold whatever fails
+// (docs/theory/safety.md) as one number: of the checks that have a limit the smallest distance to
+// it over its size, -1 for another that is broken, 1 for another that is kept.
+struct Asked {
+  std::optional<Requirement> requirement{};  // none: the rules
+  [[nodiscard]] std::string name() const { return requirement ? requirement->id : "rules"; }
+  [[nodiscard]] std::string text() const {
+    return requirement ? requirement->text : "the rules of docs/theory/safety.md";
+  }
+  [[nodiscard]] std::string unit() const {
+    return requirement && requirement->parsed.unit != "1" ? requirement->parsed.unit : "";
+  }
+};
+
+class Objective {
+ public:
+  Objective() = default;
+  Objective(const Objective&) = delete;
+  Objective& operator=(const Objective&) = delete;
+  virtual ~Objective() = default;
+
+  // Every fault begins at a time that is given. Never throws for a plan that cannot be: it did not
+  // fire.
+  [[nodiscard]] virtual Outcome measure(const FaultPlan& plan) = 0;
+  // Where the fault-free run ends.
+  [[nodiscard]] virtual double end_s() const = 0;
+};
+
+// BBMC in this process; each run goes on from a snapshot of the fault-free one. `snapshots` = 0:
+// each begins anew. Throws FixtureError when the run without faults does not come to its end.
+[[nodiscard]] std::unique_ptr<Objective> in_process_objective(const ExperimentFixture& fixture,
+                                                              Asked asked, std::size_t snapshots);
+// A program of its own or an image, each run from its start.
+[[nodiscard]] std::unique_ptr<Objective> candidate_objective(const ExperimentFixture& fixture,
+                                                             Asked asked,
+                                                             CandidateController controller);
+
+}  // namespace towbench::harness

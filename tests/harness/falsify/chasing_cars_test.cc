@@ -1,0 +1,103 @@
+// Optimiser and logic on a published problem, apart from the bench: formulas CC1 to CC5 of the ARCH
+// competition, with inputs constant over 20 stretches of 5 s (its instance 2).
+#include "tests/harness/falsify/chasing_cars.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "harness/falsify/box_search.h"
+#include "harness/signal_logic/formula_text.h"
+#include "harness/signal_logic/robustness.h"
+
+namespace towbench::harness {
+namespace {
+
+constexpr std::size_t kParts = 20;
+
+const Vocabulary kCars{
+    .signals = {{"y1", "m"}, {"y2", "m"}, {"y3", "m"}, {"y4", "m"}, {"y5", "m"}}};
+
+Robustness of(const BoxPoint& inputs, const char* text) {
+  const std::vector<double> throttle(inputs.begin(), inputs.begin() + kParts);
+  const std::vector<double> brake(inputs.begin() + kParts, inputs.end());
+  auto run = tests::ChasingCars::run(throttle, brake);
+  const Trace trace{.time_s = std::move(run.time_s),
+                    .signals = {run.y_m[0], run.y_m[1], run.y_m[2], run.y_m[3], run.y_m[4]}};
+  const auto parsed = parse_formula(text, kCars);
+  return robustness_of(parsed->formula, trace);
+}
+
+// Runs until the formula was broken; `most` + 1 when it never was.
+std::size_t runs_needed(const char* text, Optimiser optimiser, std::uint64_t seed,
+                        std::size_t most) {
+  const BoxSearchSettings settings{.variables = 2 * kParts,
+                                   .runs = most,
+                                   .seed = seed,
+                                   .optimiser = optimiser,
+                                   .uniform_share = 0.1,
+                                   .stop_below = 0.0};
+  const auto found =
+      search_box(settings, [&](const BoxTrial& trial) { return of(trial.point, text).margin; });
+  const bool broken = found.best && *found.trials[*found.best].value < 0;
+  // What the search calls broken is broken in the logic's other reading too.
+  EXPECT_TRUE(!broken || !of(found.trials[*found.best].point, text).holds);
+  return broken ? found.trials.size() : most + 1;
+}
+
+std::size_t median_of(const char* text, Optimiser optimiser, std::size_t most) {
+  std::vector<std::size_t> runs;
+  for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+    runs.push_back(runs_needed(text, optimiser, seed, most));
+  }
+  std::nth_element(runs.begin(), runs.begin() + 4, runs.end());
+  ::testing::Test::RecordProperty(std::string(kOptimiserNames[static_cast<int>(optimiser)]),
+                                  std::to_string(runs[4]));
+  return runs[4];
+}
+
+constexpr const char* kCc1 = "always within 100 s: y5 - y4 <= 40 m";
+constexpr const char* kCc2 = "always within 70 s: eventually within 30 s: y5 - y4 >= 15 m";
+constexpr const char* kCc3 =
+    "always within 80 s: (always within 20 s: y2 - y1 <= 20 m) or (eventually within 20 s: y5 - "
+    "y4 >= 40 m)";
+constexpr const char* kCc4 =
+    "always within 65 s: eventually within 30 s: always within 5 s: y5 - y4 >= 8 m";
+constexpr const char* kCc5 =
+    "always within 72 s: eventually within 8 s: (always within 5 s: y2 - y1 >= 9 m) implies "
+    "(always from 5 s to 20 s: y5 - y4 >= 9 m)";
+
+TEST(ChasingCars, StandStillUntilTheFirstOneIsDriven) {
+  const auto run = tests::ChasingCars::run(std::vector(kParts, 0.0), std::vector(kParts, 0.0));
+  EXPECT_EQ(run.y_m[4].back() - run.y_m[3].back(), 10.0);
+  // v = -t, y = -t^2/2 without a brake.
+  const auto driven = tests::ChasingCars::run(std::vector(kParts, 1.0), std::vector(kParts, 0.0));
+  EXPECT_NEAR(driven.y_m[0].back(), -5000, 1);
+}
+
+// The competition gives each formula 300 runs. Fewer than five would say that any input breaks it.
+TEST(ChasingCars, BreakCc1ToCc3WithinTheCompetitionsRuns) {
+  for (const char* text : {kCc1, kCc2, kCc3}) {
+    const auto runs = median_of(text, Optimiser::kEsch, 300);
+    EXPECT_LE(runs, 150U) << text;
+    EXPECT_GE(runs, 5U) << text;
+  }
+}
+
+// For docs/measurements: all formulas and optimisers.
+TEST(ChasingCars, Table) {
+  for (const char* text : {kCc1, kCc2, kCc3, kCc4, kCc5}) {
+    std::printf("| `%s` |", text);
+    for (const auto optimiser : {Optimiser::kUniform, Optimiser::kSubplex, Optimiser::kCrs,
+                                 Optimiser::kDirect, Optimiser::kEsch}) {
+      const auto runs = median_of(text, optimiser, 300);
+      std::printf(" %s |", runs > 300 ? "> 300" : std::to_string(runs).c_str());
+      std::fflush(stdout);
+    }
+    std::printf("\n");
+  }
+}
+
+}  // namespace
+}  // namespace towbench::harness

@@ -1,0 +1,169 @@
+// Faults as points of a box, what a search of them covered, and that one which was interrupted goes
+// on; BBMC's margins beside those of run folders.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "harness/falsify/falsify_report.h"
+#include "harness/fault_cases/faulted_experiment.h"
+#include "harness/fault_plan/fault_text.h"
+#include "harness/requirements/run_signals.h"
+#include "tests/harness/end_to_end/run_support.h"
+#include "tests/support/program_output.h"
+
+namespace towbench::harness {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr core::PerAxis<bool> kBoth{{true, true}};
+
+TEST(FaultSpace, OfEveryKindGivesPlansThatCanBeWrittenAndRead) {
+  const auto choices = fault_choices({}, kBoth);
+  EXPECT_GT(choices.size(), 60U);
+  for (const auto& choice : choices) {
+    const FaultSpace space({choice}, 10);
+    for (const double share : {0.0, 0.31, 0.79, 0.81, 1.0}) {
+      const auto plan = space.plan_at(BoxPoint(space.variables().size(), share));
+      ASSERT_EQ(plan.size(), 1U);
+      EXPECT_EQ(describe(parse_fault(describe(plan.front()))), describe(plan.front()));
+      EXPECT_LE(plan.front().trigger.value, 10.0);
+    }
+  }
+}
+
+TEST(FaultSpace, IsChosenByKindPlaceOrBoth) {
+  EXPECT_EQ(fault_choices({"encoder.y frozen"}, kBoth).size(), 1U);
+  EXPECT_EQ(fault_choices({"frozen"}, kBoth).size(), 2U);
+  EXPECT_EQ(fault_choices({"frozen"}, {{true, false}}).size(), 1U);
+  EXPECT_THROW((void)fault_choices({"encoder.y melted"}, kBoth), FixtureError);
+  EXPECT_THROW((void)fault_choices({"endstop.y_max missing"}, kBoth), FixtureError);  // as built
+}
+
+// A margin that is known: the distance of the onset from 3 s, where the fault acts before 8 s.
+class KnownObjective final : public Objective {
+ public:
+  Outcome measure(const FaultPlan& plan) override {
+    ++runs;
+    const double at_s = plan.front().trigger.value;
+    return {.fired =
+                at_s<8, .margin = std::fabs(at_s - 3) - 0.05, .broken = at_s> 2.95 && at_s < 3.05};
+  }
+  double end_s() const override { return 10; }
+  std::size_t runs = 0;
+};
+
+FalsifySession session(const std::filesystem::path& file, std::size_t runs) {
+  return {{.runs = runs, .runs_a_round = 40, .fingerprint = "f"},
+          {FaultSpace(fault_choices({"encoder.y frozen"}, kBoth), 10),
+           FaultSpace(fault_choices({"supply sag"}, kBoth), 10)},
+          file};
+}
+
+TEST(Falsify, ThatWasInterruptedGoesOnWithTheSameTrials) {
+  TemporaryFixtures files;
+  KnownObjective whole;
+  auto at_once = session(files.folder() / "once.jsonl", 200);
+  EXPECT_TRUE(at_once.run(
+      whole, [] { return true; }, [](const auto&) {}));
+  KnownObjective parts;
+  auto first = session(files.folder() / "parts.jsonl", 200);
+  EXPECT_FALSE(first.run(
+      parts, [&] { return parts.runs < 77; }, [](const auto&) {}));
+  auto second = session(files.folder() / "parts.jsonl", 200);
+  EXPECT_TRUE(second.run(
+      parts, [] { return true; }, [](const auto&) {}));
+  EXPECT_EQ(parts.runs, whole.runs);
+  ASSERT_EQ(second.trials().size(), at_once.trials().size());
+  for (std::size_t i = 0; i < 200; ++i) {
+    EXPECT_EQ(second.trials()[i].faults, at_once.trials()[i].faults);
+    EXPECT_EQ(second.trials()[i].outcome.margin, at_once.trials()[i].outcome.margin);
+  }
+  EXPECT_EQ(contents_of(files.folder() / "parts.jsonl"),
+            contents_of(files.folder() / "once.jsonl"));
+}
+
+TEST(Falsify, CountsWhatDidNotFireAsNotTried) {
+  TemporaryFixtures files;
+  KnownObjective objective;
+  auto search = session(files.folder() / "t.jsonl", 400);
+  EXPECT_TRUE(search.run(
+      objective, [] { return true; }, [](const auto&) {}));
+  const auto found = coverage_of(search, 0);
+  EXPECT_EQ(found.runs, 200U);
+  EXPECT_LT(found.fired, found.runs);
+  EXPECT_LT(found.uniform, 100U);
+  // Onsets behind 8 s were sampled, and acted never.
+  EXPECT_LE(found.covered[0], 0.8);
+  EXPECT_GT(found.covered[0], 0.6);
+  ASSERT_NE(search.worst(), nullptr);
+  EXPECT_NEAR(parse_fault(search.worst()->faults.front()).trigger.value, 3.0, 0.01);
+  EXPECT_TRUE(search.worst()->outcome.broken);
+}
+
+TEST(Falsify, BoundsWhatSamplesMayHaveMissed) {
+  EXPECT_EQ(rule_of_three(0), 1.0);
+  EXPECT_DOUBLE_EQ(rule_of_three(1), 0.95);
+  EXPECT_NEAR(rule_of_three(1000), 3.0 / 1000, 1e-5);
+}
+
+// In memory and from a snapshot the margin is that of the run folder.
+TEST(Objective, GivesTheMarginOfTheRunFolder) {
+  Runs runs;
+  auto fixture = Runs::shipped("kill-1khz");
+  Requirement requirement{.id = "TRACK", .text = "always: |y_carriage_speed| < 0.5 m/s"};
+  requirement.parsed = *parse_formula(requirement.text, run_vocabulary({"whole", "latched"}));
+  requirement.under_faults = true;
+  fixture.experiment.requirements.push_back(requirement);
+  const auto from_snapshots = in_process_objective(fixture, {requirement}, 12);
+  const auto anew = in_process_objective(fixture, {requirement}, 0);
+  for (const char* words :
+       {"drive.y brake_drag at_s=0.7 force_N=30", "supply sag at_s=0.61 lost_V=6"}) {
+    const FaultPlan plan{parse_fault(words)};
+    auto faulted = fixture;
+    add_faults(faulted, plan);
+    const auto run = runs.run(faulted);
+    const auto* check = check_named(run, "TRACK");
+    ASSERT_NE(check, nullptr);
+    EXPECT_TRUE(from_snapshots->measure(plan).fired);
+    EXPECT_EQ(from_snapshots->measure(plan).margin, check->margin) << words;
+    EXPECT_EQ(anew->measure(plan).margin, check->margin) << words;
+    EXPECT_TRUE(std::filesystem::exists(run.folder / "margins.csv"));
+  }
+  const auto late = from_snapshots->measure({parse_fault("encoder.y jump at_s=3.2 counts=0")});
+  EXPECT_FALSE(late.fired);
+}
+
+tests::ProgramOutput falsify(const std::string& arguments) {
+  return tests::output_of(std::string(TOWBENCH_PROGRAM) + " falsify " + arguments);
+}
+
+TEST(FalsifyVerb, RefusesInOneLine) {
+  for (const char* arguments :
+       {"kill-1khz --budget 0", "kill-1khz --budget \"3 weeks\"", "kill-1khz --faults melted",
+        "kill-1khz --requirement NO-1", "no-such-experiment", "kill-1khz --optimiser guess",
+        "kill-1khz --controller external:/tmp/x"}) {
+    const auto output = falsify(arguments);
+    EXPECT_EQ(output.code, kExitBadInput) << arguments << output.text;
+    EXPECT_EQ(std::count(output.text.begin(), output.text.end(), '\n'), 1) << output.text;
+  }
+}
+
+TEST(FalsifyVerb, LeavesTheWorstRunAReportAndTheExperiment) {
+  TemporaryFixtures files;
+  const auto out = files.folder().string();
+  const auto output =
+      falsify("kill-1khz --faults \"encoder.y frozen\" --budget \"12 runs\" --out " + out +
+              "/f --keep " + out + "/worst.toml");
+  EXPECT_LE(output.code, kExitFail) << output.text;
+  EXPECT_THAT(output.text, HasSubstr("encoder.y frozen"));
+  EXPECT_THAT(output.text, HasSubstr("rule of three"));
+  const auto kept = load_experiment(out + "/worst.toml");
+  EXPECT_EQ(kept.experiment.faults.size(), 1U);
+  Runs runs;
+  EXPECT_EQ(runs.run(kept).exit_code, output.code);
+}
+
+}  // namespace
+}  // namespace towbench::harness
