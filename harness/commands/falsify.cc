@@ -40,7 +40,7 @@ struct FalsifyOptions {
   std::string out;
   std::string keep;
   std::uint64_t seed = 1;
-  std::size_t snapshots = 32;
+  std::size_t snapshots = 0;
   bool until_broken = false;
   bool fresh = false;
   bool quiet = false;
