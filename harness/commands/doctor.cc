@@ -12,6 +12,7 @@
 #include "harness/realtime/host_findings.h"
 #include "harness/realtime/loop_comparison.h"
 #include "harness/realtime/own_lateness.h"
+#include "harness/realtime/realtime_budget.h"
 
 namespace towbench::harness {
 namespace {
@@ -30,7 +31,10 @@ int execute_doctor(const DoctorOptions& options) {
   }
   auto findings = host_findings();
   if (options.seconds > 0) {
-    findings.push_back(lateness_finding(measure_own_lateness(core::nanoseconds(options.seconds))));
+    SourceFiles sources;
+    const auto budget = load_realtime_budget(sources);
+    findings.push_back(
+        lateness_finding(measure_own_lateness(core::nanoseconds(options.seconds)), budget));
   }
   auto lines = nlohmann::json::array();
   for (const auto& finding : findings) {

@@ -19,6 +19,7 @@
 #include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/fixtures/linux_devices_fixture.h"
+#include "harness/realtime/realtime_budget.h"
 
 namespace towbench::harness {
 namespace {
@@ -33,6 +34,8 @@ void read_by_kind(const std::filesystem::path& path) {
     (void)read_campaign(path);
   } else if (folder == "wirings") {
     (void)read_board_wiring(file);
+  } else if (folder == "budgets") {
+    (void)read_realtime_budget(file);
   } else if (folder == "devices") {
     (void)load_linux_devices(path);
   } else if (table.contains("rig") || table.contains("console") || table.contains("budget")) {

@@ -1,5 +1,7 @@
 #include "harness/realtime/realtime_checks.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 namespace towbench::harness {
@@ -7,30 +9,36 @@ namespace {
 
 // `worse`: what it is when the budget is exceeded.
 Check jitter(std::string name, std::string meaning, const DurationFigures& figures,
-             const TickSummary& side, core::Nanoseconds period_ns, Verdict worse) {
+             const TickSummary& side, core::Nanoseconds period_ns, const RealtimeBudget& budget,
+             Verdict worse) {
   Check check;
   check.name = std::move(name);
   check.meaning = std::move(meaning);
-  check.source = "OR-BBMC-3c: execution jitter below 5 % of the control period";
-  check.max = kMaxJitterShare;
-  if (side.ticks == 0 || period_ns <= 0) {
-    check.reason = "there was no tick";
+  check.source = budget.source;
+  check.max = budget.jitter_p999_max_ratio;
+  if (side.ticks < kFewestTicksOfJitter || period_ns <= 0) {
+    check.reason = side.ticks == 0 ? "there was no tick"
+                                   : fmt::format("{} ticks are too few for p99.9, {} are needed",
+                                                 side.ticks, kFewestTicksOfJitter);
     return check;
   }
-  const double share =
-      static_cast<double>(figures.p99_ns - figures.p50_ns) / static_cast<double>(period_ns);
-  check.value = share;
-  check.margin = (kMaxJitterShare - share) / kMaxJitterShare;
-  check.verdict = share < kMaxJitterShare ? Verdict::kPass : worse;
+  const double ratio = jitter_ratio(figures, period_ns);
+  check.value = ratio;
+  check.margin = (budget.jitter_p999_max_ratio - ratio) / budget.jitter_p999_max_ratio;
+  check.verdict = ratio < budget.jitter_p999_max_ratio ? Verdict::kPass : worse;
   if (check.verdict != Verdict::kPass) {
     check.reason = fmt::format(
-        "p99 is {:.1f} us above the median, {:.1f} % of the period; worst tick {}",
-        static_cast<double>(figures.p99_ns - figures.p50_ns) * 1e-3, share * 100, figures.max_at);
+        "p99.9 is {:.1f} us above the median, {:.1f} % of the period; worst tick {}",
+        static_cast<double>(figures.p999_ns - figures.p50_ns) * 1e-3, ratio * 100, figures.max_at);
   }
   return check;
 }
 
 }  // namespace
+
+double jitter_ratio(const DurationFigures& figures, core::Nanoseconds period_ns) {
+  return static_cast<double>(figures.p999_ns - figures.p50_ns) / static_cast<double>(period_ns);
+}
 
 Check host_on_time(const TickSummary& side) {
   Check check;
@@ -53,12 +61,17 @@ Check host_on_time(const TickSummary& side) {
 }
 
 std::vector<Check> realtime_checks(const TickSummary& emulator, const TickSummary& controller,
-                                   core::Nanoseconds control_period_ns) {
-  return {host_on_time(emulator), host_on_time(controller),
-          jitter("control_lateness", "the host wakes the controller evenly", controller.lateness,
-                 controller, control_period_ns, Verdict::kInvalid),
-          jitter("control_jitter", "the controller's own work takes the same time in every tick",
-                 controller.execution, controller, control_period_ns, Verdict::kFail)};
+                                   core::Nanoseconds control_period_ns,
+                                   const RealtimeBudget& budget) {
+  auto lateness =
+      jitter("control_lateness", "the host wakes the controller evenly", controller.lateness,
+             controller, control_period_ns, budget, Verdict::kInvalid);
+  // A host that does not even wake it evenly interrupts its work too.
+  const auto worse = lateness.verdict == Verdict::kPass ? Verdict::kFail : Verdict::kInvalid;
+  auto work =
+      jitter("control_jitter", "the controller's own work takes the same time in every tick",
+             controller.execution, controller, control_period_ns, budget, worse);
+  return {host_on_time(emulator), host_on_time(controller), std::move(lateness), std::move(work)};
 }
 
 }  // namespace towbench::harness

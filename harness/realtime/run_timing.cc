@@ -69,8 +69,8 @@ ControllerTiming::ControllerTiming(std::filesystem::path folder,
   warn("controller", rights_);
 }
 
-std::string ControllerTiming::judge_into(Judgement& judgement,
-                                         core::Nanoseconds control_period_ns) {
+std::string ControllerTiming::judge_into(Judgement& judgement, core::Nanoseconds control_period_ns,
+                                         const RealtimeBudget& budget) {
   loop_->end_tick();
   const auto controller = summarise("controller", rights_.text(), loop_->policy(), loop_->record());
   TickSummary emulator;  // without a tick, unless its file says more
@@ -83,7 +83,7 @@ std::string ControllerTiming::judge_into(Judgement& judgement,
   } catch (const json::exception&) {
     std::fprintf(stderr, "towbench: the emulator left no figures of its timing\n");
   }
-  for (auto& check : realtime_checks(emulator, controller, control_period_ns)) {
+  for (auto& check : realtime_checks(emulator, controller, control_period_ns, budget)) {
     judgement.checks.push_back(std::move(check));
   }
   judgement.verdict = worst_of(judgement.checks);

@@ -12,6 +12,7 @@
 #include "core/result.h"
 #include "emulator/plant_node.h"
 #include "harness/judge/judge.h"
+#include "harness/realtime/realtime_budget.h"
 #include "harness/realtime/realtime_plant.h"
 #include "harness/realtime/realtime_rights.h"
 #include "harness/realtime/tick_clock.h"
@@ -54,7 +55,8 @@ class ControllerTiming {
 
   // Both sides have ended. Adds the checks, writes realtime.json, and returns the figures in words.
   // An emulator that left no figures makes the run INVALID.
-  [[nodiscard]] std::string judge_into(Judgement& judgement, core::Nanoseconds control_period_ns);
+  [[nodiscard]] std::string judge_into(Judgement& judgement, core::Nanoseconds control_period_ns,
+                                       const RealtimeBudget& budget);
 
  private:
   std::filesystem::path folder_;

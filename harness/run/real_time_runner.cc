@@ -30,7 +30,8 @@ RunOutcome RealTimeRunner::play_over(EmulatorProcess& child, protocol::Connectio
 void RealTimeRunner::judge_into(RunResult& result, const RunOutcome& outcome) {
   Runner::judge_into(result, outcome);
   if (timing_) {
-    result.timing = timing_->judge_into(result.judgement, outcome.control_period_ns);
+    result.timing =
+        timing_->judge_into(result.judgement, outcome.control_period_ns, *plan().realtime_budget);
   }
 }
 

@@ -104,6 +104,9 @@ RunPlan plan_run(const ExperimentFixture& fixture, const RunOptions& options) {
   }
   refuse_board_plan(fixture);
   plan.kind = kind_without_board(plan);
+  if (options.clock == RunClock::kReal) {
+    plan.realtime_budget = load_realtime_budget(plan.given.sources);
+  }
   return plan;
 }
 

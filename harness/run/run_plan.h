@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/external/external_run.h"
 #include "harness/fault_cases/faulted_experiment.h"
+#include "harness/realtime/realtime_budget.h"
 #include "harness/record/result_files.h"
 #include "harness/run/board_run.h"
 #include "harness/run/experiment_run.h"
@@ -37,12 +39,13 @@ struct RunPlan {
   RunKind kind = RunKind::kInProcess;
   Disturbance disturbance = Disturbance::kNone;
   std::uint64_t seed = 0;
-  ExperimentFixture given;                    // before anything was planned or done
-  std::unique_ptr<FaultedExperiment> faults;  // of Disturbance::kPlanned
-  std::unique_ptr<BoardRun> board;            // of RunKind::kBoard
-  std::unique_ptr<ExternalRun> external;      // of RunKind::kExternal
-  ExperimentFixture fixture;                  // with the faults as events and as built
-  std::filesystem::path folder;               // from begin_record() on, as is `identity`
+  ExperimentFixture given;                        // before anything was planned or done
+  std::unique_ptr<FaultedExperiment> faults;      // of Disturbance::kPlanned
+  std::unique_ptr<BoardRun> board;                // of RunKind::kBoard
+  std::unique_ptr<ExternalRun> external;          // of RunKind::kExternal
+  std::optional<RealtimeBudget> realtime_budget;  // of BBMC by the wall clock
+  ExperimentFixture fixture;                      // with the faults as events and as built
+  std::filesystem::path folder;                   // from begin_record() on, as is `identity`
   RunIdentity identity;
 
   [[nodiscard]] bool has_faults() const noexcept { return disturbance == Disturbance::kPlanned; }

@@ -78,17 +78,22 @@ TEST(HostFindings, TellGpioChipsAndIsolatedProcessors) {
 }
 
 TEST(LatenessFinding, NamesTheFastestRateThatTheHostIsFitFor) {
+  const RealtimeBudget budget{.jitter_p999_max_ratio = 0.05, .source = "a file"};
   TickSummary summary;
   summary.ticks = 1000;
-  summary.lateness.p99_ns = 4'000;
-  EXPECT_EQ(lateness_finding(summary).fit, Fitness::kGood);
-  summary.lateness.p99_ns = 40'000;
-  EXPECT_EQ(lateness_finding(summary).fit, Fitness::kLimited);
-  summary.lateness.p99_ns = 500'000;
-  const auto late = lateness_finding(summary);
+  summary.lateness.p50_ns = 30'000;
+  summary.lateness.p999_ns = 34'000;
+  EXPECT_EQ(lateness_finding(summary, budget).fit, Fitness::kGood);
+  summary.lateness.p999_ns = 70'000;
+  EXPECT_EQ(lateness_finding(summary, budget).fit, Fitness::kLimited);
+  summary.lateness.p999_ns = 530'000;
+  const auto late = lateness_finding(summary, budget);
   EXPECT_EQ(late.fit, Fitness::kMissing);
   EXPECT_NE(late.found.find("fit for controllers up to 100 Hz"), std::string::npos) << late.found;
-  EXPECT_EQ(lateness_finding({}).fit, Fitness::kMissing) << "nothing measured is no fitness";
+  summary.ticks = 999;
+  summary.lateness.p999_ns = 34'000;
+  EXPECT_EQ(lateness_finding(summary, budget).fit, Fitness::kMissing)
+      << "too little measured is no fitness";
 }
 
 }  // namespace
