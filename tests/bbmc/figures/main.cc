@@ -13,6 +13,8 @@ int main(int argc, char** argv) {
     towbench::tests::print_observers();
   } else if (page == "results") {
     towbench::tests::print_results();
+  } else if (page == "rates") {
+    towbench::tests::print_rates();
   } else if (page == "session") {
     std::fputs(towbench::tests::typed_session().c_str(), stdout);
   } else if (page == "velocity") {
@@ -20,8 +22,9 @@ int main(int argc, char** argv) {
   } else if (page == "velocity.svg") {
     towbench::tests::print_velocity_picture();
   } else {
-    std::fputs("usage: bbmc_figures tracking|observers|results|session|velocity|velocity.svg\n",
-               stderr);
+    std::fputs(
+        "usage: bbmc_figures tracking|observers|results|rates|session|velocity|velocity.svg\n",
+        stderr);
     return 2;
   }
   return 0;

@@ -14,14 +14,14 @@ using bbmc::End;
 using core::Axis;
 using core::ErrorCode;
 
-struct Case {
+struct HomingCase {
   Axis axis = Axis::kY;
   End end = End::kMin;
   double start_m = 0.3;
   bool latching = false;
 };
 
-Machine::Options unknown_place(const Case& c) {
+Machine::Options unknown_place(const HomingCase& c) {
   Machine::Options options;
   options.calibrated = false;
   options.start_m[c.axis] = c.start_m;
@@ -62,7 +62,7 @@ constexpr double kAllowed_counts = 10;
 constexpr double kAllowedByDefaults_counts = 12;
 
 TEST(Homing, FindsTheSwitchFromAnyPlaceOfEitherAxisAtEitherEnd) {
-  const Case cases[] = {
+  const HomingCase cases[] = {
       {Axis::kY, End::kMin, 0.15},         {Axis::kY, End::kMax, 3.80},
       {Axis::kX, End::kMin, 0.20},         {Axis::kX, End::kMax, 0.55},
       {Axis::kY, End::kMin, 0.05, true},   {Axis::kX, End::kMax, 0.65, true},
@@ -70,7 +70,7 @@ TEST(Homing, FindsTheSwitchFromAnyPlaceOfEitherAxisAtEitherEnd) {
       {Axis::kX, End::kMin, 1.0e-3, true}, {Axis::kY, End::kMin, 4e-3},  // just before it
       {Axis::kX, End::kMax, 0.672},
   };
-  for (const Case& c : cases) {
+  for (const HomingCase& c : cases) {
     SCOPED_TRACE(::testing::Message() << core::name_of(c.axis) << " end " << static_cast<int>(c.end)
                                       << " from " << c.start_m << (c.latching ? " latching" : ""));
     Machine::Options with_tuned = unknown_place(c);
@@ -138,7 +138,7 @@ TEST(Homing, BothAxesAtOnce) {
 }
 
 TEST(Homing, WithoutASwitchItEndsInAFaultAndThePlaceStaysUnknown) {
-  Case c{Axis::kY, End::kMin, 0.06};
+  HomingCase c{Axis::kY, End::kMin, 0.06};
   Machine::Options options = unknown_place(c);
   options.rig.axes[Axis::kY].hall_min.fitted = false;
   Machine machine(options);
@@ -156,7 +156,7 @@ TEST(Homing, WithoutASwitchItEndsInAFaultAndThePlaceStaysUnknown) {
 }
 
 TEST(Homing, ASwitchThatNeverReleasesIsTheFaultOfThatEndStop) {
-  Case c{Axis::kX, End::kMin, 1.0e-3, true};
+  HomingCase c{Axis::kX, End::kMin, 1.0e-3, true};
   Machine::Options options = unknown_place(c);
   options.rig.axes[Axis::kX].hall_min.latch_release_m = 0.4;
   Machine machine(options);

@@ -19,7 +19,8 @@ INSTANTIATE_TEST_SUITE_P(Experiments, Shipped,
                                            "endstop-y-max-coasting", "kill-1khz", "kill-10hz",
                                            "trapezoid-400-best", "trapezoid-10-stiff",
                                            "trapezoid-20-best", "circle-best", "spatial-best",
-                                           "ellipse-best", "goto-pick-and-place", "one-axis"),
+                                           "ellipse-best", "goto-pick-and-place", "one-axis",
+                                           "trapezoid-10hz", "trapezoid-100hz"),
                          [](const auto& each) {
                            std::string name = each.param;
                            std::replace(name.begin(), name.end(), '-', '_');
