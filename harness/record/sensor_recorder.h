@@ -3,10 +3,8 @@
 // fitted has no file.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <string_view>
 
 #include "emulator/rig_parameters.h"

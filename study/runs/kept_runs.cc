@@ -1,5 +1,6 @@
 #include "study/runs/kept_runs.h"
 
+#include <algorithm>
 #include <cctype>
 
 #include <fmt/format.h>
