@@ -9,7 +9,7 @@
 //   |delta_i| <= sqrt([(J^T J + P)^-1]_ii) |d|        (Cauchy-Schwarz)
 //
 // That the two parts are alike is *assumed*; docs/measurements/identification-foreign.md shows how
-// far it holds, and the fit takes twice the bound.
+// far it holds, and the fit takes three times the bound.
 #pragma once
 
 #include <Eigen/Core>

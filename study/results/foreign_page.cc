@@ -206,9 +206,11 @@ std::string foreign_page(const IdentificationSet& set, const std::vector<SetRun>
       "# Identification of machines of foreign structures\n\n"
       "`{}` with what no estimator assumes, one structure at a time: seed 1 on the nominal "
       "machine, "
-      "the others on machines\ndrawn within +-{:.0f} %. Both axes, {} of {} runs are done. Written "
+      "the others on machines\ndrawn within +-{:.0f} %. {}, {} of {} runs are done. Written "
       "by `./towbench identify --structure all`.\n\n",
-      set.rig.name, 100 * set.spread, done, runs.size());
+      set.rig.name, 100 * set.spread,
+      set.axes.size() == 2 ? "Both axes" : fmt::format("Axis {}", core::name_of(set.axes.front())),
+      done, runs.size());
   text += other_settings(set) + structures_table(set);
   text +=
       "\nA cell: intervals that hold the truth of those given, mean error and mean half width of "
