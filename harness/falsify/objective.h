@@ -47,7 +47,8 @@ class Objective {
 };
 
 // BBMC in this process. With `snapshots` each run goes on from one of so many of the fault-free
-// run, else it begins anew. Throws FixtureError when the run without faults does not come to its end.
+// run, else it begins anew. Throws FixtureError when the run without faults does not come to its
+// end.
 [[nodiscard]] std::unique_ptr<Objective> in_process_objective(const ExperimentFixture& fixture,
                                                               Asked asked, std::size_t snapshots);
 // A program of its own or an image, each run from its start.
