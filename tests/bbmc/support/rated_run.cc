@@ -12,14 +12,11 @@ namespace {
 
 using core::Axis;
 
-namespace rated_profile {
-constexpr double kRamp_s = 0.8;
-constexpr double kSteady_s = 3.0;
-constexpr double kTransient_s = 1.0;
-constexpr double kWait_s = 0.02;                                 // of trapezoid()
-constexpr core::PerAxis<double> kStart_m{{0.449092, 0.336819}};  // firmware
-}  // namespace rated_profile
-
+constexpr double kRatedRamp_s = 0.8;
+constexpr double kRatedSteady_s = 3.0;
+constexpr double kRatedTransient_s = 1.0;
+constexpr double kRatedWait_s = 0.02;                                 // of trapezoid()
+constexpr core::PerAxis<double> kRatedStart_m{{0.449092, 0.336819}};  // firmware
 }  // namespace
 
 bbmc::PidGains gains_for_loop(double speed_ratio) {
@@ -41,13 +38,12 @@ bbmc::Configuration rated(double rate_Hz, const bbmc::PidGains& gains, bool mode
 }
 
 RatedRun run_at_rate(const bbmc::Configuration& configuration, double speed_m_per_s) {
-  using namespace rated_profile;
   Machine::Options options;
   options.configuration = configuration;
-  options.start_m = kStart_m;
+  options.start_m = kRatedStart_m;
   Machine machine(options);
-  const auto request =
-      trapezoid(machine, Axis::kY, speed_m_per_s * (kRamp_s + kSteady_s), speed_m_per_s, kRamp_s);
+  const auto request = trapezoid(machine, Axis::kY, speed_m_per_s * (kRatedRamp_s + kRatedSteady_s),
+                                 speed_m_per_s, kRatedRamp_s);
   RatedRun run;
   run.ended = machine.system().request_motion(request) && machine.run_until_rest(60.0);
   run.fault = machine.system().status().fault;
@@ -58,8 +54,8 @@ RatedRun run_at_rate(const bbmc::Configuration& configuration, double speed_m_pe
     return run;
   }
   const auto& profile = request.trajectory[Axis::kY];
-  const double steady_from_s = kWait_s + kRamp_s + kTransient_s;
-  const double steady_to_s = kWait_s + kRamp_s + kSteady_s;
+  const double steady_from_s = kRatedWait_s + kRatedRamp_s + kRatedTransient_s;
+  const double steady_to_s = kRatedWait_s + kRatedRamp_s + kRatedSteady_s;
   double steady = 0;
   for (const auto& truth : machine.truth) {
     const double time_s = core::seconds(truth.time_ns - first->time_ns);
