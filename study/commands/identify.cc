@@ -16,6 +16,7 @@
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
+#include "study/commands/identified_controller_file.h"
 #include "study/commands/identify_output.h"
 #include "study/commands/verbs.h"
 #include "study/procedures/chain.h"
@@ -24,6 +25,7 @@
 #include "study/procedures/study_page.h"
 #include "study/recovery/recovery.h"
 #include "study/results/identification_set.h"
+#include "study/results/set_up_tracking.h"
 
 namespace towbench::harness {
 namespace {
@@ -47,6 +49,7 @@ struct IdentifyOptions {
   bool quiet = false;
   bool json = false;
   bool blind = false;
+  bool track = false;
   std::string data;
   std::string columns;
   std::string structure;
@@ -143,6 +146,7 @@ int tell_everything(const IdentifyOptions& options, const std::string& title,
   const std::filesystem::path out = options.out;
   identify::write_estimates(out / "estimates.json", result.estimates);
   write_plant(out, procedures::identified_plant(machine, result.estimates), result);
+  write_identified_controller(out / "identified_controller.toml", machine, result.estimates);
   write_atomically(out / "report.html", procedures::study_page(title, result, recoveries));
   if (options.json) {
     fmt::print("{}\n", identify::to_json(result.estimates).dump(2));
@@ -243,6 +247,15 @@ int execute_identify(const IdentifyOptions& options) {
                       double share) { show_progress(what, share, !options.quiet); },
       .stop = &stop_requested()};
   auto result = procedures::run_chain(machine, all, chain);
+  if (options.track && !stop_requested()) {
+    show_progress("Table 7.6 with the controller set up", 0, !options.quiet);
+    const auto name = options.machine == 0
+                          ? fmt::format("`{}`", bench.rig.name)
+                          : fmt::format("{} drawn within {:.0f} % of `{}`", options.machine,
+                                        100 * kSpread, bench.rig.name);
+    write_atomically(std::filesystem::path(options.out) / "tracking.md",
+                     set_up_section(name, track_set_up(bench.rig, machine, result.estimates)));
+  }
   clear_progress(!options.quiet);
   // Only now may anybody look at what the machine is.
   const auto recoveries = options.blind ? std::vector<Recovery>{}
@@ -270,6 +283,9 @@ void add_identify(CLI::App& app, int& exit_code) {
   verb->add_option("--out", options->out, "folder to write to")->check(folder_to_write());
   verb->add_flag("--resume", options->resume, "continue what was interrupted in that folder");
   verb->add_flag("--blind", options->blind, "do not set the rig's own parameters beside");
+  auto* track =
+      verb->add_flag("--track", options->track,
+                     "tracking.md too: Table 7.6 with BBMC set up from what was found, and homed");
   verb->add_flag("--quiet", options->quiet, "no progress, no tables");
   verb->add_flag("--json", options->json, "print estimates.json");
   verb->add_option("--data", options->data,
@@ -277,9 +293,11 @@ void add_identify(CLI::App& app, int& exit_code) {
   verb->add_option("--columns", options->columns, "which column of that CSV is what, TOML")
       ->check(CLI::ExistingFile)
       ->needs("--data");
+  track->excludes("--data");
   verb->add_option("--drawn", options->drawn,
                    "so many machines, the first nominal, the rest drawn within 40 %")
-      ->check(CLI::Range(1, 1000));
+      ->check(CLI::Range(1, 1000))
+      ->excludes(track);
   verb->add_option("--machine", options->machine,
                    "the machine of that number in such a set, 0: the rig itself")
       ->check(CLI::Range(0, 999));
@@ -300,7 +318,9 @@ void add_identify(CLI::App& app, int& exit_code) {
       "continues)\n"
       "         towbench identify --structure all --seeds 5 --workers 2 --out foreign\n"
       "Writes estimates.json, report.html, identified_plant.toml (rejected_plant.toml where what "
-      "is\nfound contradicts a document or a belief). Exit: 0 all experiments done,\n"
+      "is\n"
+      "found contradicts a document or a belief), identified_controller.toml.\n"
+      "Exit: 0 all experiments done,\n"
       "1 an estimate misses the emulated machine's own value by more than its demand allows,\n"
       "2 bad arguments, 4 an experiment was refused or its data are no good.");
   verb->callback([options, &exit_code] { exit_code = execute_identify(*options); });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 
 #include <fmt/format.h>
@@ -14,22 +15,54 @@ namespace {
 
 using core::Axis;
 
+constexpr double kLongestHoming_s = 300;
+
+std::vector<ConsoleStep> find_place(const RigFixture& rig, PlaceKnown place) {
+  std::vector<ConsoleStep> steps;
+  const auto start_m = [&](Axis axis) { return rig.parameters.axes[axis].start_m; };
+  if (place == PlaceKnown::kHomed) {
+    steps.push_back(procedures::move("poscalib", kLongestHoming_s));
+    steps.push_back(
+        procedures::move(fmt::format("goto {:.6f}m {:.6f}m", start_m(Axis::kY), start_m(Axis::kX)),
+                         kLongestHoming_s));
+    return steps;
+  }
+  for (const auto axis : core::kAxes) {
+    steps.push_back(procedures::say(
+        fmt::format("reset poscalib {} {:.6f}m", core::name_of(axis), start_m(axis))));
+  }
+  return steps;
+}
+
 // One motion from where the rig stands.
 std::unique_ptr<CaseRecord> record_of(const RigFixture& rig, const ControllerFixture& controller,
                                       const std::string& motion, double longest_s,
-                                      std::uint64_t seed) {
+                                      std::uint64_t seed, PlaceKnown place = PlaceKnown::kTold) {
   ExperimentFixture fixture;
   fixture.rig = rig;
   fixture.controller = controller;
   fixture.experiment.name = "tracked motion";
   auto& steps = fixture.experiment.console;
-  for (const auto axis : core::kAxes) {
-    steps.push_back(procedures::say(fmt::format("reset poscalib {} {:.6f}m", core::name_of(axis),
-                                                rig.parameters.axes[axis].start_m)));
-  }
+  steps = find_place(rig, place);
   steps.push_back(procedures::move(motion, longest_s));
-  fixture.experiment.duration_limit_s = longest_s + 10;
+  fixture.experiment.duration_limit_s =
+      longest_s + 10 + (place == PlaceKnown::kHomed ? 2 * kLongestHoming_s : 0);
   return run_case(fixture, fixture.rig.parameters, {}, {.seed = seed});
+}
+
+// Its first row: what was driven before, to find its place, is none of it.
+auto last_motion(const std::vector<bbmc::TelemetryRow>& log) {
+  const auto driven = [](const bbmc::TelemetryRow& row) {
+    return row.axes[Axis::kY].mode == bbmc::AxisMode::kPosition;
+  };
+  auto at = log.end();
+  while (at != log.begin() && !driven(*std::prev(at))) {
+    --at;
+  }
+  while (at != log.begin() && driven(*std::prev(at))) {
+    --at;
+  }
+  return at;
 }
 
 std::string trouble_of(const CaseRecord& record) {
@@ -49,19 +82,23 @@ TrackedRun track_trapezoid(const RigFixture& rig, const ControllerFixture& contr
       fmt::format("run -trapez y --distance {:.4f}m --speed {:.4f}m/s --acceleration {:.3f}s "
                   "--smooth {:.3f}s",
                   run.distance_m, run.speed_m_per_s, run.acceleration_s, run.smooth_s),
-      longest_s, seed);
+      longest_s, seed, run.place);
   TrackedRun tracked;
   tracked.trouble = trouble_of(*record);
   double steady = 0;
   double followed = 0;
   double steady_from_s = -1;
-  for (const auto& row : record->log) {
+  for (auto at = last_motion(record->log); at != record->log.end(); ++at) {
+    const auto& row = *at;
     const auto& y = row.axes[Axis::kY];
     if (y.mode != bbmc::AxisMode::kPosition) {
       continue;
     }
     const double error = y.reference_m - y.position_m;
-    const double carriage = y.reference_m - record->truth_at(row.time_ns).axes[Axis::kY].carriage_m;
+    const auto& truth = record->truth_at(row.time_ns).axes[Axis::kY];
+    const double carriage = y.reference_m - truth.carriage_m;
+    tracked.place_off_m =
+        y.position_m - controller.configuration.axes[Axis::kY].position_m(truth.count);
     tracked.peak_m = std::max(tracked.peak_m, std::fabs(error));
     tracked.carriage_peak_m = std::max(tracked.carriage_peak_m, std::fabs(carriage));
     tracked.whole_mean_m += std::fabs(error);

@@ -1,6 +1,7 @@
 // One motion, tracked: what the encoder says and where the carriage truly was.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,12 +12,19 @@
 
 namespace towbench::harness {
 
+// How BBMC comes to know where it stands.
+enum class PlaceKnown : std::uint8_t {
+  kTold,   // the exact place is declared to it
+  kHomed,  // it looks for its min switches and goes back to where it was
+};
+
 struct TrapezoidRun {
   double speed_m_per_s = 0.1;
   double distance_m = 1.0;
   double acceleration_s = 0.8;
   double smooth_s = 0;    // 0: the thesis's trapezoid
   double settle_s = 1.0;  // of the steady part, left out
+  PlaceKnown place = PlaceKnown::kTold;
 };
 
 struct TrackedRun {
@@ -27,6 +35,7 @@ struct TrackedRun {
   double peak_m = 0;
   double speed_mean_m_per_s = 0;  // of the velocity error, steady part
   double whole_mean_m = 0;        // of the absolute error, whole profile
+  double place_off_m = 0;         // believed less true place of the motor, at the end
   // Carriage side, whole profile.
   double carriage_mean_m = 0;  // of the absolute error
   double carriage_peak_m = 0;

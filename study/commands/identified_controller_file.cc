@@ -1,0 +1,25 @@
+#include "study/commands/identified_controller_file.h"
+
+#include <cstdio>
+
+#include "harness/fixtures/controller_fixture.h"
+#include "harness/record/line_writer.h"
+
+namespace towbench::harness {
+
+void write_identified_controller(const std::filesystem::path& path,
+                                 const procedures::Machine& machine,
+                                 const identify::Estimates& estimates) {
+  const auto text = procedures::identified_controller(machine, estimates);
+  if (text.empty()) {
+    return;
+  }
+  try {
+    (void)read_controller(FixtureFile::parse(text, path));
+    write_atomically(path, text);
+  } catch (const FixtureError& error) {
+    std::fprintf(stderr, "not written: %s\n", error.what());
+  }
+}
+
+}  // namespace towbench::harness
