@@ -94,6 +94,24 @@ void check_motions(const Campaign& campaign, const TableReader& reader) {
   }
 }
 
+// `spread` or `spreads`; a file says one of the two.
+void read_spreads(TableReader& reader, Campaign& campaign) {
+  constexpr std::size_t kMost = 16;
+  const auto range = core::between(0.001, 0.3);
+  core::BoundedVector<double, kMost> several;
+  double one = 0;
+  reader.value("spread", one, range, "largest relative difference of a drawn machine's parameters");
+  reader.list("spreads", several, range, "the same, each draw at each of them");
+  if (reader.has("spread") && reader.has("spreads")) {
+    throw FixtureError(reader.place_of("spreads"), "spread and spreads together", "one of the two");
+  }
+  if (reader.has("spread")) {
+    campaign.spreads = {one};
+  } else if (!several.empty()) {
+    campaign.spreads.assign(several.begin(), several.end());
+  }
+}
+
 // What `base` names comes first; the file's own values stand instead of or behind it.
 void read_file(const std::filesystem::path& path, Campaign& campaign) {
   const auto file = FixtureFile::load(path);
@@ -118,8 +136,7 @@ void read_file(const std::filesystem::path& path, Campaign& campaign) {
                  "in-process, local, serial-pty, or an address with both ends");
   reader.value("machines", campaign.machines, core::between(0, 1000),
                "machines drawn at random, besides the nominal one");
-  reader.value("spread", campaign.spread, core::between(0.001, 0.3),
-               "largest relative difference of a drawn machine's parameters");
+  read_spreads(reader, campaign);
   std::string other;
   reader.text("for_any_controller", other,
               "campaign that a program takes instead: its motions state their reference");
@@ -128,6 +145,8 @@ void read_file(const std::filesystem::path& path, Campaign& campaign) {
   }
   reader.value("without_fault", campaign.without_fault, core::Range{},
                "whether each motion is judged without a fault too, by its budgets");
+  reader.value("without_fault_on_every_machine", campaign.without_fault_on_every_machine,
+               core::Range{}, "the same on the drawn machines too");
   for (auto& table : reader.tables("inject")) {
     campaign.entries.push_back(read_entry(table));
     check_entry(campaign.entries.back(), table);
@@ -135,7 +154,9 @@ void read_file(const std::filesystem::path& path, Campaign& campaign) {
   reader.require("name");
   if (base.empty()) {
     reader.require("motions");
-    reader.require("inject");
+    if (!campaign.without_fault && !campaign.without_fault_on_every_machine) {
+      reader.require("inject");
+    }
   }
   reader.finish();
   for (const auto& motion : motions) {
@@ -206,7 +227,8 @@ std::string fingerprint_of(const Campaign& campaign) {
       hash.add(source.text);
     }
   }
-  hash.add(fmt::format("{}/{}/{}", campaign.seeds, campaign.machines, campaign.spread));
+  hash.add(
+      fmt::format("{}/{}/{}", campaign.seeds, campaign.machines, fmt::join(campaign.spreads, ",")));
   hash.add(this_program());
   add_identity(campaign.controller, hash);
   return hash_text(hash.value());
@@ -250,6 +272,7 @@ Campaign read_campaign(const std::filesystem::path& path, const CandidateControl
   campaign.controller = controller;
   read_file(path, campaign);
   campaign.file = path;
+  campaign.machines *= campaign.spreads.size();
   for (const auto& entry : campaign.entries) {
     check_carriers(campaign, entry);
   }

@@ -56,12 +56,15 @@ struct Campaign {
   std::string name;
   std::string title;
   std::uint64_t seeds = 1;
-  std::uint64_t machines = 0;  // drawn ones, besides the nominal one
-  double spread = 0.1;         // they differ from it by up to so much, relative
+  std::uint64_t machines = 0;  // drawn ones, besides the nominal one: every draw at every spread
+  // They differ from it by up to so much, relative. With several, a draw is the same machine taken
+  // further from the nominal one.
+  std::vector<double> spreads{0.1};
   // The campaign that a controller program gets instead of this one, because its motions state
   // their reference. Empty: there is none.
   std::filesystem::path for_any_controller;
-  bool without_fault = false;  // every motion is judged by its budgets too
+  bool without_fault = false;                   // every motion is judged by its budgets too
+  bool without_fault_on_every_machine = false;  // the same on the drawn machines
   CandidateController controller;
   std::filesystem::path file;
   std::vector<std::string> texts;  // of the file and of those that it builds on
@@ -76,6 +79,13 @@ struct Campaign {
   std::filesystem::path program = "/proc/self/exe";  // for the emulator's process
 
   [[nodiscard]] const CampaignMotion& motion(const std::string& name) const;
+  // Of machine 1 .. machines; 0 for the nominal one.
+  [[nodiscard]] double spread_of(std::size_t machine) const noexcept {
+    return machine == 0 ? 0.0 : spreads[(machine - 1) % spreads.size()];
+  }
+  [[nodiscard]] std::size_t draw_of(std::size_t machine) const noexcept {
+    return machine == 0 ? 0 : (machine - 1) / spreads.size() + 1;
+  }
 };
 
 // One case, complete in words: `run MOTION --carrier CARRIER --fault "WORDS" ...` repeats it.

@@ -18,9 +18,11 @@ namespace {
 using nlohmann::json;
 
 json identity_of(const Campaign& campaign, const CampaignCase& one) {
-  return {{"case", one.id},         {"motion", one.motion},   {"part", one.part},
-          {"kind", one.kind},       {"moment", one.moment},   {"faults", one.faults},
-          {"machine", one.machine}, {"carrier", one.carrier}, {"of", campaign.fingerprint}};
+  return {{"case", one.id},         {"motion", one.motion},
+          {"part", one.part},       {"kind", one.kind},
+          {"moment", one.moment},   {"faults", one.faults},
+          {"machine", one.machine}, {"spread", campaign.spread_of(one.machine)},
+          {"carrier", one.carrier}, {"of", campaign.fingerprint}};
 }
 
 void put(json& line, const char* key, const std::optional<double>& value) {
@@ -48,7 +50,28 @@ CaseVerdict verdict_on_record(const Campaign& campaign, const CampaignMotion& mo
   return nothing;
 }
 
+// Without a fault there is nothing to set beside a reference run: the experiment's own budgets.
+CaseVerdict verdict_by_budgets(const Campaign& campaign, const CampaignCase& one) {
+  const TemporaryFolder folder;
+  RunOptions options;
+  options.out = folder.path();
+  auto run = run_experiment(one.machine == 0 ? campaign.motion(one.motion).plain
+                                             : campaign.drawn->plain(one.machine, one.motion),
+                            options);
+  CaseVerdict verdict;
+  verdict.checks = std::move(run.judgement.checks);
+  if (!run.complete) {
+    verdict.checks.push_back(run_not_complete(run.reason));
+  }
+  verdict.fired = run.complete;  // nothing was to fire
+  verdict.handled = verdict.verdict() == Verdict::kPass;
+  return verdict;
+}
+
 CaseVerdict verdict_of(const Campaign& campaign, const CampaignCase& one) {
+  if (one.faults.empty() && campaign.controller.is_bbmc()) {
+    return verdict_by_budgets(campaign, one);
+  }
   const auto& motion = motion_of(campaign, one);
   const auto plan = plan_of(one);
   if (!campaign.controller.is_bbmc()) {
@@ -56,10 +79,10 @@ CaseVerdict verdict_of(const Campaign& campaign, const CampaignCase& one) {
     add_faults(fixture, plan);
     return judge_candidate(campaign.controller, fixture, motion.candidate_reference);
   }
-  const bool on_record =
-      one.carrier != "in-process" || std::any_of(plan.begin(), plan.end(), [](const Fault& fault) {
-        return fault.row().needs == FaultNeeds::kRecord;
-      });
+  const bool on_record = one.carrier != "in-process" || plan.empty() ||
+                         std::any_of(plan.begin(), plan.end(), [](const Fault& fault) {
+                           return fault.row().needs == FaultNeeds::kRecord;
+                         });
   if (on_record) {
     return verdict_on_record(campaign, motion, one);
   }
@@ -133,7 +156,8 @@ std::string run_campaign_case(const Campaign& campaign, const CampaignCase& aske
     for (const auto& check : verdict.checks) {
       rules.push_back(check.name);
       if (check.verdict != Verdict::kPass) {
-        line["broken"].push_back({{"rule", check.name}, {"reason", check.reason}});
+        line["broken"].push_back(
+            {{"rule", check.name}, {"reason", check.reason}, {"source", check.source}});
       } else if (!check.reason.empty()) {
         line["remarks"].push_back(check.reason);
       }

@@ -42,7 +42,7 @@ class CaseList {
   explicit CaseList(const Campaign& campaign) : campaign_(campaign) {}
 
   std::vector<CampaignCase> build() {
-    if (campaign_.without_fault) {
+    if (campaign_.without_fault || campaign_.without_fault_on_every_machine) {
       for (const auto& motion : campaign_.motions) {
         add_without_fault(motion.plain.experiment.name);
       }
@@ -102,13 +102,20 @@ class CaseList {
   }
 
   void add_without_fault(const std::string& motion) {
-    CampaignCase one;
-    one.id = motion + "/no.fault";
-    one.motion = motion;
-    one.part = "no";
-    one.kind = "fault";
-    one.moment = "none";
-    cases_.push_back(one);
+    const auto last = campaign_.without_fault_on_every_machine ? campaign_.machines : 0;
+    for (std::size_t machine = 0; machine <= last; ++machine) {
+      CampaignCase one;
+      one.id = motion + "/no.fault";
+      if (machine > 0) {
+        one.id += fmt::format("/machine-{}", machine);
+      }
+      one.motion = motion;
+      one.part = "no";
+      one.kind = "fault";
+      one.moment = "none";
+      one.machine = machine;
+      cases_.push_back(one);
+    }
   }
 
   // What is so from the start has no moment to draw: one case a machine.

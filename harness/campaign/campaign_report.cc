@@ -117,6 +117,68 @@ std::string rules(const Results& results) {
   return text;
 }
 
+// "TRK-5 (FR-2)" of "TRK-5 (FR-2): trapezoid, best law", "TRK-1" of "TRK-1", else nothing.
+std::string requirement_of(const std::string& source) {
+  const auto colon = source.find(':');
+  const bool says_no_id = colon == std::string::npos && source.find(' ') != std::string::npos;
+  return says_no_id ? std::string() : source.substr(0, colon);
+}
+
+// How far from the nominal machine which requirement gives way; empty where all are as far.
+std::string spreads(const Results& results) {
+  struct At {
+    std::set<std::size_t> machines;
+    CampaignSummary sum;
+    std::map<std::string, std::size_t> broken;
+  };
+  std::map<double, At> at_spread;
+  std::map<std::string, double> gives_way_at;
+  for (const auto& line : results) {
+    const double spread = line.value("spread", 0.0);
+    auto& at = at_spread[spread];
+    at.machines.insert(line.value("machine", std::size_t{0}));
+    count(at.sum, line);
+    std::set<std::string> of_case;
+    for (const auto& broken : line.value("broken", json::array())) {
+      const auto id = requirement_of(broken.value("source", ""));
+      const auto rule = fmt::format("`{}`", broken.value("rule", ""));
+      of_case.insert(id.empty() ? rule : id);
+      const auto first =
+          gives_way_at.try_emplace(id.empty() ? rule : id + ' ' + rule, spread).first;
+      first->second = std::min(first->second, spread);
+    }
+    for (const auto& name : of_case) {
+      ++at.broken[name];
+    }
+  }
+  if (at_spread.size() < 3) {  // the nominal machine and one spread
+    return {};
+  }
+  std::string text =
+      "| spread | machines | cases | handled | failed | invalid | requirements broken, in cases |\n"
+      "| ---: | ---: | ---: | ---: | ---: | ---: | --- |\n";
+  for (const auto& [spread, at] : at_spread) {
+    std::string broken;
+    for (const auto& [rule, cases] : at.broken) {
+      broken += fmt::format("{}{} {}", broken.empty() ? "" : ", ", rule, cases);
+    }
+    text += fmt::format("| {:.0f} % | {} | {} | {} | {} | {} | {} |\n", 100 * spread,
+                        at.machines.size(), at.sum.cases, at.sum.handled, at.sum.failed,
+                        at.sum.invalid, broken.empty() ? "none" : broken);
+  }
+  std::vector<std::pair<double, std::string>> in_order;
+  for (const auto& [name, spread] : gives_way_at) {
+    in_order.emplace_back(spread, name);
+  }
+  std::sort(in_order.begin(), in_order.end());
+  text += in_order.empty() ? "\nEvery requirement holds at every spread.\n" : "\n";
+  for (std::size_t i = 0; i < in_order.size(); ++i) {
+    text += fmt::format("{}. {} gives way at {:.0f} %\n", i + 1, in_order[i].second,
+                        100 * in_order[i].first);
+  }
+  return text;
+}
+
 std::string complaints(const CampaignReport& report, const Results& results,
                        const std::string& verdict) {
   constexpr std::size_t kMost = 40;
@@ -264,6 +326,7 @@ std::string campaign_report(const CampaignReport& report, const Results& results
   const auto section = [&](const char* head, const std::string& body) {
     text += body.empty() ? "" : fmt::format("\n## {}\n\n{}", head, body);
   };
+  section("Spread of the drawn machines", spreads(results));
   section("Failed", complaints(report, results, "FAIL"));
   section("Invalid: took no effect, or proves nothing", complaints(report, results, "INVALID"));
   section("Passed with a remark", remarks(results));

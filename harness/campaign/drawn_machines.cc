@@ -24,7 +24,7 @@ struct DrawnTable {
 
 class Draw {
  public:
-  Draw(std::size_t machine, double spread) : random_(0x6d616368 + machine), spread_(spread) {}
+  Draw(std::size_t number, double spread) : random_(0x6d616368 + number), spread_(spread) {}
 
   std::vector<DrawnTable> axis(core::Axis which, const emulator::RigAxisParameters& rig) {
     const auto& plant = rig.plant;
@@ -121,7 +121,7 @@ void write_machine(const Campaign& campaign, const CampaignMotion& motion,
   }
   auto drawn =
       with_line(rig.text(), "plants", fmt::format("[{}]", fmt::join(plants, ", ")), plain.rig_file);
-  Draw draw(machine, campaign.spread);
+  Draw draw(campaign.draw_of(machine), campaign.spread_of(machine));
   for (const auto axis : core::kAxes) {
     if (plain.rig.parameters.axes[axis].exists) {
       for (const auto& table : draw.axis(axis, plain.rig.parameters.axes[axis])) {
@@ -176,6 +176,10 @@ const CampaignMotion& DrawnMachines::motion(std::size_t machine, const std::stri
     found = motions_.end() - 1;
   }
   return *found;
+}
+
+ExperimentFixture DrawnMachines::plain(std::size_t machine, const std::string& name) const {
+  return load_motion(folder_of(folder_, machine) / (name + ".toml"), controller_).plain;
 }
 
 std::filesystem::path DrawnMachines::file_of(const Campaign& campaign,

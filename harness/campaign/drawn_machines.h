@@ -25,6 +25,8 @@ class DrawnMachines {
   // Of machine 1 .. machines. Runs the reference run when it is asked for; keeps those of one
   // machine.
   [[nodiscard]] const CampaignMotion& motion(std::size_t machine, const std::string& name);
+  // The same without running anything.
+  [[nodiscard]] ExperimentFixture plain(std::size_t machine, const std::string& name) const;
   // The file of a motion on a machine; the fixture's own for machine 0.
   [[nodiscard]] static std::filesystem::path file_of(const Campaign& campaign,
                                                      const std::filesystem::path& folder,

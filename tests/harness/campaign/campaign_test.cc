@@ -191,14 +191,79 @@ TEST(DrawnMachines, DifferFromTheNominalOneByNoMoreThanTheSpread) {
   for (std::size_t machine = 1; machine <= campaign.machines; ++machine) {
     const auto& motion = campaign.drawn->motion(machine, "trapezoid-y");
     const auto& plant = motion.plain.rig.parameters.axes[core::Axis::kY].plant;
-    EXPECT_NEAR(plant.inertia_kg_m2 / nominal.inertia_kg_m2, 1.0, campaign.spread);
+    EXPECT_NEAR(plant.inertia_kg_m2 / nominal.inertia_kg_m2, 1.0, campaign.spreads.front());
     EXPECT_NEAR(plant.torque_constant_Nm_per_A / nominal.torque_constant_Nm_per_A, 1.0,
-                campaign.spread);
-    EXPECT_NEAR(plant.friction.breakaway_Nm / nominal.friction.breakaway_Nm, 1.0, campaign.spread);
+                campaign.spreads.front());
+    EXPECT_NEAR(plant.friction.breakaway_Nm / nominal.friction.breakaway_Nm, 1.0,
+                campaign.spreads.front());
     EXPECT_EQ(motion.reference->first_fault(), nullptr);
     inertias.insert(plant.inertia_kg_m2);
   }
   EXPECT_EQ(inertias.size(), campaign.machines);
+}
+
+// The same draw, further out: each parameter leaves the nominal value by as many times as far.
+TEST(DrawnMachines, OfOneDrawLieOnALineThroughTheNominalOne) {
+  const TemporaryFixtures files;
+  auto campaign = read_campaign("fixtures/campaigns/spread-tracking.toml");
+  ASSERT_EQ(campaign.spreads, (std::vector<double>{0.05, 0.1, 0.15, 0.2, 0.25, 0.3}));
+  ASSERT_EQ(campaign.machines, 8U * 6U);
+  campaign.machines = 12;
+  campaign.drawn = std::make_unique<DrawnMachines>(campaign, files.folder());
+  const auto inertia_off = [&](std::size_t machine) {
+    const auto file = DrawnMachines::file_of(campaign, files.folder(), machine, "trapezoid-400");
+    const auto inertia_of = [](const std::filesystem::path& path) {
+      return load_experiment(path).rig.parameters.axes[core::Axis::kY].plant.inertia_kg_m2;
+    };
+    return inertia_of(file) / inertia_of("fixtures/experiments/trapezoid-400.toml") - 1;
+  };
+  EXPECT_NEAR(inertia_off(6) / inertia_off(2), 3.0, 1e-6);
+  EXPECT_NEAR(inertia_off(12) / inertia_off(8), 3.0, 1e-6);
+  EXPECT_GT(std::fabs(inertia_off(12) - inertia_off(6)), 1e-4) << "two draws";
+  EXPECT_EQ(campaign.spread_of(6), 0.3);
+  EXPECT_EQ(campaign.draw_of(6), 1U);
+  EXPECT_EQ(campaign.draw_of(7), 2U);
+}
+
+TEST(Campaign, IsRefusedWithOneSpreadAndSeveral) {
+  const TemporaryFixtures files;
+  files.write("two.toml",
+              "schema = 1\nname = \"two\"\nbase = \"" +
+                  std::filesystem::proximate("fixtures/campaigns/standard.toml", files.folder())
+                      .generic_string() +
+                  "\"\nspread = 0.1\nspreads = [0.1, 0.2]\n");
+  try {
+    (void)read_campaign(files.folder() / "two.toml");
+    ADD_FAILURE() << "taken";
+  } catch (const FixtureError& error) {
+    EXPECT_NE(std::string(error.what()).find("spread and spreads together"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(CampaignResults, TellAtWhichSpreadWhichRequirementGivesWay) {
+  const auto line = [](const char* name, double spread, std::size_t machine, bool broken) {
+    nlohmann::json one = {{"case", name},
+                          {"spread", spread},
+                          {"machine", machine},
+                          {"verdict", broken ? "FAIL" : "PASS"},
+                          {"handled", !broken}};
+    if (broken) {
+      one["broken"].push_back(
+          {{"rule", "peak_m"}, {"reason", "large"}, {"source", "TRK-5 (FR-2): best law"}});
+    }
+    return one;
+  };
+  CampaignReport report;
+  report.again = [](const nlohmann::json&) { return std::string(); };
+  const auto text = campaign_report(report, {line("a", 0, 0, false), line("b", 0.1, 1, false),
+                                             line("c", 0.3, 2, true), line("d", 0.3, 4, false)});
+  EXPECT_NE(text.find("| 10 % | 1 | 1 | 1 | 0 | 0 | none |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| 30 % | 2 | 2 | 1 | 1 | 0 | TRK-5 (FR-2) 1 |"), std::string::npos) << text;
+  EXPECT_NE(text.find("1. TRK-5 (FR-2) `peak_m` gives way at 30 %"), std::string::npos) << text;
+  const auto one_spread =
+      campaign_report(report, {line("a", 0, 0, false), line("b", 0.1, 1, true)});
+  EXPECT_EQ(one_spread.find("Spread of the drawn"), std::string::npos);
 }
 
 TEST(Campaign, TheLargeOneHasAHundredThousandCases) {
