@@ -25,7 +25,7 @@ struct RunContents {
   std::optional<CsvTable> truth;
   std::optional<CsvTable> timing;
   std::map<std::string, CsvTable> sensors;  // by file; those that the folder holds
-  std::optional<CsvTable> margins;  // of requirements, where the run was asked any
+  std::optional<CsvTable> margins;          // of requirements, where the run was asked any
   Origin origin = Origin::kUnknown;
   // What the folder says of itself that is not so (agreement.h), in sentences.
   std::vector<std::string> contradictions;

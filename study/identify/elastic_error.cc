@@ -25,7 +25,7 @@ double interpolated(const std::vector<double>& time_s, const std::vector<double>
   return values[k - 1] + share * (values[k] - values[k - 1]);
 }
 
-struct Problem {
+struct StretchProblem {
   std::vector<double> when_s;
   Eigen::MatrixXd regressors;  // 1, a, s
   Eigen::VectorXd speed;
@@ -33,9 +33,9 @@ struct Problem {
 };
 
 // Frames that were exposed while the reference moved, at this delay.
-Problem problem_at(const ElasticInput& input, double delay_s) {
+StretchProblem problem_at(const ElasticInput& input, double delay_s) {
   constexpr double kSpan_s = 5e-3;  // of the difference that makes an acceleration
-  Problem problem;
+  StretchProblem problem;
   std::vector<std::array<double, 4>> rows;
   std::vector<double> apart;
   for (std::size_t k = 0; k < input.frame_s.size(); ++k) {

@@ -8,56 +8,11 @@
 
 #include "harness/fixtures/fixture_error.h"
 #include "study/logs/column_map.h"
-#include "study/logs/csv_table.h"
-#include "study/logs/read_table.h"
+#include "study/procedures/log_file.h"
 #include "study/procedures/recording_frames.h"
 
 namespace towbench::harness::procedures {
 namespace {
-
-// A log as it was read, with the file that messages name.
-struct LogFile {
-  std::string path;
-  logs::Table table;
-  bool is_datalog = false;
-};
-
-void refuse_fatal(const logs::Findings& findings, const std::string& file) {
-  for (const auto& finding : findings) {
-    if (finding.kind == logs::Finding::Kind::kFatal) {
-      throw FixtureError({.file = file}, finding.sentence, "a log that can be read");
-    }
-  }
-}
-
-[[noreturn]] void refuse(const LogFile& log, std::size_t row, std::string given,
-                         std::string allowed) {
-  throw FixtureError({.file = log.path, .line = row < log.table.rows() ? log.table.line[row] : 0},
-                     std::move(given), std::move(allowed));
-}
-
-LogFile read_log_file(const std::filesystem::path& path, const std::string& axis) {
-  LogFile log{.path = path.string(), .table = {}};
-  if (!std::filesystem::is_regular_file(path)) {
-    throw FixtureError({.file = log.path}, "cannot be read",
-                       "a run folder, a data log or a file of CSV, MAT or MCAP");
-  }
-  const auto datalog = logs::find_datalog(path, axis);
-  if (!datalog.wrong.empty()) {
-    throw FixtureError({.file = log.path}, datalog.wrong, "a whole data log of the axis");
-  }
-  log.is_datalog = datalog.is_datalog;
-  logs::Findings findings;
-  log.table = log.is_datalog ? logs::read_csv_table(path, findings, datalog.lines)
-                             : logs::read_table(path, findings);
-  refuse_fatal(findings, log.path);
-  if (log.table.bad_rows > 0) {
-    throw FixtureError({.file = log.path, .line = log.table.first_bad_line},
-                       fmt::format("{} cells", log.table.first_bad_cells),
-                       fmt::format("{}, as in the header", log.table.names.size()));
-  }
-  return log;
-}
 
 logs::ColumnMap columns_of(const LogFile& log, const std::filesystem::path& given,
                            const std::string& axis) {
@@ -75,21 +30,6 @@ logs::ColumnMap columns_of(const LogFile& log, const std::filesystem::path& give
                        "the column of the drive's duty");
   }
   return map;
-}
-
-const std::vector<double>& column_of(const LogFile& log, const std::string& name) {
-  const auto* column = log.table.find(name);
-  if (column == nullptr) {
-    throw FixtureError({.file = log.path}, "no column '" + name + "'",
-                       fmt::format("one of: {}; name others with --columns MAP.toml",
-                                   fmt::join(log.table.names, " ")));
-  }
-  for (std::size_t row = 0; row < column->size(); ++row) {
-    if (!std::isfinite((*column)[row])) {
-      refuse(log, row, fmt::format("column {}: no number", name), "a finite number");
-    }
-  }
-  return *column;
 }
 
 // Rows of the longest stretch in which time rises: a data log starts at 0 with each motion.

@@ -6,44 +6,29 @@
 #include <fmt/format.h>
 
 #include "harness/fixtures/table_reader.h"
-#include "study/procedures/text_table.h"
+#include "study/procedures/log_file.h"
 #include "study/runs/run_columns.h"
 
 namespace towbench::harness {
 namespace {
 
 using core::Axis;
-using procedures::TextTable;
+using procedures::LogFile;
+using procedures::refuse;
 
-[[noreturn]] void refuse(const TextTable& table, std::size_t row, std::string given,
-                         std::string allowed) {
-  throw FixtureError({.file = table.file, .line = row < table.lines.size() ? table.lines[row] : 0},
-                     std::move(given), std::move(allowed));
-}
-
-std::vector<double> column_of(const TextTable& table, const std::string& name, double scale) {
-  const auto found = std::find(table.names.begin(), table.names.end(), name);
-  if (found == table.names.end()) {
-    refuse(table, table.rows.size(), "no column '" + name + "'",
-           fmt::format("one of: {}", fmt::join(table.names, " ")));
-  }
-  const auto index = static_cast<std::size_t>(found - table.names.begin());
-  std::vector<double> values;
-  values.reserve(table.rows.size());
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    values.push_back(scale * table.number(row, index));
-    if (!std::isfinite(values.back())) {
-      refuse(table, row, fmt::format("column {}: no number", name), "a finite number");
-    }
+std::vector<double> column_of(const LogFile& log, const std::string& name, double scale) {
+  auto values = procedures::column_of(log, name);
+  for (double& value : values) {
+    value *= scale;
   }
   return values;
 }
 
-std::vector<double> rising_time(const TextTable& table, const std::string& name, double scale) {
-  auto time_s = column_of(table, name, scale);
+std::vector<double> rising_time(const LogFile& log, const std::string& name, double scale) {
+  auto time_s = column_of(log, name, scale);
   for (std::size_t k = 1; k < time_s.size(); ++k) {
     if (time_s[k] <= time_s[k - 1]) {
-      refuse(table, k, fmt::format("time {} s after {} s", time_s[k], time_s[k - 1]),
+      refuse(log, k, fmt::format("time {} s after {} s", time_s[k], time_s[k - 1]),
              "time that rises");
     }
   }
@@ -51,16 +36,16 @@ std::vector<double> rising_time(const TextTable& table, const std::string& name,
 }
 
 // The mean step, from which no step may differ by half.
-double period_of(const TextTable& table, const std::vector<double>& time_s) {
+double period_of(const LogFile& log, const std::vector<double>& time_s) {
   constexpr std::size_t kFewest = 100;
   if (time_s.size() < kFewest) {
-    refuse(table, table.rows.size(), fmt::format("{} rows", time_s.size()),
+    refuse(log, log.table.rows(), fmt::format("{} rows", time_s.size()),
            fmt::format("at least {}", kFewest));
   }
   const double period_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
   for (std::size_t k = 1; k < time_s.size(); ++k) {
     if (std::fabs(time_s[k] - time_s[k - 1] - period_s) > 0.5 * period_s) {
-      refuse(table, k, fmt::format("{:.6g} s after the row before", time_s[k] - time_s[k - 1]),
+      refuse(log, k, fmt::format("{:.6g} s after the row before", time_s[k] - time_s[k - 1]),
              fmt::format("rows at one period, {:.6g} s", period_s));
     }
   }
@@ -110,12 +95,12 @@ void set_steady(const ListedTow& tow, const identify::Recording& data, Axis whic
   }
 }
 
-void read_axis(const TextTable& table, const ListedTow& tow, const AxisColumns& columns, Axis which,
+void read_axis(const LogFile& log, const ListedTow& tow, const AxisColumns& columns, Axis which,
                identify::Recording& data) {
   auto& axis = data.axes[which];
   const auto rows = data.rows();
   const auto optional = [&](const std::string& name, double scale) {
-    return name.empty() ? std::vector<double>(rows) : column_of(table, name, scale);
+    return name.empty() ? std::vector<double>(rows) : column_of(log, name, scale);
   };
   axis.mode.assign(rows, 0);
   axis.count.assign(rows, 0);
@@ -125,7 +110,7 @@ void read_axis(const TextTable& table, const ListedTow& tow, const AxisColumns& 
   if (columns.named) {
     const bool counted = !columns.count.empty();
     const auto place =
-        column_of(table, counted ? columns.count : columns.position,
+        column_of(log, counted ? columns.count : columns.position,
                   counted ? 1.0 : columns.position_scale_m / data.metres_per_count[which]);
     std::transform(place.begin(), place.end(), axis.count.begin(),
                    [](double count) { return static_cast<std::int64_t>(std::floor(count)); });
@@ -140,28 +125,27 @@ void read_axis(const TextTable& table, const ListedTow& tow, const AxisColumns& 
   }
   axis.velocity_m_per_s = axis.reference_velocity_m_per_s;
   if (!columns.current.empty()) {
-    axis.current_A = column_of(table, columns.current, columns.current_scale_A);
+    axis.current_A = column_of(log, columns.current, columns.current_scale_A);
   }
 }
 
-void read_force(const TextTable& log, const ListedTow& tow, const LogColumns& columns,
+void read_force(const LogFile& whole, const ListedTow& tow, const LogColumns& columns,
                 const std::filesystem::path& folder, identify::Recording& data) {
   const bool apart = !tow.force.empty();
-  const auto table = apart ? procedures::read_text_table(folder / tow.force, "y") : log;
+  const LogFile own = apart ? procedures::read_log_file(folder / tow.force, "y") : whole;
   const auto time_s = columns.force_time.empty()
-                          ? rising_time(table, columns.time, columns.time_scale_s)
-                          : rising_time(table, columns.force_time, columns.force_time_scale_s);
+                          ? rising_time(own, columns.time, columns.time_scale_s)
+                          : rising_time(own, columns.force_time, columns.force_time_scale_s);
   if (time_s.empty() || time_s.front() > data.time_s.front() + 0.1 ||
       time_s.back() < data.time_s.back() - 0.1) {
-    refuse(table, table.rows.size(), "force that does not cover the log's time",
+    refuse(own, own.table.rows(), "force that does not cover the log's time",
            fmt::format("{:.3f} to {:.3f} s", data.time_s.front(), data.time_s.back()));
   }
   for (const auto axis : core::kAxes) {
     data.force_N[axis] =
         columns.force[axis].empty()
             ? std::vector<double>(data.rows())
-            : held(time_s, column_of(table, columns.force[axis], columns.force_scale_N),
-                   data.time_s);
+            : held(time_s, column_of(own, columns.force[axis], columns.force_scale_N), data.time_s);
   }
 }
 
@@ -198,19 +182,19 @@ LogColumns read_log_columns(const std::filesystem::path& path) {
 identify::Recording read_foreign_log(const ListedTow& tow, const LogColumns& columns,
                                      const std::filesystem::path& folder,
                                      const emulator::RigParameters& rig) {
-  const auto table = procedures::read_text_table(folder / tow.log, "y");
+  const LogFile log = procedures::read_log_file(folder / tow.log, "y");
   if (columns.axes[Axis::kY].reference_velocity.empty() && tow.steady_from_s.empty()) {
-    refuse(table, table.rows.size(), "no reference velocity and no steady_from_s",
+    refuse(log, log.table.rows(), "no reference velocity and no steady_from_s",
            "one of them: where the speed is steady");
   }
   identify::Recording data;
-  data.time_s = rising_time(table, columns.time, columns.time_scale_s);
-  data.period_s = period_of(table, data.time_s);
+  data.time_s = rising_time(log, columns.time, columns.time_scale_s);
+  data.period_s = period_of(log, data.time_s);
   for (const auto axis : core::kAxes) {
     data.metres_per_count[axis] = emulator::metres_per_count(rig.axes[axis]);
-    read_axis(table, tow, columns.axes[axis], axis, data);
+    read_axis(log, tow, columns.axes[axis], axis, data);
   }
-  read_force(table, tow, columns, folder, data);
+  read_force(log, tow, columns, folder, data);
   return data;
 }
 

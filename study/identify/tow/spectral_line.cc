@@ -9,7 +9,7 @@
 namespace towbench::harness::identify {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kTurn_rad = 2 * std::numbers::pi;
 
 double mean_of(std::span<const double> samples) {
   double sum = 0;
@@ -22,8 +22,8 @@ double mean_of(std::span<const double> samples) {
 // 2/N sum x e^{-i w t}: amplitude and phase of a cosine at that frequency. Time from the start.
 std::complex<double> projection(std::span<const double> samples, double mean, double period_s,
                                 double frequency_Hz, double start_s = 0) {
-  const auto turn = std::polar(1.0, -kTurn * frequency_Hz * period_s);
-  auto phasor = std::polar(1.0, -kTurn * frequency_Hz * start_s);
+  const auto turn = std::polar(1.0, -kTurn_rad * frequency_Hz * period_s);
+  auto phasor = std::polar(1.0, -kTurn_rad * frequency_Hz * start_s);
   std::complex<double> sum = 0;
   for (const double each : samples) {
     sum += (each - mean) * phasor;
@@ -81,7 +81,7 @@ std::vector<Piece> pieces_of(std::span<const double> samples, double period_s, d
     const double start_s = static_cast<double>(k * rows) * period_s;
     const auto value = projection(part, mean_of(part), period_s, frequency_Hz, start_s);
     // Continued from the piece before, so that the phase does not wrap.
-    const double turns = std::arg(value) / kTurn;
+    const double turns = std::arg(value) / kTurn_rad;
     last += std::remainder(turns - last, 1.0);
     found.push_back({start_s + 0.5 * static_cast<double>(rows) * period_s, last, std::abs(value)});
   }

@@ -15,7 +15,7 @@ namespace {
 
 using core::Axis;
 
-emulator::AxisParameters nominal() {
+emulator::AxisParameters nominal_axis() {
   emulator::AxisParameters axis;
   axis.hard_ends.max_m = 3.95;
   return axis;
@@ -25,10 +25,10 @@ class ForeignStructures : public testing::TestWithParam<std::string_view> {};
 
 // By more than a count, of which a right model leaves a third.
 TEST_P(ForeignStructures, AnswersPulsesUnlikeTheModel) {
-  auto foreign = nominal();
+  auto foreign = nominal_axis();
   find_structure(GetParam())->build(foreign);
   ASSERT_EQ(emulator::inconsistency(foreign), nullptr);
-  const auto own = identify::simulated_pulses(nominal()).axes[Axis::kY].count;
+  const auto own = identify::simulated_pulses(nominal_axis()).axes[Axis::kY].count;
   const auto other = identify::simulated_pulses(foreign).axes[Axis::kY].count;
   std::int64_t most = 0;
   for (std::size_t k = 0; k < own.size(); ++k) {
@@ -58,13 +58,13 @@ class ForeignPulses : public testing::TestWithParam<std::string_view> {};
 
 // The search begins at the truth: what it ends beside is the structure's doing.
 TEST_P(ForeignPulses, LeaveInertiaAndFrictionWithinTheirIntervals) {
-  auto foreign = nominal();
+  auto foreign = nominal_axis();
   find_structure(GetParam())->build(foreign);
   const auto data = identify::simulated_pulses(foreign);
   const auto& counts = data.axes[Axis::kY].count;
   const auto [low, high] = std::minmax_element(counts.begin(), counts.end());
   const double metres = data.metres_per_count[Axis::kY];
-  identify::TwoMassStart start{.axis = nominal(), .path = {}};
+  identify::TwoMassStart start{.axis = nominal_axis(), .path = {}};
   start.axis.hard_ends.fitted = false;
   start.knots_m = {static_cast<double>(*low) * metres, static_cast<double>(*high) * metres};
   start.coulomb_Nm = {start.axis.coulomb_friction_Nm, start.axis.coulomb_friction_Nm};
@@ -75,8 +75,9 @@ TEST_P(ForeignPulses, LeaveInertiaAndFrictionWithinTheirIntervals) {
   EXPECT_GT(fit.residual_rms_counts, 0.5);
   const Interval inertia{fit.axis.inertia_kg_m2, 1.96 * fit.inertia_deviation};
   const Interval viscous{fit.axis.viscous_friction_Nm_s_per_rad, 1.96 * fit.viscous_deviation};
-  EXPECT_TRUE(inertia.holds(nominal().inertia_kg_m2)) << inertia.value << " +- " << inertia.half;
-  EXPECT_TRUE(viscous.holds(nominal().viscous_friction_Nm_s_per_rad))
+  EXPECT_TRUE(inertia.holds(nominal_axis().inertia_kg_m2))
+      << inertia.value << " +- " << inertia.half;
+  EXPECT_TRUE(viscous.holds(nominal_axis().viscous_friction_Nm_s_per_rad))
       << viscous.value << " +- " << viscous.half;
   EXPECT_LT(inertia.half, 0.3 * inertia.value);  // and is still a statement
   EXPECT_GT(inertia.half, 2e-4 * inertia.value);

@@ -73,7 +73,7 @@ std::string joined(const std::vector<std::string>& names) {
 std::string what_stopped(const Diagnosis& d, const std::string& effect) {
   using namespace towbench::harness::diagnose;
   std::string out;
-  for (const logs::Finding& finding : d.findings) {
+  for (const towbench::harness::logs::Finding& finding : d.findings) {
     out += finding.name + ": " + finding.sentence + "; ";
   }
   for (const Refused& r : d.refused) {
