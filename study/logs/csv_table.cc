@@ -92,7 +92,7 @@ class Reader {
   bool header_is_usable() {
     const std::size_t count = table_.names.size();
     const std::string where = fmt::format("{}:{}", file_, lines_.number());
-    if (count < 3 || count > kMostColumns) {
+    if (count < 2 || count > kMostColumns) {
       refuse("header_unusable",
              fmt::format("{}: the header has {} column{}; a log names time, position and input, "
                          "{} at most, parted by commas, semicolons or tabs",

@@ -14,7 +14,10 @@ namespace towbench::harness::procedures {
 void refuse_fatal(const logs::Findings& findings, const std::string& file) {
   for (const auto& finding : findings) {
     if (finding.kind == logs::Finding::Kind::kFatal) {
-      throw FixtureError({.file = file}, finding.sentence, "a log that can be read");
+      const bool named = finding.sentence.starts_with(file + ": ");
+      throw FixtureError({.file = file},
+                         named ? finding.sentence.substr(file.size() + 2) : finding.sentence,
+                         "a log that can be read");
     }
   }
 }
