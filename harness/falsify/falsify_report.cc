@@ -27,7 +27,7 @@ std::string row_of(const FalsifySession& session, std::size_t space, const std::
   }
   const auto bound = found.uniform_broken > 0
                          ? fmt::format("{} of {} broke it", found.uniform_broken, found.uniform)
-                         : fmt::format("{:.2g} %", 100 * rule_of_three(found.uniform));
+                         : fmt::format("{:.3g} %", 100 * rule_of_three(found.uniform));
   return fmt::format(
       "| {} | {} | {} | {} | {} | {} | {} | {} |\n", session.spaces()[space].name(), found.runs,
       found.fired, found.uniform, covered, margin_text(found.worst, unit), bound,
