@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
 namespace towbench::harness::diagnose {
@@ -21,24 +20,33 @@ std::vector<double> strongest(const VectorXd& x, const VectorXd& e, double spaci
                               std::size_t count) {
   const Index n = x.size();
   const Index every = std::max<Index>(1, n / kMostSamples);
-  std::vector<std::complex<double>> sum(count, 0);
+  std::vector<double> cosine(count, 0);
+  std::vector<double> sine(count, 0);
   for (Index i = 0; i < n; i += every) {
     if (e[i] == 0) continue;
-    const auto turn = std::polar(1.0, 2 * std::numbers::pi * spacing * x[i]);
-    auto phase = turn;
-    for (auto& s : sum) {
-      s += e[i] * phase;
-      phase *= turn;
+    const double angle = 2 * std::numbers::pi * spacing * x[i];
+    const double c1 = std::cos(angle);
+    const double s1 = std::sin(angle);
+    double c = e[i] * c1;
+    double s = e[i] * s1;
+    for (std::size_t line = 0; line < count; ++line) {
+      cosine[line] += c;
+      sine[line] += s;
+      const double turned = c * c1 - s * s1;
+      s = c * s1 + s * c1;
+      c = turned;
     }
+  }
+  std::vector<double> power(count);
+  for (std::size_t line = 0; line < count; ++line) {
+    power[line] = cosine[line] * cosine[line] + sine[line] * sine[line];
   }
   std::vector<double> out;
   for (std::size_t peak = 0; peak < kKept; ++peak) {
-    const auto best = std::max_element(sum.begin(), sum.end(), [](const auto& a, const auto& b) {
-      return std::norm(a) < std::norm(b);
-    });
-    const auto at = static_cast<std::size_t>(best - sum.begin());
+    const auto best = std::max_element(power.begin(), power.end());
+    const auto at = static_cast<std::size_t>(best - power.begin());
     out.push_back(spacing * static_cast<double>(at + 1));
-    for (std::size_t i = at < 6 ? 0 : at - 6; i < std::min(count, at + 7); ++i) sum[i] = 0;
+    for (std::size_t i = at < 6 ? 0 : at - 6; i < std::min(count, at + 7); ++i) power[i] = 0;
   }
   return out;
 }
