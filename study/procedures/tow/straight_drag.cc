@@ -19,6 +19,8 @@ using identify::DragPoint;
 using identify::Recording;
 
 constexpr const char* kDragUnit = "N s2/m2";
+constexpr const char* kRepeats =
+    "the duty of a steady tow repeats itself: its scatter does not show the error of its mean";
 constexpr const char* kBlind =
     "the model's bias exceeds the noise: friction by place reads as drag";
 
@@ -26,7 +28,8 @@ constexpr const char* kBlind =
 struct Method {
   std::string name;  // of its quantities
   std::string rests_on;
-  std::string no_interval{};  // why its noise says nothing of its error
+  std::string no_interval{};             // why its noise says nothing of its error
+  std::string no_interval_at_a_speed{};  // nor of one speed's
   std::vector<DragPoint> points{};
   bool whole = true;  // no point was missing
   bool weighted = true;
@@ -116,7 +119,8 @@ class Exp1 {
     }
     std::vector<Method> methods{
         {"fsm", "force sensor in the water less out of it, both ways; no belief about the drive"},
-        {"mcd", "duty in the water less out of it (8.5), both ways, scaled by a known weight"},
+        {"mcd", "duty in the water less out of it (8.5), both ways, scaled by a known weight", "",
+         kRepeats},
         {"mbdp_near", "(8.6), rigid model of tows at the near end", kBlind},
         {"mbdp_middle", "(8.6), rigid model of tows in mid tank", kBlind},
         {"mbdp", "(8.6), model with friction by place, from tows in air"}};
@@ -173,6 +177,11 @@ class Exp1 {
       }
       auto found =
           identify::drag_curve(method.points, method.name + "_drag_N", "y", method.rests_on);
+      if (!method.no_interval_at_a_speed.empty()) {
+        for (auto& each : found) {
+          each = identify::withheld(each, method.no_interval_at_a_speed);
+        }
+      }
       found.push_back(identify::to_estimate(coefficient, method.name + "_drag_N_s2_per_m2", "y",
                                             kDragUnit, method.rests_on));
       for (auto& each : found) {
