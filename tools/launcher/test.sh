@@ -11,7 +11,7 @@ source "$root/tools/launcher/stages_guard.sh"
 # shellcheck source=tools/launcher/stages_release.sh
 source "$root/tools/launcher/stages_release.sh"
 
-guard_stages=(lint tests board sanitize_thread sanitize_address carriers fuzz fresh_start)
+guard_stages=(lint tests board sanitize_thread sanitize_address carriers fresh_start fuzz)
 quick_stages=(lint tests)
 release_stages=(attack long_tests alone tidy step_cost armhf package campaign other_controllers linuxcnc diagnosis mutants guard_mutations slurm)
 on_request_stages=(build_times carrier_table panel_cost)
@@ -37,10 +37,10 @@ guards main:
                     parsers of fixtures and faults, recorder, judge, report, panel
   carriers          the demo over serial lines, CAN and GPIO lines, and the carriers' own tests, in an
                     emulated machine whose Debian kernel has both; a run by the wall clock
-  fuzz              every decoder and parser, ten seconds each (TOWBENCH_FUZZ_SECONDS to change), beside
-                    the carriers' machine
-  fresh_start       a clone in a bare Debian 12, as root and as a user: ./towbench demo from nothing. Left out
-                    where launcher, build files and packages are as when it passed last
+  fresh_start       a clone in a bare Debian 12, as root and as a user: ./towbench demo from nothing, beside
+                    the carriers' machine. Left out where launcher, build files and packages are as when it
+                    passed last
+  fuzz              every decoder and parser, ten seconds each (TOWBENCH_FUZZ_SECONDS to change)
 
 with --all besides:
   attack            hostile use: every option, fixture, run folder, wire and request, some 1,500 attacks
@@ -99,7 +99,7 @@ run_test() {
 is_stage() { [[ -n $1 && " ${guard_stages[*]} ${release_stages[*]} ${on_request_stages[*]} " == *" $1 "* ]]; }
 
 run_stages() {
-  passed=0 failed=0 skipped=0 summary='' fuzz_beside='' asked_for=("$@")
+  passed=0 failed=0 skipped=0 summary='' fresh_start='' asked_for=("$@")
   local stage started status verdict failed_before whole=$SECONDS
   for stage in "$@"; do
     printf '\n== %s\n' "$stage"
@@ -155,13 +155,27 @@ reported() {
   count_report "$log" "$status"
 }
 
-# run_ctest PRESET FOLDER [ctest arguments...]: counts each test, shows the failed ones. One more at a
+# run_ctest PRESET FOLDER [ctest arguments...]: counts each test, shows the failed ones. Two more at a
 # time than processors, because many tests wait.
 run_ctest() {
+  local preset=$1 folder=$2
+  shift 2
+  counted_tests "$preset" "$folder" ctest --test-dir "$build/$preset/$folder" --output-on-failure \
+    --no-tests=error -j "$(($(nproc) + 2))" "$@"
+}
+
+# The same with many tests in one process: under a sanitizer a start costs more than most tests.
+run_in_groups() {
+  local preset=$1 folder=$2
+  shift 2
+  counted_tests "$preset" "$folder" python3 "$root/tools/run_in_groups.py" "$(($(nproc) + 1))" "$build/$preset/$folder" "$@"
+}
+
+# counted_tests PRESET FOLDER COMMAND...: a command that prints a line for each test, as ctest does.
+counted_tests() {
   local preset=$1 folder=$2 log=$build/$1.ctest.log status=0 line
   shift 2
-  watched "tests ($preset)" ctest_steps "$log.running" ctest --test-dir "$build/$preset/$folder" --output-on-failure \
-    --no-tests=error -j "$(($(nproc) + 1))" "$@" || status=$?
+  watched "tests ($preset)" ctest_steps "$log.running" "$@" || status=$?
   mv "$log.running" "$log"
   line=$(grep -E 'tests? failed out of' "$log" || echo '0 tests failed out of 0')
   local total=${line##* } bad=${line#*passed, } off
