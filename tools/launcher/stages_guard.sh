@@ -70,7 +70,7 @@ board_checks() {
 stage_carriers() {
   local status=0 log=$build/carriers.log
   built release towbench-bench test_protocol test_bbmc c_pid
-  if is_asked_for fuzz; then start_fuzz_beside; fi
+  if is_asked_for fresh_start; then start_fresh_start; fi
   "$root/tests/carriers/run.sh" "$root" "$build/release" 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
   passed=$((passed + $(grep -c '^@@ passed' "$log")))
   note=$(sed -n -e 's/^@@ \(real time unproven\).*/; \1/p' \
@@ -88,7 +88,7 @@ stage_sanitize_thread() {
   built tsan test_core test_protocol test_bbmc
   local folder
   for folder in core protocol bbmc; do
-    TSAN_OPTIONS=halt_on_error=1 run_ctest tsan "tests/$folder" -E "$(left_out)" || return 1
+    TSAN_OPTIONS=halt_on_error=1 run_in_groups tsan "tests/$folder" -E "$(left_out)" || return 1
   done
 }
 
@@ -110,16 +110,8 @@ stage_sanitize_address() {
   for folder in "${folders[@]}"; do
     LSAN_OPTIONS=suppressions=$root/tests/support/leaks_of_libraries.txt:print_suppressions=0 \
       ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 \
-      run_ctest sanitize "tests/$folder" -E "$(left_out)|NOT_BUILT" -LE browser || return 1
+      run_in_groups sanitize "tests/$folder" -E "$(left_out)|NOT_BUILT" -LE browser || return 1
   done
-}
-
-# Beside the carriers' machine, which is emulated on one core, the fuzzer has another.
-start_fuzz_beside() {
-  fuzz_is_built || return 0 # stage_fuzz says so
-  setsid "$root/tools/fuzz_all.sh" "$root" "$(fuzz_seconds)" 1 >"$build/fuzz.log" 2>&1 &
-  fuzz_beside=$!
-  trap 'kill -- "-$fuzz_beside" 2>/dev/null' EXIT
 }
 
 fuzz_is_built() {
@@ -132,14 +124,8 @@ fuzz_seconds() {
 
 stage_fuzz() {
   local status=0
-  if [[ -n $fuzz_beside ]]; then
-    wait "$fuzz_beside" || status=$?
-    trap - EXIT
-    cat "$build/fuzz.log"
-  else
-    # Two at a time: as many as the smallest supported machine has cores.
-    fuzz_is_built && "$root/tools/fuzz_all.sh" "$root" "$(fuzz_seconds)" 2 2>&1 | tee "$build/fuzz.log" || status=1
-  fi
+  # Two at a time: as many as the smallest supported machine has cores.
+  fuzz_is_built && "$root/tools/fuzz_all.sh" "$root" "$(fuzz_seconds)" 2 2>&1 | tee "$build/fuzz.log" || status=1
   passed=$((passed + $(grep -c 'no finding$' "$build/fuzz.log")))
   ((status == 0)) || failed=$((failed + 1))
   return "$status"
@@ -151,16 +137,30 @@ first_start_key() {
     '*CMakeLists.txt' && git diff HEAD -- towbench tools/launcher tools/fresh_start.sh cmake '*CMakeLists.txt') | sha256sum | cut -d' ' -f1
 }
 
-stage_fresh_start() {
-  local key kept=${XDG_CACHE_HOME:-$HOME/.cache}/towbench/fresh_start
-  key=$(first_start_key)
-  if [[ $everything == false && -e $kept/$key ]]; then
-    skip_reason='launcher, build files and packages are as when it passed last'
-    return 99
-  fi
+first_starts_kept() { echo "${XDG_CACHE_HOME:-$HOME/.cache}/towbench/fresh_start"; }
+first_start_has_passed() { [[ $everything == false && -e $(first_starts_kept)/$(first_start_key) ]]; }
+
+# Beside the carriers' machine, which is emulated on one core, the first start has another.
+start_fresh_start() {
+  if first_start_has_passed; then return; fi
   # A release compiles from nothing, as a newcomer does; main's guard has compiled the same sources already.
   local cache=()
   if [[ $everything == false ]]; then cache=("$(ccache --get-config cache_dir 2>/dev/null || true)"); fi
-  reported "$build/fresh_start.log" "$root/tools/fresh_start.sh" "$root" "${cache[@]}" || return
-  mkdir -p "$kept" && touch "$kept/$key"
+  setsid "$root/tools/fresh_start.sh" "$root" "${cache[@]}" >"$build/fresh_start.log" 2>&1 &
+  fresh_start=$!
+  trap 'kill -- "-$fresh_start" 2>/dev/null' EXIT
+}
+
+stage_fresh_start() {
+  local status=0
+  if first_start_has_passed; then
+    skip_reason='launcher, build files and packages are as when it passed last'
+    return 99
+  fi
+  [[ -n $fresh_start ]] || start_fresh_start
+  tail -n +1 -f --pid="$fresh_start" "$build/fresh_start.log"
+  wait "$fresh_start" || status=$?
+  trap - EXIT
+  count_report "$build/fresh_start.log" "$status" || return
+  mkdir -p "$(first_starts_kept)" && touch "$(first_starts_kept)/$(first_start_key)"
 }
