@@ -27,7 +27,7 @@ endif()
 if(TOWBENCH_FUZZ)
   # Every source reports its coverage to the fuzzer; tests/fuzz adds the fuzzer's own main.
   target_compile_options(towbench_options INTERFACE
-    -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+    -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(towbench_options INTERFACE -fsanitize=address,undefined)
 endif()
 
@@ -79,11 +79,18 @@ function(towbench_test name)
   endif()
   add_executable(${name} ${sources})
   # Test code is compiled often and run once; what it tests keeps its own optimisation.
-  target_compile_options(${name} PRIVATE $<IF:$<BOOL:${TOWBENCH_FUZZ}>,-O0,-O1>)
+  if(TOWBENCH_FUZZ OR TOWBENCH_SANITIZE)
+    target_compile_options(${name} PRIVATE -O0)
+  else()
+    target_compile_options(${name} PRIVATE -O1)
+  endif()
   target_link_libraries(${name} PRIVATE towbench_options ${arg_DEPENDS}
     GTest::gmock GTest::gtest GTest::gtest_main)
   gtest_discover_tests(${name} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR} DISCOVERY_TIMEOUT 60
     DISCOVERY_MODE PRE_TEST
-    # Keys of run folders are made here, not in the state of whoever runs the tests.
-    PROPERTIES ENVIRONMENT "XDG_STATE_HOME=${CMAKE_BINARY_DIR}/state")
+    # Keys of run folders are made here, not in the state of whoever runs the tests. Freed memory is
+    # kept, as in study/main.cc.
+    PROPERTIES ENVIRONMENT
+      "XDG_STATE_HOME=${CMAKE_BINARY_DIR}/state"
+      MALLOC_MMAP_THRESHOLD_=33554432 MALLOC_TRIM_THRESHOLD_=1073741824 MALLOC_TOP_PAD_=67108864)
 endfunction()
