@@ -41,6 +41,18 @@ double worst_error(const AxisParameters& axis, const std::vector<AxisOracle::Inp
   return worst;
 }
 
+// Main is guarded by a part of each motion, a release by the whole.
+class Convergence : public testing::TestWithParam<double> {
+ protected:
+  static std::vector<CommandHistory> histories(double whole_s) {
+    return command_histories(GetParam() * whole_s);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Short, Convergence, testing::Values(0.2),
+                         [](const auto&) { return "a_fifth"; });
+INSTANTIATE_TEST_SUITE_P(Long, Convergence, testing::Values(1.0),
+                         [](const auto&) { return "the_whole"; });
+
 std::vector<AxisOracle::Input> inputs_of(const CommandHistory& history, double scale = 1.0) {
   std::vector<AxisOracle::Input> inputs;
   for (const double volts : history.volts) {
@@ -49,8 +61,8 @@ std::vector<AxisOracle::Input> inputs_of(const CommandHistory& history, double s
   return inputs;
 }
 
-TEST(Convergence, StaysWithinHalfACountOverTwentySecondsOnAllSixHistories) {
-  for (const auto& history : command_histories(20.0)) {
+TEST_P(Convergence, StaysWithinHalfACountOnAllSixHistories) {
+  for (const auto& history : histories(20.0)) {
     const double error = worst_error(nominal_y(), inputs_of(history));
     RecordProperty(history.name, std::to_string(error));
     EXPECT_LT(error, 0.5) << history.name;
@@ -58,33 +70,33 @@ TEST(Convergence, StaysWithinHalfACountOverTwentySecondsOnAllSixHistories) {
   }
 }
 
-TEST(Convergence, HoldsForTheLightAndFastAxisToo) {
-  for (const auto& history : command_histories(5.0)) {
+TEST_P(Convergence, HoldsForTheLightAndFastAxisToo) {
+  for (const auto& history : histories(5.0)) {
     EXPECT_LT(worst_error(nominal_x(), inputs_of(history, 0.3)), 0.5) << history.name;
   }
 }
 
-TEST(Convergence, HoldsInVoltageModeWithItsCurrentLimit) {
+TEST_P(Convergence, HoldsInVoltageModeWithItsCurrentLimit) {
   AxisParameters axis = nominal_y();
   axis.amplifier.mode = emulator::AmplifierMode::kVoltage;
-  for (const auto& history : command_histories(5.0)) {
+  for (const auto& history : histories(5.0)) {
     EXPECT_LT(worst_error(axis, inputs_of(history)), 0.5) << history.name;
   }
 }
 
-TEST(Convergence, HoldsForARigidChainAndForLorentzFriction) {
+TEST_P(Convergence, HoldsForARigidChainAndForLorentzFriction) {
   AxisParameters rigid = nominal_y();
   rigid.chain.rigid = true;
   AxisParameters lorentz = nominal_y();
   lorentz.friction.stribeck_form = emulator::StribeckForm::kLorentz;
-  for (const auto& history : command_histories(5.0)) {
+  for (const auto& history : histories(5.0)) {
     EXPECT_LT(worst_error(rigid, inputs_of(history)), 0.5) << history.name;
     EXPECT_LT(worst_error(lorentz, inputs_of(history)), 0.5) << history.name;
   }
 }
 
-TEST(Convergence, HoldsWhenTheAmplifierIsSwitchedTheSupplySagsAndAHandPushes) {
-  std::vector<AxisOracle::Input> inputs = inputs_of(command_histories(5.0)[4]);
+TEST_P(Convergence, HoldsWhenTheAmplifierIsSwitchedTheSupplySagsAndAHandPushes) {
+  std::vector<AxisOracle::Input> inputs = inputs_of(histories(5.0)[4]);
   for (std::size_t k = 0; k < inputs.size(); ++k) {
     inputs[k].enabled = k % 7000 < 5000;
     inputs[k].supply_V = k % 900 < 450 ? 12.0 : 9.0 + 1e-3 * static_cast<double>(k % 450);
@@ -93,40 +105,40 @@ TEST(Convergence, HoldsWhenTheAmplifierIsSwitchedTheSupplySagsAndAHandPushes) {
   EXPECT_LT(worst_error(nominal_y(), inputs), 0.5);
 }
 
-TEST(Convergence, HoldsThroughHardEnds) {
+TEST_P(Convergence, HoldsThroughHardEnds) {
   AxisParameters axis = nominal_y();
   axis.hard_ends.min_m = 0;
   axis.hard_ends.max_m = 0.1;  // starts in the middle of ten centimetres
-  EXPECT_LT(worst_error(axis, inputs_of(command_histories(5.0)[0])), 0.5);
+  EXPECT_LT(worst_error(axis, inputs_of(histories(5.0)[0])), 0.5);
   axis.chain.rigid = true;
-  EXPECT_LT(worst_error(axis, inputs_of(command_histories(5.0)[0])), 0.5);
+  EXPECT_LT(worst_error(axis, inputs_of(histories(5.0)[0])), 0.5);
 }
 
-TEST(Convergence, HoldsOverTwentySecondsWithGearBacklash) {
+TEST_P(Convergence, HoldsWithGearBacklash) {
   AxisParameters axis = nominal_y();
   axis.gear.backlash_deg = 0.35;
-  for (const auto& history : command_histories(20.0)) {
+  for (const auto& history : histories(20.0)) {
     const double error = worst_error(axis, inputs_of(history));
     RecordProperty(history.name, std::to_string(error));
     EXPECT_LT(error, 0.5) << history.name;
   }
 }
 
-TEST(Convergence, HoldsWithEachOptionalTermAlone) {
+TEST_P(Convergence, HoldsWithEachOptionalTermAlone) {
   for (const auto& term : optional_terms()) {
     AxisParameters axis = nominal_y();
     term.add_to(axis);
     ASSERT_EQ(emulator::inconsistency(axis), nullptr) << term.name;
-    for (const auto& history : command_histories(1.5)) {
+    for (const auto& history : histories(1.5)) {
       EXPECT_LT(worst_error(axis, inputs_of(history)), 0.5) << term.name << ", " << history.name;
     }
   }
 }
 
-TEST(Convergence, HoldsWithEveryOptionalTermAtOnce) {
+TEST_P(Convergence, HoldsWithEveryOptionalTermAtOnce) {
   const AxisParameters axis = with_every_term(nominal_y());
   ASSERT_EQ(emulator::inconsistency(axis), nullptr);
-  for (const auto& history : command_histories(1.5)) {
+  for (const auto& history : histories(1.5)) {
     EXPECT_LT(worst_error(axis, inputs_of(history)), 0.5) << history.name;
   }
 }
