@@ -8,7 +8,7 @@
 
 #include "harness/board_bench/reference_board.h"
 #include "harness/external/external_run.h"
-#include "harness/metrics/csv_table.h"
+#include "harness/files/csv_table.h"
 #include "harness/record/temporary_folder.h"
 
 namespace towbench::harness {

@@ -12,8 +12,8 @@
 // clang-format on
 #include <fmt/format.h>
 
+#include "harness/files/csv_table.h"
 #include "harness/files/regular_file.h"
-#include "harness/metrics/csv_table.h"
 
 namespace towbench::harness {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "harness/fault_cases/fault_case.h"
 #include "harness/fault_cases/motion_phases.h"
+#include "harness/files/csv_table.h"
 #include "harness/fixtures/fixture_error.h"
-#include "harness/metrics/csv_table.h"
 #include "harness/record/event_lines.h"
 
 namespace towbench::harness {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "harness/fault_cases/requirements.h"
-#include "harness/metrics/csv_table.h"
+#include "harness/files/csv_table.h"
 #include "harness/record/event_lines.h"
 
 namespace towbench::harness {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/axis.h"
-#include "harness/metrics/csv_table.h"
+#include "harness/files/csv_table.h"
 
 namespace towbench::harness {
 

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/time.h"
 #include "harness/checks/sensor_files.h"
-#include "harness/metrics/csv_table.h"
+#include "harness/files/csv_table.h"
 #include "study/procedures/recording_frames.h"
 
 namespace towbench::harness {

@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/files/csv_table.h"
 #include "harness/fixtures/canonical_hash.h"
-#include "harness/metrics/csv_table.h"
 #include "harness/run/experiment_run.h"
 #include "tests/harness/fixtures/temporary_fixtures.h"
 

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "harness/external/external_bench.h"
+#include "harness/files/csv_table.h"
 #include "harness/link/unrecorded_plant.h"
-#include "harness/metrics/csv_table.h"
 #include "harness/realtime/realtime_checks.h"
 #include "harness/record/temporary_folder.h"
 #include "tests/harness/realtime/scripted_clock.h"

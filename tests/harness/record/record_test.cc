@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "harness/metrics/csv_table.h"
+#include "harness/files/csv_table.h"
 #include "harness/record/csv_writer.h"
 #include "harness/record/event_lines.h"
 #include "harness/record/junit.h"

@@ -1,4 +1,4 @@
-#include "harness/metrics/csv_table.h"
+#include "harness/files/csv_table.h"
 
 #include <algorithm>
 #include <charconv>
