@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# docs/measurements/spread.md: which requirement gives way first on machines that differ from what BBMC believes.
+# docs/measurements/spread.md: which requirement gives way first on machines that differ from BBMC's parameters.
 # usage: write_spread.sh ROOT BENCH WORK      WORK: folder of the campaigns' results; what is there is not run again
 set -euo pipefail
 root=${1:?usage: write_spread.sh ROOT BENCH WORK}
@@ -28,7 +28,7 @@ spread around the nominal machine; BBMC keeps the beliefs of its file and is tol
 further out. A cell of the last column: requirement, or check, and in how many cases it is broken. The first line of each list gives way first.
 
 TRK-4 has the least room on the nominal machine, 2.28 of 2.5 mm ([tracking.md](tracking.md)). In the case of SAF-3,
-\`no_preventable_contact\`, K_T K_amp of Y is 14 % below what BBMC believes.
+\`no_preventable_contact\`, K_T K_amp of Y is 14 % below BBMC's value.
 
 ## Tracking budgets
 \`fixtures/campaigns/spread-tracking.toml\`: nine experiments without a fault, 8 draws.

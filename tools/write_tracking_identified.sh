@@ -22,11 +22,11 @@ Written by `tools/write_tracking_identified.sh`. Table 7.6's trapezoids on Y, 0.
 of its file, which are those of the nominal machine, and is told its exact place. On the right it is set up from `./towbench identify` of the
 machine that it drives and finds the place of both axes by their switches (`poscalib`), then goes to the same start. X is not identified for
 this page: it keeps the beliefs of its file on both sides, and is homed all the same.
-"Encoder frozen": X is harder to move than its file believes, and homing takes that for a dead encoder; with X set up too it homes
+"Encoder frozen": X has more friction than its file states, and homing takes that for a failed encoder; with X set up too it homes
 (`IdentifiedController.HomesMachinesOnWhichItsFileIsOffOrTrips`).
 
-um. Mean and RMS: motor side, steady state. Carriage peak: the reference in the believed place against the truth, whole profile, so that an error of
-the place is in it. Place off: where BBMC believes the motor to be, less where it is. `bbmc-best` runs S-curves and leads the motor by the
+um. Mean and RMS: motor side, steady state. Carriage peak: the reference in BBMC's frame against the truth, whole profile, so that an error of
+the place is in it. Place off: BBMC's position of the motor, less the true one. `bbmc-best` runs S-curves and leads the motor by the
 chain's stretch on purpose.
 
 PAGE
