@@ -1,10 +1,10 @@
 #include "harness/files/csv_table.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 
+#include "harness/files/csv_row.h"
 #include "harness/files/regular_file.h"
 
 namespace towbench::harness {
@@ -19,31 +19,15 @@ std::string read_table(const std::filesystem::path& path) {
   return std::get<std::string>(std::move(text));
 }
 
-std::vector<std::string> split_header(std::string_view line) {
-  std::vector<std::string> names;
-  for (std::size_t start = 0; start <= line.size();) {
-    const std::size_t end = std::min(line.find(',', start), line.size());
-    names.emplace_back(line.substr(start, end - start));
-    start = end + 1;
+// Takes the next line from the front of `rest`, which holds whole lines only.
+std::string_view take_line(std::string_view& rest) {
+  const std::size_t end = rest.find('\n');
+  std::string_view line = rest.substr(0, end);
+  rest.remove_prefix(end + 1);
+  if (line.ends_with('\r')) {
+    line.remove_suffix(1);
   }
-  return names;
-}
-
-// Parses one row into the ends of `columns`; false when it does not fit them.
-bool parse_row(std::string_view line, std::span<std::vector<double>* const> columns) {
-  const char* next = line.data();
-  const char* const end = line.data() + line.size();
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    double value = 0;
-    const auto [stop, error] = std::from_chars(next, end, value);
-    const bool last = i + 1 == columns.size();
-    if (error != std::errc() || (last ? stop != end : stop == end || *stop != ',')) {
-      return false;
-    }
-    columns[i]->push_back(value);
-    next = stop + 1;
-  }
-  return true;
+  return line;
 }
 
 }  // namespace
@@ -53,54 +37,83 @@ CsvTable CsvTable::load(const std::filesystem::path& path) {
 }
 
 CsvTable CsvTable::parse(std::string_view text, const std::filesystem::path& path) {
-  CsvTable table;
-  table.torn_ = text.empty() || text.back() != '\n';
-  std::size_t start = text.find('\n');
-  if (start == std::string::npos) {
+  auto table = salvage(text);
+  if (table.names_.empty()) {
     throw CsvError(fmt::format("{}: no header row", path.string()));
   }
-  std::vector<std::vector<double>*> columns;
-  for (const auto& name : split_header(text.substr(0, start))) {
-    const auto [position, is_new] = table.columns_.try_emplace(name);
-    if (!is_new) {
-      throw CsvError(fmt::format("{}:1: column {} appears twice", path.string(), name));
+  for (auto name = table.names_.begin(); name != table.names_.end(); ++name) {
+    if (std::find(table.names_.begin(), name, *name) != name) {
+      throw CsvError(fmt::format("{}:1: column {} appears twice", path.string(), *name));
     }
-    columns.push_back(&position->second);
   }
-  ++start;
-  for (std::size_t end = text.find('\n', start); end != std::string::npos;
-       start = end + 1, end = text.find('\n', start)) {
-    if (!parse_row(text.substr(start, end - start), columns)) {
-      throw CsvError(
-          fmt::format("{}:{}: not {} numbers", path.string(), table.rows_ + 2, columns.size()));
-    }
-    ++table.rows_;
+  if (!table.first_wrong_.empty()) {
+    throw CsvError(fmt::format("{}:{}", path.string(), table.first_wrong_));
   }
   return table;
+}
+
+CsvTable CsvTable::salvage(std::string_view text) {
+  CsvTable table;
+  const std::size_t whole = text.rfind('\n') + 1;  // 0 without any line end
+  table.torn_ = whole < text.size();
+  text = text.substr(0, whole);
+  if (text.empty()) {
+    return table;
+  }
+  std::vector<std::string_view> cells;
+  split_csv_row(take_line(text), ',', {}, cells);
+  table.names_.assign(cells.begin(), cells.end());
+  table.columns_.resize(cells.size());
+  for (std::size_t number = 2; !text.empty(); ++number) {
+    table.add_row(take_line(text), number, cells);
+  }
+  return table;
+}
+
+void CsvTable::add_row(std::string_view line, std::size_t number,
+                       std::vector<std::string_view>& cells) {
+  const auto wrong = [&](const std::string& what) {
+    if (first_wrong_.empty()) {
+      first_wrong_ = fmt::format("{}: {}", number, what);
+    }
+  };
+  split_csv_row(line, ',', {}, cells);
+  const std::size_t given = line.empty() ? 0 : cells.size();
+  if (given != names_.size()) {
+    wrong(fmt::format("{} cells, and the header names {} columns", given, names_.size()));
+    refused_rows_ += given == 0 ? 0U : 1U;
+    return;
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto value = csv_number(cells[i]);
+    if (!value) {
+      wrong(fmt::format("column {}: '{}' is not a number", names_[i], cells[i]));
+      refused_cells_ += cells[i].empty() ? 0U : 1U;
+    }
+    columns_[i].push_back(value.value_or(kNoNumber));
+  }
+  ++rows_;
 }
 
 CsvTable CsvTable::of(std::map<std::string, std::vector<double>, std::less<>> columns) {
   CsvTable table;
   table.rows_ = columns.empty() ? 0 : columns.begin()->second.size();
-  table.columns_ = std::move(columns);
+  for (auto& [name, values] : columns) {
+    table.names_.push_back(name);
+    table.columns_.push_back(std::move(values));
+  }
   return table;
 }
 
-bool CsvTable::has(std::string_view column) const {
-  return columns_.find(column) != columns_.end();
-}
-
-std::vector<std::string> CsvTable::names() const {
-  std::vector<std::string> names;
-  for (const auto& [name, values] : columns_) {
-    names.push_back(name);
-  }
-  return names;
+const std::vector<double>* CsvTable::find(std::string_view name) const {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  return found == names_.end() ? nullptr
+                               : &columns_[static_cast<std::size_t>(found - names_.begin())];
 }
 
 std::span<const double> CsvTable::column(std::string_view name) const {
-  const auto found = columns_.find(name);
-  return found == columns_.end() ? std::span<const double>{} : found->second;
+  const auto* values = find(name);
+  return values == nullptr ? std::span<const double>{} : *values;
 }
 
 }  // namespace towbench::harness

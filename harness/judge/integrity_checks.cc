@@ -48,7 +48,9 @@ std::string gaps_in(std::span<const double> time_s, core::Nanoseconds period_ns,
 }
 
 std::string not_finite_in(const CsvTable& table) {
-  for (const auto& name : table.names()) {
+  auto names = table.names();
+  std::sort(names.begin(), names.end());  // of several always the same, from a file or from memory
+  for (const auto& name : names) {
     const auto column = table.column(name);
     if (!std::all_of(column.begin(), column.end(), [](double x) { return std::isfinite(x); })) {
       return fmt::format("column {} holds a value that is not finite", name);

@@ -163,7 +163,7 @@ void add_sensor(const std::string& file, const CsvTable& csv, PlotTable& table) 
   }
   const std::vector<std::size_t> rows = rows_in_order(*time_s);
   const TimedSource source{csv, rows, picked(*time_s, rows)};
-  for (const auto& name : csv.names) {
+  for (const auto& name : csv.names()) {
     if (name != "time_s") {
       table.columns.push_back({name, source.at(table.columns[0].values, name)});
     }
@@ -224,9 +224,9 @@ PlotTable plot_table(const RunContents& run) {
     return table;
   }
   table.columns.push_back({"time_s", picked(*time_s, rows)});
-  for (std::size_t i = 0; i < run.log->names.size(); ++i) {
-    if (run.log->names[i] != "time_s") {
-      table.columns.push_back({run.log->names[i], picked(run.log->columns[i], rows)});
+  for (const auto& name : run.log->names()) {
+    if (name != "time_s") {
+      table.columns.push_back({name, picked(*run.log->find(name), rows)});
     }
   }
   if (run.truth) {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/axis.h"
-#include "harness/report/csv_table.h"
 #include "harness/report/run_contents.h"
 
 namespace towbench::harness::report {

@@ -42,20 +42,20 @@ std::optional<CsvTable> read_table(const std::filesystem::path& path,
   if (!text) {
     return std::nullopt;
   }
-  CsvTable table = parse_csv(*text);
+  CsvTable table = CsvTable::salvage(*text);
   const std::string name = path.filename().string();
-  if (table.last_line_cut) {
+  if (table.torn()) {
     remarks.push_back(name + ": the last line is cut off and was left out.");
   }
-  if (table.refused_rows > 0) {
+  if (table.refused_rows() > 0) {
     remarks.push_back(
         fmt::format("{}: {} lines do not have the header's number of cells and were "
                     "left out.",
-                    name, table.refused_rows));
+                    name, table.refused_rows()));
   }
-  if (table.refused_cells > 0) {
+  if (table.refused_cells() > 0) {
     remarks.push_back(fmt::format("{}: {} cells are not numbers and count as missing.", name,
-                                  table.refused_cells));
+                                  table.refused_cells()));
   }
   return table;
 }

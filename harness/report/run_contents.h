@@ -10,8 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/files/csv_table.h"
 #include "harness/proof/run_manifest.h"
-#include "harness/report/csv_table.h"
 
 namespace towbench::harness::report {
 

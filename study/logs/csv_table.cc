@@ -1,26 +1,17 @@
 #include "study/logs/csv_table.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "harness/files/csv_row.h"
 #include "study/logs/bounded_lines.h"
 
 namespace towbench::harness::logs {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\"");
-  if (first == std::string_view::npos) {
-    return {};
-  }
-  return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
-}
+constexpr std::string_view kPadding = " \t\r\"";
 
 char separator_of(std::string_view header) {
   const auto count = [&](char sign) { return std::count(header.begin(), header.end(), sign); };
@@ -29,15 +20,6 @@ char separator_of(std::string_view header) {
     most = count(sign) > count(most) ? sign : most;
   }
   return most;
-}
-
-double number(std::string_view text) {
-  double value = 0;
-  const auto* end = text.data() + text.size();
-  const auto* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  const auto result = std::from_chars(begin, end, value);
-  const bool whole = result.ec == std::errc{} && result.ptr == end;
-  return whole ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
 class Reader {
@@ -100,7 +82,7 @@ class Reader {
       return false;
     }
     if (std::all_of(cells_.begin(), cells_.end(),
-                    [](std::string_view cell) { return !std::isnan(number(cell)); })) {
+                    [](std::string_view cell) { return csv_number(cell).has_value(); })) {
       refuse("header_unusable", where + ": numbers where the columns should be named");
       return false;
     }
@@ -136,17 +118,7 @@ class Reader {
     }
   }
 
-  void split(std::string_view line) {
-    cells_.clear();
-    while (true) {
-      const auto end = line.find(separator_);
-      cells_.push_back(trimmed(line.substr(0, end)));
-      if (end == std::string_view::npos) {
-        return;
-      }
-      line.remove_prefix(end + 1);
-    }
-  }
+  void split(std::string_view line) { split_csv_row(line, separator_, kPadding, cells_); }
 
   void add_row(std::string_view line) {
     if (separator_ != ',' && line.find(',') != std::string_view::npos) {
@@ -167,7 +139,7 @@ class Reader {
       return;
     }
     for (std::size_t i = 0; i < cells_.size(); ++i) {
-      table_.columns[i].push_back(number(cells_[i]));
+      table_.columns[i].push_back(csv_number(cells_[i]).value_or(kNoNumber));
     }
     table_.line.push_back(static_cast<std::uint32_t>(lines_.number()));
   }

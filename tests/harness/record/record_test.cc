@@ -82,29 +82,6 @@ TEST(CsvWriter, AFileThatCannotBeMadeIsAnError) {
   EXPECT_THROW(CsvWriter("no/such/folder/log.csv", "a"), std::filesystem::filesystem_error);
 }
 
-TEST(CsvTable, ATornLastLineIsLeftOutAndTold) {
-  const TemporaryFixtures files;
-  const auto table = CsvTable::load(files.write("t.csv", "a,b\n1,2\n3,"));
-  EXPECT_EQ(table.rows(), 1U);
-  EXPECT_TRUE(table.torn());
-}
-
-TEST(CsvTable, WhatIsNoNumberOrTooFewOrTooManyIsRefusedByLine) {
-  const TemporaryFixtures files;
-  for (const char* text : {"a,b\n1,2\n3\n", "a,b\n1,2\n3,4,5\n", "a,b\n1,2\n3,x\n", "a,b\n1,2\n\n",
-                           "a,b\n1,2\n3,4 \n"}) {
-    try {
-      (void)CsvTable::load(files.write("t.csv", text));
-      ADD_FAILURE() << text;
-    } catch (const CsvError& error) {
-      EXPECT_THAT(error.what(), ::testing::HasSubstr(":3:"));
-    }
-  }
-  EXPECT_THROW((void)CsvTable::load(files.write("t.csv", "a,a\n1,2\n")), CsvError);
-  EXPECT_THROW((void)CsvTable::load(files.write("t.csv", "")), CsvError);
-  EXPECT_THROW((void)CsvTable::load(files.folder() / "absent.csv"), CsvError);
-}
-
 TEST(LogColumns, AreThoseOfTheConventions) {
   EXPECT_EQ(log_header(),
             "time_s,y_reference_m,y_reference_velocity_m_per_s,y_count,y_position_m,"

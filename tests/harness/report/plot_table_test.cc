@@ -11,9 +11,9 @@ namespace {
 
 RunContents run_of(const std::string& log, const std::string& truth = "") {
   RunContents run;
-  run.log = parse_csv(log);
+  run.log = CsvTable::salvage(log);
   if (!truth.empty()) {
-    run.truth = parse_csv(truth);
+    run.truth = CsvTable::salvage(truth);
   }
   run.result = {{"limits", {{"y", {{"metres_per_count", 1e-3}}}}}};
   return run;
@@ -88,7 +88,7 @@ TEST(PlotTable, SaysInWordsWhyThereIsNothing) {
 
 TEST(PlotTable, ShowsWhatASensorSaidAtTheLogsTimes) {
   auto run = run_of("time_s,y_reference_m\n0,0\n1,0\n2,0\n");
-  run.sensors.emplace("force.csv", parse_csv("time_s,force_y_N\n0.5,1\n1.5,3\n2.5,5\n"));
+  run.sensors.emplace("force.csv", CsvTable::salvage("time_s,force_y_N\n0.5,1\n1.5,3\n2.5,5\n"));
   const PlotTable table = plot_table(run);
   const auto& force = *table.find("force_y_N");
   EXPECT_TRUE(std::isnan(force[0])) << "before the first sample";
@@ -106,7 +106,7 @@ TEST(ForceSection, DrawsAMeanForEachTenthOfASecondThatFollowedAReference) {
     force += time + ",-1.5\n";
   }
   auto run = run_of(log);
-  run.sensors.emplace("force.csv", parse_csv(force));
+  run.sensors.emplace("force.csv", CsvTable::salvage(force));
   const auto html = force_section(plot_table(run), 2);
   std::size_t marks = 0;
   for (auto at = html.find("<circle"); at != std::string::npos; at = html.find("<circle", at + 1)) {
