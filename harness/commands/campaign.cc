@@ -2,14 +2,12 @@
 #include "harness/campaign/campaign.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "harness/campaign/campaign_report.h"
 #include "harness/campaign/drawn_machines.h"
@@ -23,6 +21,7 @@
 #include "harness/commands/exit_codes.h"
 #include "harness/commands/experiment_options.h"
 #include "harness/commands/option_checks.h"
+#include "harness/commands/progress_line.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
@@ -56,36 +55,6 @@ std::filesystem::path find_campaign(const std::string& named) {
                  : fixtures_directory() / "campaigns" / (named + ".toml");
 }
 
-class Progress {
- public:
-  Progress(std::size_t cases, bool wanted)
-      : cases_(cases), wanted_(wanted && isatty(STDERR_FILENO) == 1) {}
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  ~Progress() {
-    if (wanted_) {
-      std::fputs("\r\033[K", stderr);
-    }
-  }
-  void step() {
-    ++done_;
-    if (wanted_ && done_ % 16 == 0) {
-      std::fprintf(stderr, "\r%zu of %zu cases, %.0f a minute\033[K", done_, cases_,
-                   60.0 * static_cast<double>(done_) / elapsed_s());
-    }
-  }
-  [[nodiscard]] double elapsed_s() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-  [[nodiscard]] std::size_t done() const noexcept { return done_; }
-
- private:
-  std::size_t cases_;
-  bool wanted_;
-  std::size_t done_ = 0;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 // Runs what is left of this shard here.
 void run_here(const CampaignOptions& options, const Campaign& campaign,
               const std::vector<CampaignCase>& cases, const Shard& shard) {
@@ -96,15 +65,20 @@ void run_here(const CampaignOptions& options, const Campaign& campaign,
                            : std::max<std::size_t>(1, std::thread::hardware_concurrency());
   // Appends: what an interrupted campaign left is kept.
   ResultsFile results(file);
-  Progress progress(cases.size(), !options.quiet);
+  ProgressLine progress(!options.quiet);
+  std::size_t done = 0;
+  const auto a_minute = [&] { return 60.0 * static_cast<double>(done) / progress.elapsed_s(); };
   run_in_workers(campaign, cases, workers, stop_requested(), [&](const std::string& line) {
     results.append(line);
-    progress.step();
+    ++done;
+    progress.show_sometimes([&] {
+      return fmt::format("{} of {} cases, {:.0f} a minute", done, cases.size(), a_minute());
+    });
   });
-  if (!options.quiet && progress.done() > 0) {
-    std::printf("%zu cases in %.1f s with %zu workers: %.0f a minute\n", progress.done(),
-                progress.elapsed_s(), workers,
-                60.0 * static_cast<double>(progress.done()) / progress.elapsed_s());
+  progress.clear();
+  if (!options.quiet && done > 0) {
+    std::printf("%zu cases in %.1f s with %zu workers: %.0f a minute\n", done, progress.elapsed_s(),
+                workers, a_minute());
   }
 }
 

@@ -3,7 +3,9 @@
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include "core/time.h"
 #include "harness/board_bench/firmware_run.h"
 #include "harness/commands/carrier_option.h"
 #include "harness/commands/encoder_option.h"
@@ -166,9 +168,15 @@ RunResult run_with_options(const ExperimentFixture& fixture, const ExperimentOpt
     std::fprintf(stderr, "waiting for a controller at %s\n", address.c_str());
   };
   run_options.watchers.stop = &stop_requested();
-  ProgressLine progress(fixture.experiment.name, fixture.experiment.duration_limit_s,
-                        !options.quiet && !options.json);
-  run_options.watchers.progress = [&](core::Nanoseconds now_ns) { progress.show(now_ns); };
+  ProgressLine progress(!options.quiet && !options.json);
+  run_options.watchers.progress = [&](core::Nanoseconds now_ns) {
+    progress.show_sometimes([&] {
+      const double simulated_s = core::seconds(now_ns);
+      return fmt::format("{}: {:.1f} s of at most {:.1f} s simulated, {:.0f} x real time",
+                         fixture.experiment.name, simulated_s, fixture.experiment.duration_limit_s,
+                         simulated_s / progress.elapsed_s());
+    });
+  };
   auto result = run_experiment(fixture, run_options);
   if (!options.quiet && !options.json) {
     std::fputs(result.timing.c_str(), stdout);

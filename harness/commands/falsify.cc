@@ -1,6 +1,5 @@
 // towbench falsify: the faults with which a requirement comes nearest to breaking.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -10,11 +9,11 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "harness/commands/command.h"
 #include "harness/commands/experiment_options.h"
 #include "harness/commands/option_checks.h"
+#include "harness/commands/progress_line.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/experiment/experiment_toml.h"
 #include "harness/falsify/falsify_report.h"
@@ -155,44 +154,17 @@ std::string fingerprint_of(const FalsifyOptions& options, const ExperimentFixtur
   return hash_text(hash.value());
 }
 
-class SearchProgress {
- public:
-  SearchProgress(const SearchBudget& budget, std::string unit, bool wanted)
-      : budget_(budget), unit_(std::move(unit)), wanted_(wanted && isatty(STDERR_FILENO) == 1) {}
-  SearchProgress(const SearchProgress&) = delete;
-  SearchProgress& operator=(const SearchProgress&) = delete;
-  ~SearchProgress() {
-    if (wanted_) {
-      std::fputs("\r\033[K", stderr);
-    }
-  }
-  [[nodiscard]] double elapsed_s() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-  [[nodiscard]] bool time_is_left() const {
-    return budget_.time_s == 0 || elapsed_s() < budget_.time_s;
-  }
-  void show(const FalsifySession& session) const {
-    if (!wanted_ || session.trials().size() % 8 != 0) {
-      return;
-    }
-    const auto* worst = session.worst();
-    const auto best = worst == nullptr
-                          ? std::string("no fault took effect yet")
-                          : fmt::format("smallest margin {:.4g} {} ({})", *worst->outcome.margin,
-                                        unit_, session.spaces()[worst->space].name());
-    const auto of = budget_.time_s > 0
-                        ? fmt::format(", {:.0f} of {:.0f} s", elapsed_s(), budget_.time_s)
-                        : fmt::format(" of {} runs", budget_.runs);
-    std::fprintf(stderr, "\r%zu%s, %s\033[K", session.trials().size(), of.c_str(), best.c_str());
-  }
-
- private:
-  SearchBudget budget_;
-  std::string unit_;
-  bool wanted_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
+std::string how_far(const FalsifySession& session, const SearchBudget& budget, double elapsed_s,
+                    const std::string& unit) {
+  const auto* worst = session.worst();
+  const auto best = worst == nullptr
+                        ? std::string("no fault took effect yet")
+                        : fmt::format("smallest margin {:.4g} {} ({})", *worst->outcome.margin,
+                                      unit, session.spaces()[worst->space].name());
+  const auto of = budget.time_s > 0 ? fmt::format(", {:.0f} of {:.0f} s", elapsed_s, budget.time_s)
+                                    : fmt::format(" of {} runs", budget.runs);
+  return fmt::format("{}{}, {}", session.trials().size(), of, best);
+}
 
 // The experiment with its worst faults and what was asked, as `towbench run` takes it.
 ExperimentFixture worst_experiment(const ExperimentFixture& fixture, const Asked& asked,
@@ -281,10 +253,16 @@ int execute_falsify(FalsifyOptions& options) {
   FalsifySession session(settings, spaces, folder / "trials.jsonl");
   bool whole = false;
   {
-    const SearchProgress progress(budget, asked.unit(), !options.quiet);
+    ProgressLine progress(!options.quiet);
+    const auto time_is_left = [&] {
+      return budget.time_s == 0 || progress.elapsed_s() < budget.time_s;
+    };
     whole = session.run(
-        *objective, [&] { return !stop_requested() && progress.time_is_left(); },
-        [&](const FalsifySession& now) { progress.show(now); });
+        *objective, [&] { return !stop_requested() && time_is_left(); },
+        [&](const FalsifySession& now) {
+          progress.show_sometimes(
+              [&] { return how_far(now, budget, progress.elapsed_s(), asked.unit()); });
+        });
   }
   const auto text = falsify_report(session, asked, fixture.experiment.name);
   write_atomically(folder / "falsify.md", text);

@@ -2,33 +2,44 @@
 
 #include <cstdio>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 namespace towbench::harness {
 
-ProgressLine::ProgressLine(std::string name, double limit_s, bool wanted)
-    : name_(std::move(name)), limit_s_(limit_s), wanted_(wanted && isatty(STDERR_FILENO) == 1) {}
+ProgressLine::ProgressLine(bool wanted) : wanted_(wanted && isatty(STDERR_FILENO) == 1) {}
 
-ProgressLine::~ProgressLine() {
+void ProgressLine::show(const std::string& text) {
+  if (wanted_) {
+    shown_ = true;
+    std::fprintf(stderr, "\r%s\033[K", text.c_str());
+    std::fflush(stderr);
+  }
+}
+
+void ProgressLine::show(const std::string& what, double share) {
+  show(fmt::format("{}: {:.0f} %", what, 100 * share));
+}
+
+void ProgressLine::show_sometimes(const std::function<std::string()>& text) {
+  constexpr auto kPatience = std::chrono::seconds(2);
+  constexpr auto kBetween = std::chrono::milliseconds(200);
+  const auto now = Clock::now();
+  if (wanted_ && now - start_ >= kPatience && now - last_ >= kBetween) {
+    last_ = now;
+    show(text());
+  }
+}
+
+void ProgressLine::clear() {
   if (shown_) {
+    shown_ = false;
     std::fputs("\r\033[K", stderr);
   }
 }
 
-void ProgressLine::show(core::Nanoseconds virtual_time_ns) {
-  constexpr auto kPatience = std::chrono::seconds(2);
-  constexpr auto kBetween = std::chrono::milliseconds(200);
-  const auto now = Clock::now();
-  if (!wanted_ || now - start_ < kPatience || now - last_ < kBetween) {
-    return;
-  }
-  last_ = now;
-  shown_ = true;
-  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-  const double virtual_s = core::seconds(virtual_time_ns);
-  std::fprintf(stderr, "\r%s: %.1f s of at most %.1f s simulated, %.0f x real time\033[K",
-               name_.c_str(), virtual_s, limit_s_, virtual_s / elapsed_s);
-  std::fflush(stderr);
+double ProgressLine::elapsed_s() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
 }
 
 }  // namespace towbench::harness

@@ -1,9 +1,6 @@
 #include "study/commands/diagnose_logs.h"
 
-#include <cstdio>
-
-#include <unistd.h>
-
+#include "harness/commands/progress_line.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/proof/run_manifest.h"
 #include "harness/record/line_writer.h"
@@ -142,12 +139,8 @@ diagnose::Diagnosis diagnose_logs(const DiagnoseOptions& options, PlantModel pla
   request.runs = read_logs(options.data, options, plant.model, findings);
   request.holdout = read_logs(options.holdout, options, plant.model, findings);
   request.model = plant.model;
-  const bool told = !options.quiet && isatty(STDERR_FILENO) != 0;
-  request.progress = [told](const std::string& line) {
-    if (told) {
-      std::fprintf(stderr, "%s\n", line.c_str());
-    }
-  };
+  ProgressLine progress(!options.quiet);
+  request.progress = [&progress](const std::string& line) { progress.show(line); };
   diagnose::Diagnosis d = diagnose::diagnose(request);
   d.findings.insert(d.findings.begin(), findings.begin(), findings.end());
   return d;

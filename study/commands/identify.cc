@@ -1,5 +1,4 @@
 // towbench identify: what a machine's parameters are, from experiments on it.
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -9,10 +8,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "harness/checks/check.h"
 #include "harness/commands/option_checks.h"
+#include "harness/commands/progress_line.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
@@ -58,19 +57,6 @@ struct IdentifyOptions {
   std::uint64_t seeds = 1;
   std::size_t workers = 1;
 };
-
-void show_progress(const std::string& what, double share, bool wanted) {
-  if (wanted && isatty(STDERR_FILENO) == 1) {
-    std::fprintf(stderr, "\r%s: %.0f %%\033[K", what.c_str(), 100 * share);
-    std::fflush(stderr);
-  }
-}
-
-void clear_progress(bool wanted) {
-  if (wanted && isatty(STDERR_FILENO) == 1) {
-    std::fputs("\r\033[K", stderr);
-  }
-}
 
 std::vector<core::Axis> axes_of(const std::string& axis) {
   if (axis == "both") {
@@ -170,19 +156,21 @@ int execute_on_log(const IdentifyOptions& options, const Bench& bench) {
   const auto log =
       procedures::read_brought_log(options.data, options.columns, axis, machine.nameplate(axis));
   std::filesystem::create_directories(options.out);
-  show_progress("output error on " + log.source, 0, !options.quiet);
+  ProgressLine progress(!options.quiet);
+  progress.show("output error on " + log.source, 0);
   ChainResult result;
   procedures::ChainStep step{.id = "log", .title = log.source};
   step.axis = axis;
   step.outcome = procedures::study_log({.machine = machine, .axis = axis}, log);
   result.estimates = step.outcome.estimates;
   result.steps.push_back(std::move(step));
-  clear_progress(!options.quiet);
+  progress.clear();
   return tell_everything(options, "Identification from " + options.data, machine, std::move(result),
                          {});
 }
 
 int execute_set(const IdentifyOptions& options, const Bench& bench) {
+  ProgressLine progress(!options.quiet);
   IdentificationSet set{.rig = bench.rig,
                         .controller = bench.controller,
                         .settings = bench.settings,
@@ -194,16 +182,15 @@ int execute_set(const IdentifyOptions& options, const Bench& bench) {
                         .axes = axes_of(options.axis),
                         .stop = &stop_requested(),
                         .progress = [&](std::size_t done, std::size_t all) {
-                          show_progress(fmt::format("{} of {} runs", done, all),
-                                        static_cast<double>(done) / static_cast<double>(all),
-                                        !options.quiet);
+                          progress.show(fmt::format("{} of {} runs", done, all),
+                                        static_cast<double>(done) / static_cast<double>(all));
                         }};
   const bool foreign = options.structure == kAllStructures;
   if (foreign) {
     set.structures = foreign_structures();
   }
   const auto runs = run_set(set);
-  clear_progress(!options.quiet);
+  progress.clear();
   const auto page = foreign ? foreign_page(set, runs) : set_page(set, runs);
   write_atomically(set.out / "set.md", page);
   fmt::print("{}{}\n", options.quiet ? "" : page, (set.out / "set.md").string());
@@ -235,6 +222,7 @@ int execute_identify(const IdentifyOptions& options) {
   std::filesystem::create_directories(options.out);
   const LoopWatchers watchers{.stop = &stop_requested(), .progress = {}};
   const auto machine = drawn.machine(bench.controller, options.seed, watchers);
+  ProgressLine progress(!options.quiet);
   const procedures::ChainOptions chain{
       .only = options.only,
       .axes = axes_of(options.axis),
@@ -243,12 +231,11 @@ int execute_identify(const IdentifyOptions& options) {
       .fingerprint = fmt::format("{:016x}-{:016x}-{}-{}{}", bench.rig.hash, bench.controller.hash,
                                  options.machine, options.seed, options.structure),
       .resume = options.resume,
-      .progress = [&](const std::string& what,
-                      double share) { show_progress(what, share, !options.quiet); },
+      .progress = [&](const std::string& what, double share) { progress.show(what, share); },
       .stop = &stop_requested()};
   auto result = procedures::run_chain(machine, all, chain);
   if (options.track && !stop_requested()) {
-    show_progress("Table 7.6 with the controller set up", 0, !options.quiet);
+    progress.show("Table 7.6 with the controller set up", 0);
     const auto name = options.machine == 0
                           ? fmt::format("`{}`", bench.rig.name)
                           : fmt::format("{} drawn within {:.0f} % of `{}`", options.machine,
@@ -256,7 +243,7 @@ int execute_identify(const IdentifyOptions& options) {
     write_atomically(std::filesystem::path(options.out) / "tracking.md",
                      set_up_section(name, track_set_up(bench.rig, machine, result.estimates)));
   }
-  clear_progress(!options.quiet);
+  progress.clear();
   // Only now may anybody look at what the machine is.
   const auto recoveries = options.blind ? std::vector<Recovery>{}
                                         : judge_recovery(bench.rig.parameters, result.estimates);

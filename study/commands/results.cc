@@ -11,10 +11,10 @@
 
 #include "harness/checks/check.h"
 #include "harness/commands/option_checks.h"
+#include "harness/commands/progress_line.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
-#include "study/commands/study_progress.h"
 #include "study/commands/verbs.h"
 #include "study/procedures/chain.h"
 #include "study/procedures/kept_outcome.h"
@@ -56,7 +56,7 @@ void measure_tracking(const ResultsBench& bench, Results& results) {
   results.fast_water = track_speeds(bench.wet, bench.controller, fast, smoothed, {});
 }
 
-void measure_own_gains(const ResultsBench& bench, StudyProgress& progress, Results& results) {
+void measure_own_gains(const ResultsBench& bench, ProgressLine& progress, Results& results) {
   double done = 0;
   for (const char* name : {"bbmc-table-7.2", "bbmc-0.5", "bbmc-tuned"}) {
     progress.show("Tables 7.6 and 8.3 with " + std::string(name), done / 3);
@@ -70,7 +70,7 @@ void measure_own_gains(const ResultsBench& bench, StudyProgress& progress, Resul
 }
 
 void identify_machine(const ResultsBench& bench, const ResultsOptions& options,
-                      StudyProgress& progress, Results& results) {
+                      ProgressLine& progress, Results& results) {
   const procedures::Machine machine(bench.dry, bench.controller, options.seed, bench.watchers);
   procedures::ChainOptions chain;
   chain.settings = fixtures_directory() / "identification";
@@ -86,7 +86,7 @@ void identify_machine(const ResultsBench& bench, const ResultsOptions& options,
 procedures::TowOutcome tow_once(const procedures::TowLoads& loads,
                                 const procedures::TowProcedure& procedure,
                                 const std::filesystem::path& file, const std::string& fingerprint,
-                                StudyProgress& progress) {
+                                ProgressLine& progress) {
   if (const auto before = procedures::kept_outcome(file, fingerprint)) {
     return tow_from_json(*before);
   }
@@ -106,7 +106,7 @@ procedures::TowOutcome tow_once(const procedures::TowLoads& loads,
 }
 
 void tow_everything(const ResultsBench& bench, const ResultsOptions& options,
-                    StudyProgress& progress, Results& results) {
+                    ProgressLine& progress, Results& results) {
   const auto rigs = fixtures_directory() / "rigs";
   const procedures::TowLoads loads(bench.dry, bench.controller, options.seed, rigs, bench.watchers);
   for (const auto& procedure : procedures::tow_procedures()) {
@@ -156,7 +156,7 @@ int execute_results(const ResultsOptions& options) {
       .fingerprint = {}};
   bench.fingerprint =
       fmt::format("{:016x}-{:016x}-{}", bench.dry.hash, bench.controller.hash, options.seed);
-  StudyProgress progress(true);
+  ProgressLine progress(true);
   Results results;
   results.rig = bench.dry.name;
   results.truth = bench.dry.parameters;

@@ -1,7 +1,5 @@
 // towbench tow: the tow experiments of chapter 8 on an emulated machine, judged.
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -11,9 +9,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "harness/checks/check.h"
+#include "harness/commands/option_checks.h"
+#include "harness/commands/progress_line.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
@@ -54,13 +53,6 @@ void tell(const Recovery& r) {
              r.narrow ? "" : " TOO WIDE");
 }
 
-void show_tow_progress(const std::string& what, double share, bool wanted) {
-  if (wanted && isatty(STDERR_FILENO) == 1) {
-    std::fprintf(stderr, "\r%s: %.0f %%\033[K", what.c_str(), 100 * share);
-    std::fflush(stderr);
-  }
-}
-
 void refuse_unknown(const std::vector<std::string>& only) {
   const auto all = procedures::tow_procedures();
   for (const auto& id : only) {
@@ -89,6 +81,7 @@ int code_of(const procedures::TowOutcome& outcome, const std::vector<Recovery>& 
 }
 
 int execute_drawn(const TowOptions& options, const TowSetup& setup) {
+  ProgressLine progress(!options.run.quiet);
   return execute_tow_set({.rig = setup.rig,
                           .controller = setup.controller,
                           .rigs = fixtures_directory() / "rigs",
@@ -101,10 +94,8 @@ int execute_drawn(const TowOptions& options, const TowSetup& setup) {
                           .stop = &stop_requested(),
                           .progress =
                               [&](std::size_t done, std::size_t all) {
-                                show_tow_progress(
-                                    fmt::format("{} of {} runs", done, all),
-                                    static_cast<double>(done) / static_cast<double>(all),
-                                    !options.run.quiet);
+                                progress.show(fmt::format("{} of {} runs", done, all),
+                                              static_cast<double>(done) / static_cast<double>(all));
                               }},
                          options.run.quiet);
 }
@@ -131,13 +122,13 @@ void run_one(const procedures::TowProcedure& procedure, const TowSetup& setup, T
   const procedures::TowLoads loads(setup.rig, setup.controller, options.run.seed.value_or(1),
                                    fixtures_directory() / "rigs",
                                    {.stop = &stop_requested(), .progress = {}}, source.get());
-  const auto start = std::chrono::steady_clock::now();
+  ProgressLine progress(talks);
   auto outcome =
       procedure.run({.loads = loads, .settings = settings, .progress = [&](double share) {
-                       show_tow_progress(id, share, talks);
+                       progress.show(id, share);
                      }});
-  const double wall_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double wall_s = progress.elapsed_s();
+  progress.clear();
   sources.write_list();
   // Only now may anybody look at what is in the water; of a record nobody knows.
   const auto judged = options.data.empty() ? judge_tow(loads.truth(procedure.load()), outcome)
@@ -147,7 +138,6 @@ void run_one(const procedures::TowProcedure& procedure, const TowSetup& setup, T
     each.procedure = id;
   }
   if (talks) {
-    show_tow_progress("", 0, true);
     tell(id, std::string(procedure.title()), outcome, wall_s);
     for (const auto& each : judged) {
       tell(each);
