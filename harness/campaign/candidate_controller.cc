@@ -37,6 +37,11 @@ bool stops_earlier(const std::filesystem::path& folder, const std::filesystem::p
   }
 }
 
+// fault_0_fired: its value is the time.
+bool says_when_it_fired(const Check& check) {
+  return check.name.starts_with("fault_") && check.name.ends_with("_fired");
+}
+
 std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream bytes;
@@ -72,25 +77,38 @@ std::shared_ptr<const ReferenceRun> reference_run_of(const CandidateController& 
              : run_reference_board(motion, controller.firmware, seed);
 }
 
+CandidateRun run_candidate(const CandidateController& controller, const ExperimentFixture& motion,
+                           const std::shared_ptr<const ReferenceRun>& reference,
+                           const std::filesystem::path& out) {
+  RunOptions options;
+  options.out = out;
+  options.reference = reference;
+  choose_candidate(controller, options);
+  auto result = run_experiment(motion, options);
+  CandidateRun run{.folder = std::move(result.folder),
+                   .checks = std::move(result.judgement.checks),
+                   .complete = result.complete,
+                   .reason = std::move(result.reason)};
+  run.fired = run.complete && std::all_of(run.checks.begin(), run.checks.end(), [](const auto& it) {
+                return !says_when_it_fired(it) || it.verdict == Verdict::kPass;
+              });
+  return run;
+}
+
 CaseVerdict judge_candidate(const CandidateController& controller, const ExperimentFixture& motion,
                             const std::shared_ptr<const ReferenceRun>& reference) {
   const TemporaryFolder folder;
-  RunOptions options;
-  options.out = folder.path();
-  options.reference = reference;
-  choose_candidate(controller, options);
-  const auto run = run_experiment(motion, options);
+  auto run = run_candidate(controller, motion, reference, folder.path());
   CaseVerdict verdict;
-  verdict.checks = run.judgement.checks;
+  verdict.checks = std::move(run.checks);
+  verdict.fired = run.fired;
   if (!run.complete) {
     verdict.checks.push_back(run_not_complete(run.reason));
     return verdict;
   }
-  verdict.fired = true;
   std::optional<core::Nanoseconds> cause_ns;
   for (const auto& check : verdict.checks) {
-    if (check.name.starts_with("fault_") && check.name.ends_with("_fired")) {
-      verdict.fired = verdict.fired && check.verdict == Verdict::kPass;
+    if (says_when_it_fired(check)) {
       const auto fired_ns = core::nanoseconds(check.value.value_or(0));
       cause_ns = cause_ns ? std::min(*cause_ns, fired_ns) : fired_ns;
     } else if (check.name == "kill_to_zero_duty") {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "harness/external/external_controller.h"
 #include "harness/fault_cases/fault_case.h"
@@ -30,8 +31,22 @@ void choose_candidate(const CandidateController& controller, RunOptions& options
 [[nodiscard]] std::shared_ptr<const ReferenceRun> reference_run_of(
     const CandidateController& controller, const ExperimentFixture& motion);
 
-// Runs a motion with the faults that it holds, or without any, into a temporary folder, and judges
-// it. Not for BBMC. `reference` is its run without them.
+struct CandidateRun {
+  std::filesystem::path folder{};
+  std::vector<Check> checks{};
+  bool complete = false;
+  std::string reason{};  // why it is not complete
+  bool fired = false;    // each fault took effect
+};
+
+// Runs a motion with the faults that it holds, or without any, into the folder `out`. Not for BBMC.
+// `reference` is its run without them. Throws FixtureError for a plan that cannot be carried out.
+[[nodiscard]] CandidateRun run_candidate(const CandidateController& controller,
+                                         const ExperimentFixture& motion,
+                                         const std::shared_ptr<const ReferenceRun>& reference,
+                                         const std::filesystem::path& out);
+
+// The same run in a temporary folder, as a case of a campaign.
 [[nodiscard]] CaseVerdict judge_candidate(const CandidateController& controller,
                                           const ExperimentFixture& motion,
                                           const std::shared_ptr<const ReferenceRun>& reference);

@@ -4,7 +4,6 @@
 #include "harness/falsify/rule_margin.h"
 #include "harness/fault_cases/faulted_experiment.h"
 #include "harness/record/temporary_folder.h"
-#include "harness/run/experiment_run.h"
 
 namespace towbench::harness {
 namespace {
@@ -41,21 +40,12 @@ class Candidate final : public Objective {
     auto faulted = fixture_;
     add_faults(faulted, plan);
     const TemporaryFolder folder;
-    RunOptions options;
-    options.out = folder.path();
-    options.reference = reference_;
-    choose_candidate(controller_, options);
-    const auto run = run_experiment(faulted, options);
-    Outcome outcome;
+    auto run = run_candidate(controller_, faulted, reference_, folder.path());
     if (!run.complete) {
-      outcome.reason = run.reason;
-      return outcome;
+      return {.reason = std::move(run.reason)};
     }
-    auto checks = run.judgement.checks;
-    outcome.fired = std::none_of(checks.begin(), checks.end(), [](const Check& check) {
-      return check.name.starts_with("fault_") && check.name.ends_with("_fired") &&
-             check.verdict != Verdict::kPass;
-    });
+    Outcome outcome{.fired = run.fired};
+    auto& checks = run.checks;
     if (asked_.requirement) {
       std::erase_if(checks,
                     [&](const Check& check) { return check.name != asked_.requirement->id; });
