@@ -8,6 +8,7 @@
 #include "study/diagnose/model_checks.h"
 #include "study/diagnose/momentum.h"
 #include "study/diagnose/run_checks.h"
+#include "study/statistics/statistics.h"
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -58,7 +59,8 @@ std::vector<Size> sizes_of(const State& state, std::size_t which) {
       return;
     }
     const Index i = at + (free - accepted.free.begin());
-    const double half = 1.96 * std::sqrt(std::max(0.0, state.linear.covariance(i, i)));
+    const double half =
+        statistics::kNormal95 * std::sqrt(std::max(0.0, state.linear.covariance(i, i)));
     sizes.push_back({name, {value, value - half, value + half}, false});
   };
   const Effect& effect = *accepted.effect;

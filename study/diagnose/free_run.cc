@@ -6,6 +6,7 @@
 
 #include "study/diagnose/series.h"
 #include "study/prediction/axis.h"
+#include "study/statistics/statistics.h"
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -105,7 +106,7 @@ FreeRun run_free(const Data& data, const Search& search) {
   out.supplied_m = rms(before);
   out.refitted_m = rms(windows_of(data, refitted, w));
   out.extended_m = rms(after);
-  const Comparison gain = compare(blocks_of(before), blocks_of(after), 1.96);
+  const Comparison gain = compare(blocks_of(before), blocks_of(after), statistics::kNormal95);
   out.gain95 = {gain.gain, gain.low, gain.high};
   return out;
 }

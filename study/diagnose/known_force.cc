@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "study/prediction/fit.h"
+#include "study/statistics/statistics.h"
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -45,7 +46,7 @@ Interval force_ratio(const NominalModel& model, const Run& run, const KnownForce
     for (Eigen::Index j = 0; j <= last; ++j) columns.push_back(j);
     const Fit fit = blocks.fit(columns);
     ratio += fit.b[last];
-    half = 1.96 * std::sqrt(std::max(0.0, fit.covariance(last, last)));
+    half = statistics::kNormal95 * std::sqrt(std::max(0.0, fit.covariance(last, last)));
   }
   return {ratio, ratio - half, ratio + half};
 }

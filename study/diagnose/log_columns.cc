@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "study/statistics/statistics.h"
+
 namespace towbench::harness::diagnose {
 namespace {
 
@@ -115,14 +117,8 @@ class Finder {
     for (const std::size_t row : rows) {
       values.push_back(column[row]);
     }
-    const auto at = [&](double share) {
-      const auto nth = values.begin() +
-                       static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-      std::nth_element(values.begin(), nth, values.end());
-      return *nth;
-    };
-    const double low = at(0.005);
-    const double high = at(0.995);
+    const double low = statistics::quantile(values, 0.005);
+    const double high = statistics::quantile(values, 0.995);
     const double reach = kAbsurd * (high - low);
     const auto absurd = [&](std::size_t row) {
       return reach > 0 && (column[row] < low - reach || column[row] > high + reach);

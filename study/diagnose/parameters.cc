@@ -6,6 +6,7 @@
 
 #include "study/diagnose/motion.h"
 #include "study/prediction/units.h"
+#include "study/statistics/statistics.h"
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -52,7 +53,7 @@ struct Ratio {
 };
 
 Ratio ratio_of(const ParameterShift& shift) {
-  const double error = (shift.fitted.high - shift.fitted.low) / (2 * 1.96);
+  const double error = (shift.fitted.high - shift.fitted.low) / (2 * statistics::kNormal95);
   return {shift.fitted.value / shift.supplied, error / std::abs(shift.supplied)};
 }
 
@@ -111,12 +112,13 @@ std::vector<ParameterShift> judge_parameters(const Data& data, const Search& sea
         model.supplied && !shared && std::abs(off) > kMovedErrors * error &&
         std::abs(off) * columns[i] >
             (search.structured ? kBesideMuch : kMovedShare) * search.context.input_rms_N;
-    shifts.push_back({names[i],
-                      supplied[i],
-                      {value, value - 1.96 * error, value + 1.96 * error},
-                      std::string(units[i]),
-                      moved,
-                      {}});
+    shifts.push_back(
+        {names[i],
+         supplied[i],
+         {value, value - statistics::kNormal95 * error, value + statistics::kNormal95 * error},
+         std::string(units[i]),
+         moved,
+         {}});
   }
   if (shifts[kInertia].moved) {
     shifts[kInertia].indistinguishable_from = {"added_mass"};

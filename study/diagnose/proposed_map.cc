@@ -6,11 +6,13 @@
 #include <numbers>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include "study/diagnose/column_guess.h"
+#include "study/statistics/statistics.h"
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -26,10 +28,7 @@ double median_step(const std::vector<double>& time) {
   for (std::size_t i = 1; i < time.size(); ++i) {
     if (std::isfinite(time[i] - time[i - 1])) steps.push_back(time[i] - time[i - 1]);
   }
-  if (steps.empty()) return 0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return steps.empty() ? 0 : statistics::median(std::move(steps));
 }
 
 // By the unit's name, else the one that makes a period of 5 us to 0.1 s.

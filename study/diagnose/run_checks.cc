@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "study/statistics/statistics.h"
+
 namespace towbench::harness::diagnose {
 namespace {
 
@@ -18,13 +20,6 @@ constexpr double kMost = 0.99;  // of the values; the rest may be glitches
 constexpr double kBeyondDrive = 3;
 constexpr double kBeyondCommand = 2;
 constexpr double kReferenceOff = 4;  // by which followed and asked way may differ, either way
-
-double quantile(std::vector<double> values, double share) {
-  const auto nth =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
-}
 
 // What a column changes by from window to window.
 std::vector<double> ways_of(const Eigen::VectorXd& x, Index window) {
@@ -44,7 +39,7 @@ std::vector<double> sizes_of(std::vector<double> values) {
 
 void check_speed(const Run& run, const NominalModel& model, Index window,
                  logs::Findings& findings) {
-  const double speed = quantile(sizes_of(ways_of(run.position_m, window)), kMost) /
+  const double speed = statistics::quantile(sizes_of(ways_of(run.position_m, window)), kMost) /
                        (static_cast<double>(window) * run.period_s);
   if (model.no_load_speed_m_per_s > 0 && speed > kBeyondDrive * model.no_load_speed_m_per_s) {
     findings.push_back(
@@ -58,7 +53,7 @@ void check_speed(const Run& run, const NominalModel& model, Index window,
 void check_input(const Run& run, const NominalModel& model, logs::Findings& findings) {
   const double most = std::max(model.force_limit_N, 100 * model.newton_per_duty_pct);
   const std::vector<double> input(run.input_N.begin(), run.input_N.end());
-  const double reached = quantile(sizes_of(input), kMost);
+  const double reached = statistics::quantile(sizes_of(input), kMost);
   if (most > 0 && reached > kBeyondCommand * most) {
     findings.push_back(
         {Kind::kFatal, "input_unit_off",
@@ -75,7 +70,7 @@ void check_reference(Run& run, Index window, logs::Findings& findings) {
   }
   const std::vector<double> asked = ways_of(run.reference_m, window);
   const std::vector<double> gone = ways_of(run.position_m, window);
-  const double much = 0.2 * quantile(sizes_of(asked), 0.95);
+  const double much = 0.2 * statistics::quantile(sizes_of(asked), 0.95);
   std::vector<double> ratios;
   for (std::size_t i = 0; i < asked.size(); ++i) {
     if (std::abs(asked[i]) > much) {
@@ -86,9 +81,9 @@ void check_reference(Run& run, Index window, logs::Findings& findings) {
   if (ratios.size() < kEnough) {
     return;
   }
-  const double ratio = quantile(ratios, 0.5);
-  const bool always_along = quantile(ratios, 0.1) >= 0;
-  const bool always_against = quantile(ratios, 0.9) < 0;
+  const double ratio = statistics::quantile(ratios, 0.5);
+  const bool always_along = statistics::quantile(ratios, 0.1) >= 0;
+  const bool always_against = statistics::quantile(ratios, 0.9) < 0;
   if (always_against && ratio < -1 / kReferenceOff) {
     findings.push_back({Kind::kFatal, "position_sign_reversed",
                         fmt::format("{}: the position runs against its reference: the sign of one "

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "study/diagnose/series.h"
+#include "study/statistics/statistics.h"
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -11,7 +12,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kErrors95 = 1.96;
 constexpr double kErrors99 = 2.58;
 constexpr double kCalibrated = 0.25;  // of a held-out run
 
@@ -72,9 +72,9 @@ Scored scored(const Sides& sides, double to_force, double samples, double force_
   s.before_rms_N = to_force * rms_of(sides.before, samples);
   s.after_rms_N = to_force * rms_of(sides.after, samples);
   s.force_rms_N = force_rms_N;
-  s.gain95 = interval_of(sides.before, sides.after, kErrors95);
+  s.gain95 = interval_of(sides.before, sides.after, statistics::kNormal95);
   s.gain99 = interval_of(sides.before, sides.after, kErrors99);
-  s.over_supplied95 = interval_of(sides.supplied, sides.after, kErrors95);
+  s.over_supplied95 = interval_of(sides.supplied, sides.after, statistics::kNormal95);
   return s;
 }
 

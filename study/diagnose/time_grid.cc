@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "study/statistics/statistics.h"
+
 namespace towbench::harness::diagnose {
 namespace {
 
@@ -19,12 +21,6 @@ constexpr double kBridged_s = 3.5e-3;
 constexpr double kSlowest_Hz = 50;
 constexpr double kFastest_Hz = 200e3;
 constexpr double kSteady = 3;  // by which the period of one stretch may differ from another's
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::vector<double> gaps_of(const std::vector<double>& time_s) {
   std::vector<double> gaps;
@@ -75,7 +71,7 @@ bool TimeGrid::rises(const logs::Table& table) {
 
 bool TimeGrid::is_steady() {
   const std::vector<double> gaps = gaps_of(time_s_);
-  const double typical = median(gaps);
+  const double typical = statistics::median(gaps);
   if (1 / typical < kSlowest_Hz || 1 / typical > kFastest_Hz) {
     tell(Kind::kFatal, "sampling_rate_off",
          fmt::format("{}: a sample every {:.3g} s, allowed are {:g} Hz to {:g} kHz; is time in ms "
@@ -87,7 +83,7 @@ bool TimeGrid::is_steady() {
   const std::ptrdiff_t length = std::ssize(gaps) / kStretches;
   for (std::ptrdiff_t i = 0; i < kStretches; ++i) {
     const auto from = gaps.begin() + i * length;
-    const double here = median({from, from + length});
+    const double here = statistics::median({from, from + length});
     if (here > kSteady * typical || typical > kSteady * here) {
       tell(Kind::kFatal, "sampling_changes",
            fmt::format("{}: a sample every {:.3g} s in one part and every {:.3g} s in another; is "

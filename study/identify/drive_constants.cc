@@ -6,6 +6,8 @@
 
 #include <boost/math/distributions/students_t.hpp>
 
+#include "study/statistics/statistics.h"
+
 namespace towbench::harness::identify {
 namespace {
 
@@ -68,7 +70,6 @@ Direction direction_of(const std::vector<PushedRun>& runs, bool towards_max, X x
 // Both directions alike; 0 where one of them shows none.
 template <typename X, typename Y>
 Slope common_slope(const std::vector<PushedRun>& runs, X x_of, Y y_of) {
-  constexpr double kNormal95 = 1.959964;
   const auto up = direction_of(runs, true, x_of, y_of);
   const auto down = direction_of(runs, false, x_of, y_of);
   if (up.slope == 0 || down.slope == 0) {
@@ -78,7 +79,8 @@ Slope common_slope(const std::vector<PushedRun>& runs, X x_of, Y y_of) {
   const double freedom = up.freedom + down.freedom;
   if (freedom >= 1) {
     // As wide as Student's 95 %.
-    const double wider = boost::math::quantile(boost::math::students_t(freedom), 0.975) / kNormal95;
+    const double wider =
+        boost::math::quantile(boost::math::students_t(freedom), 0.975) / statistics::kNormal95;
     square = wider * wider * (up.left + down.left) / freedom;
   }
   return {0.5 * (up.slope + down.slope), 0.5 * std::sqrt(square * (1 / up.xx + 1 / down.xx))};

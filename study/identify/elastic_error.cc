@@ -7,11 +7,12 @@
 
 #include <fmt/format.h>
 
+#include "study/statistics/statistics.h"
+
 namespace towbench::harness::identify {
 namespace {
 
 constexpr std::size_t kFewestFrames = 30;
-constexpr double kDeviations95 = 1.96;
 
 // Linear between rows; NaN outside.
 double interpolated(const std::vector<double>& time_s, const std::vector<double>& values,
@@ -125,7 +126,7 @@ ElasticError elastic_error(const ElasticInput& input) {
       variance *
       (jacobian.transpose() * jacobian).completeOrthogonalDecomposition().pseudoInverse();
   const auto within = [&](double value, int i) {
-    return Within95{value, kDeviations95 * std::sqrt(covariance(i, i))};
+    return Within95{value, statistics::kNormal95 * std::sqrt(covariance(i, i))};
   };
   error.frames = static_cast<std::size_t>(n);
   error.offset_m = within(found(0), 0);

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "study/statistics/statistics.h"
+
 namespace towbench::harness::identify {
 namespace {
 
@@ -25,9 +27,8 @@ const Estimate* find(const Estimates& estimates, std::string_view quantity,
 }
 
 Estimate with_deviation(Estimate estimate, double deviation) {
-  constexpr double kNormal95 = 1.959964;
-  estimate.low = estimate.value - kNormal95 * deviation;
-  estimate.high = estimate.value + kNormal95 * deviation;
+  estimate.low = estimate.value - statistics::kNormal95 * deviation;
+  estimate.high = estimate.value + statistics::kNormal95 * deviation;
   return estimate;
 }
 

@@ -8,6 +8,7 @@
 #include "study/identify/long_run_covariance.h"
 #include "study/identify/model_error.h"
 #include "study/identify/secant_cost.h"
+#include "study/statistics/statistics.h"
 
 namespace towbench::harness::identify {
 namespace {
@@ -225,7 +226,6 @@ class Problem {
 // one in which break-away and Stribeck's fall have made up for one another a half or more.
 constexpr double kStuck_counts = 2;
 constexpr double kRight_counts = 0.5;
-constexpr double kNormal95 = 1.959964;
 constexpr double kTakenIn = 3;  // of a structure's error, over the part left; *assumed*, 1.9 seen
 constexpr double kRoundings_counts = 0.408;  // of two counts: sqrt(2/12)
 
@@ -280,7 +280,8 @@ TwoMassFit fit_from(const TwoMassStart& start, const Recording& data, core::Axis
   const Eigen::VectorXd bent =
       most_bent(jacobian.topRows(m), residual.head(m), prior, kRoundings_counts);
   const auto deviation = [&](int i) {
-    return std::hypot(std::sqrt(std::max(0.0, covariance(i, i))), kTakenIn * bent[i] / kNormal95);
+    return std::hypot(std::sqrt(std::max(0.0, covariance(i, i))),
+                      kTakenIn * bent[i] / statistics::kNormal95);
   };
   fit.inertia_deviation = fit.axis.inertia_kg_m2 * deviation(kInertia);
   fit.viscous_deviation = fit.axis.viscous_friction_Nm_s_per_rad * deviation(kViscous);

@@ -6,6 +6,8 @@
 
 #include <boost/math/distributions/students_t.hpp>
 
+#include "study/statistics/statistics.h"
+
 namespace towbench::harness::identify {
 namespace {
 
@@ -69,7 +71,6 @@ LawShift find_law_shift(const FrictionLaw& of_reference, double excess_deviation
                         const std::vector<SteadyRun>& machine,
                         const std::vector<SteadyRun>& reference) {
   constexpr Eigen::Index kFewest = 6;
-  constexpr double kNormal95 = 1.959964;
   constexpr double kAnswer = 0.58;  // 1/sqrt(3)
   LawShift shift;
   const auto pairs = paired(of_reference, by_speed(machine, reference));
@@ -84,7 +85,8 @@ LawShift find_law_shift(const FrictionLaw& of_reference, double excess_deviation
   const Eigen::Vector3d found = solver.solve(pairs.differences);
   const Eigen::Vector3d by_excess = excess_deviation_Nm * solver.solve(pairs.by_excess);
   const auto freedom = static_cast<double>(n - kUnknown);
-  const double wider = boost::math::quantile(boost::math::students_t(freedom), 0.975) / kNormal95;
+  const double wider =
+      boost::math::quantile(boost::math::students_t(freedom), 0.975) / statistics::kNormal95;
   const double noise =
       wider * wider * (pairs.differences - pairs.slopes * found).squaredNorm() / freedom;
   const Eigen::Matrix3d covariance =

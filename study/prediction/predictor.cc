@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "study/prediction/axis.h"
+#include "study/statistics/statistics.h"
 
 namespace towbench::harness::diagnose {
 namespace {
@@ -23,13 +25,6 @@ double speed_from(const Run& run, Index k) {
                           (static_cast<double>(reach) * run.period_s);
 }
 
-double quantile(std::vector<double>& values, double share) {
-  const auto nth =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
-}
-
 // That 99 % of the samples stay below.
 double top_speed_of(const std::vector<Run>& runs) {
   std::vector<double> speeds;
@@ -40,7 +35,7 @@ double top_speed_of(const std::vector<Run>& runs) {
                        (2 * static_cast<double>(reach) * run.period_s));
     }
   }
-  return speeds.empty() ? 0 : quantile(speeds, 0.99);
+  return speeds.empty() ? 0 : statistics::quantile(std::move(speeds), 0.99);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "study/procedures/procedures.h"
+#include "study/statistics/statistics.h"
 
 namespace towbench::harness::procedures {
 
@@ -97,14 +98,13 @@ bbmc::Configuration studied_configuration(const ProcedureContext& context) {
 }
 
 TorqueScale torque_scale(const ProcedureContext& context) {
-  constexpr double kNormal95 = 1.96;
   const auto axis = believed_axis(context);
   TorqueScale scale;
   scale.torque_per_duty_Nm = axis.torque_constant_Nm_per_A * axis.amplifier_gain_A_per_V *
                              context.machine.nameplate(context.axis).pwm_amplitude_V / 100;
   if (const auto* measured = context.find("torque_per_volt_Nm_per_V")) {
     scale.measured = true;
-    scale.relative_deviation = measured->half_width() / measured->value / kNormal95;
+    scale.relative_deviation = measured->half_width() / measured->value / statistics::kNormal95;
   }
   return scale;
 }

@@ -8,6 +8,7 @@
 #include "study/procedures/believed_model.h"
 #include "study/procedures/procedures.h"
 #include "study/procedures/settings.h"
+#include "study/statistics/statistics.h"
 
 namespace towbench::harness::procedures {
 namespace {
@@ -33,7 +34,6 @@ struct BreakAwayMapSettings {
 };
 
 constexpr int kRepeatsATalk = 40;
-constexpr double kNormal95 = 1.959964;
 constexpr double kSwingHelps = 0.1;  // of a step, as was seen
 
 class BreakAwayMap final : public Procedure {
@@ -144,7 +144,7 @@ class BreakAwayMap final : public Procedure {
       // helps; and every ramp of a stretch misses it alike: the middle 95 % of an even spread.
       const double bracket = (1 + kSwingHelps) * step;
       const double value = sum / n + 0.5 * kSwingHelps * step;
-      const double resolution = 0.5 * 0.95 * bracket / kNormal95;
+      const double resolution = 0.5 * 0.95 * bracket / statistics::kNormal95;
       outcome.estimates.push_back(identify::with_deviation(
           {.quantity = "breakaway_Nm",
            .axis = std::string(core::name_of(context.axis)),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include "study/logs/column_map.h"
 #include "study/procedures/log_file.h"
 #include "study/procedures/recording_frames.h"
+#include "study/statistics/statistics.h"
 
 namespace towbench::harness::procedures {
 namespace {
@@ -105,9 +107,7 @@ identify::Recording recording_of(const LogFile& log, const logs::ColumnMap& name
     }
   }
   if (!steps.empty()) {
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    data.period_s = *middle;
+    data.period_s = statistics::median(std::move(steps));
   }
   drop_other_frames(data);
   check_usable(log, data, which);

@@ -6,6 +6,7 @@
 
 #include "study/procedures/believed_model.h"
 #include "study/procedures/procedures.h"
+#include "study/statistics/statistics.h"
 
 namespace towbench::harness::procedures {
 namespace {
@@ -28,7 +29,6 @@ double own_friction_Nm(const Chain& chain, double rad_per_s) {
 
 // What the pulses found, else belief, which may be off by a fifth.
 KnownChain known_chain(const ProcedureContext& context) {
-  constexpr double kNormal95 = 1.959964;
   constexpr double kBelieved = 0.2;
   const auto axis = believed_axis(context);
   const auto scale = torque_scale(context);
@@ -44,8 +44,8 @@ KnownChain known_chain(const ProcedureContext& context) {
     const auto* found = context.find(quantity);
     known.identified = known.identified && found != nullptr;
     chain.*what = found != nullptr ? found->value : belief;
-    known.doubts.push_back(
-        {what, found != nullptr ? found->half_width() / kNormal95 : kBelieved * belief});
+    known.doubts.push_back({what, found != nullptr ? found->half_width() / statistics::kNormal95
+                                                   : kBelieved * belief});
   };
   take(&Chain::inertia_kg_m2, "inertia_kg_m2", axis.inertia_kg_m2);
   take(&Chain::resonance_Hz, "chain_resonance_Hz", axis.chain.resonance_Hz);

@@ -12,6 +12,7 @@
 #include "study/procedures/believed_model.h"
 #include "study/procedures/procedures.h"
 #include "study/procedures/settings.h"
+#include "study/statistics/statistics.h"
 
 namespace towbench::harness::procedures {
 namespace {
@@ -126,7 +127,6 @@ class TimeConstant final : public Procedure {
   static ProcedureOutcome judged(const ProcedureContext& context,
                                  const std::vector<double>& constants,
                                  std::vector<double> swings_Hz, ResultTable table, Figure figure) {
-    constexpr double kNormal95 = 1.959964;
     const auto n = static_cast<double>(constants.size());
     double mean = 0;
     for (const double each : constants) {
@@ -139,8 +139,9 @@ class TimeConstant final : public Procedure {
     const double spread =
         boost::math::quantile(boost::math::students_t(n - 1), 0.975) * std::sqrt(square / n);
     // A loss that grows with the load, which EXP-P-1 has seen, bends a coast as well.
-    const double half = std::hypot(spread, kModelError95 * mean,
-                                   kNormal95 * torque_scale(context).relative_deviation * mean);
+    const double half =
+        std::hypot(spread, kModelError95 * mean,
+                   statistics::kNormal95 * torque_scale(context).relative_deviation * mean);
     ProcedureOutcome outcome;
     outcome.estimates.push_back(
         {.quantity = "mechanical_time_constant_s",

@@ -21,6 +21,7 @@
 #include "study/procedures/believed_model.h"
 #include "study/procedures/procedures.h"
 #include "study/procedures/settings.h"
+#include "study/statistics/statistics.h"
 
 namespace towbench::harness::procedures {
 namespace {
@@ -182,7 +183,8 @@ class TorquePlaceMap final : public Procedure {
     const double fast_tail_Nm =
         lorentz_tail_Nm(context, levels[0], viscous * slow_w, speeds[1] * rad_per_m);
     const double viscous_deviation =
-        (std::sqrt(scatter / weight) + (slow_tail_Nm - fast_tail_Nm) / kNormal95) / apart;
+        (std::sqrt(scatter / weight) + (slow_tail_Nm - fast_tail_Nm) / statistics::kNormal95) /
+        apart;
     std::vector<identify::LinePoint> points;
     for (std::size_t i = 0; i < speeds.size(); ++i) {
       for (const auto& each : levels.at(i)) {
@@ -211,7 +213,8 @@ class TorquePlaceMap final : public Procedure {
     add("steady_viscous_Nm_s_per_rad", viscous, viscous_deviation, "N m s/rad");
     for (std::size_t i = 0; i < map.x.size(); ++i) {
       add("sliding_friction_Nm", map.y[i],
-          std::hypot(map.deviation[i], viscous_deviation * slow_w) + slow_tail_Nm / kNormal95,
+          std::hypot(map.deviation[i], viscous_deviation * slow_w) +
+              slow_tail_Nm / statistics::kNormal95,
           "N m");
       outcome.estimates.back().at = map.x[i];
     }
@@ -261,7 +264,6 @@ class TorquePlaceMap final : public Procedure {
     return std::max(0.0, excess_Nm) / (1 + ratio * ratio);
   }
 
-  static constexpr double kNormal95 = 1.959964;
   static constexpr double kRounding_pct = 2e-3;  // of a mean of duties in steps of 0.1 %
 };
 

@@ -23,6 +23,7 @@
 #include "study/procedures/procedures.h"
 #include "study/procedures/settings.h"
 #include "study/procedures/steady_speeds.h"
+#include "study/statistics/statistics.h"
 
 namespace towbench::harness::procedures {
 namespace {
@@ -141,7 +142,6 @@ class TorqueSpeedMap final : public Procedure {
                                                    const std::vector<double>& speeds,
                                                    double middle_m,
                                                    const std::vector<SteadyRun>& runs) {
-    constexpr double kNormal95 = 1.959964;
     const auto* stribeck = context.find("stribeck_speed_rad_per_s");
     const auto* excess = context.find("stiction_excess_Nm");
     if (stribeck == nullptr || excess == nullptr || context.find("inertia_kg_m2") == nullptr) {
@@ -164,8 +164,8 @@ class TorqueSpeedMap final : public Procedure {
         of_reference.friction.breakaway_Nm - of_reference.coulomb_friction_Nm;
     corrected.of_reference.stribeck_rad_per_s = of_reference.friction.stribeck_speed_rad_per_s;
     corrected.of_reference.viscous_Nm_s_per_rad = of_reference.viscous_friction_Nm_s_per_rad;
-    corrected.shift = identify::find_law_shift(corrected.of_reference,
-                                               excess->half_width() / kNormal95, runs, seen.runs);
+    corrected.shift = identify::find_law_shift(
+        corrected.of_reference, excess->half_width() / statistics::kNormal95, runs, seen.runs);
     if (!seen.trouble.empty() || !corrected.shown_by_reference.found || !corrected.shift.found) {
       return std::nullopt;
     }
@@ -283,8 +283,8 @@ class TorqueSpeedMap final : public Procedure {
     for (const auto& run : runs) {
       measured.x.push_back(run.speed_rad_per_s);
       measured.y.push_back(1e3 * run.torque_Nm);
-      measured.low.push_back(1e3 * (run.torque_Nm - 1.96 * run.deviation_Nm));
-      measured.high.push_back(1e3 * (run.torque_Nm + 1.96 * run.deviation_Nm));
+      measured.low.push_back(1e3 * (run.torque_Nm - statistics::kNormal95 * run.deviation_Nm));
+      measured.high.push_back(1e3 * (run.torque_Nm + statistics::kNormal95 * run.deviation_Nm));
       places.x.push_back(run.position_m);
       places.y.push_back(1e3 * std::fabs(run.torque_Nm));
       top = std::max(top, std::fabs(run.speed_rad_per_s));

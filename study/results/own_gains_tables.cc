@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "study/results/thesis_tracking.h"
+#include "study/statistics/statistics.h"
 
 namespace towbench::harness {
 namespace {
@@ -88,15 +89,6 @@ std::string fast(const std::vector<OwnGains>& all) {
   return text;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) {
-    return NAN;
-  }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // Print over bench, without its sign: which unit makes it 1.
 std::string print_over_bench(const std::vector<TrackedSpeed>& runs, double m_per_print) {
   std::vector<double> ratios;
@@ -110,7 +102,7 @@ std::string print_over_bench(const std::vector<TrackedSpeed>& runs, double m_per
     return "-";
   }
   const auto [low, high] = std::minmax_element(ratios.begin(), ratios.end());
-  return fmt::format("{:.2g} ({:.2g} .. {:.2g})", median(ratios), *low, *high);
+  return fmt::format("{:.2g} ({:.2g} .. {:.2g})", statistics::median(ratios), *low, *high);
 }
 
 // By (4.12) at steady speed and friction: K_P e' + K_I e = 0, whatever the unit of length.
@@ -119,7 +111,7 @@ std::string thesis_rate() {
   for (const auto& each : kTable7_6) {
     rates.push_back(-each.velocity_error_mm_per_s / each.position_error_mm);
   }
-  return fmt::format("{:.2f}", median(rates));
+  return fmt::format("{:.2f}", statistics::median(rates));
 }
 
 std::string bench_rate(const OwnGains& own) {
@@ -127,7 +119,7 @@ std::string bench_rate(const OwnGains& own) {
   for (const auto& each : own.early) {
     rates.push_back(-each.run.speed_mean_m_per_s / each.run.mean_m);
   }
-  return fmt::format("{:.2f}", median(rates));
+  return fmt::format("{:.2f}", statistics::median(rates));
 }
 
 constexpr std::string_view kReading =
