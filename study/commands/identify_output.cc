@@ -20,7 +20,7 @@ void tell_steps(const ChainResult& result) {
                outcome.reason,
                step.from_before ? " (from before)" : fmt::format("{:.1f} s", step.wall_s));
     for (const auto& each : outcome.withheld) {
-      fmt::print("            withheld: {}: {}\n", each.quantity, each.reason);
+      fmt::print("            withheld: {}: {}\n", each.quantity, each.no_interval);
     }
   }
 }

@@ -72,15 +72,11 @@ nlohmann::json to_json(const ProcedureOutcome& outcome) {
   for (const auto& figure : outcome.figures) {
     figures.push_back(of_figure(figure));
   }
-  auto withheld = nlohmann::json::array();
-  for (const auto& each : outcome.withheld) {
-    withheld.push_back({{"quantity", each.quantity}, {"reason", each.reason}});
-  }
   return {{"status", kStatusNames[static_cast<std::size_t>(outcome.status)]},
           {"reason", outcome.reason},
           {"simulated_s", outcome.simulated_s},
           {"estimates", identify::to_json(outcome.estimates)},
-          {"withheld", std::move(withheld)},
+          {"withheld", identify::to_json(outcome.withheld)},
           {"tables", std::move(tables)},
           {"figures", std::move(figures)}};
 }
@@ -96,9 +92,7 @@ ProcedureOutcome outcome_from_json(const nlohmann::json& json) {
   json.at("reason").get_to(outcome.reason);
   json.at("simulated_s").get_to(outcome.simulated_s);
   outcome.estimates = identify::estimates_from_json(json.at("estimates"));
-  for (const auto& each : json.at("withheld")) {
-    outcome.withheld.push_back({.quantity = each.at("quantity"), .reason = each.at("reason")});
-  }
+  outcome.withheld = identify::estimates_from_json(json.at("withheld"));
   for (const auto& table : json.at("tables")) {
     outcome.tables.push_back(
         {.title = table.at("title"), .head = table.at("head"), .rows = table.at("rows")});

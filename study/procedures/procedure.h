@@ -37,12 +37,6 @@ struct ProcedureContext {
   }
 };
 
-// A quantity that the data do not tell, and why.
-struct Withheld {
-  std::string quantity;
-  std::string reason;
-};
-
 struct ProcedureOutcome {
   enum class Status {
     kDone,
@@ -52,7 +46,7 @@ struct ProcedureOutcome {
   Status status = Status::kDone;
   std::string reason{};
   identify::Estimates estimates{};
-  std::vector<Withheld> withheld{};
+  identify::Estimates withheld{};  // not to be used: the data do not tell them
   std::vector<ResultTable> tables{};
   std::vector<Figure> figures{};
   double simulated_s = 0;

@@ -87,7 +87,7 @@ std::string step_section(const ChainStep& step) {
         outcome.reason);
   }
   for (const auto& each : outcome.withheld) {
-    text += report::missing_note(fmt::format("Withheld: {}: {}", each.quantity, each.reason));
+    text += report::missing_note(fmt::format("Withheld: {}: {}", each.quantity, each.no_interval));
   }
   for (const auto& table : outcome.tables) {
     text += table_of(table);

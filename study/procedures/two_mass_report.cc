@@ -47,13 +47,12 @@ void add_estimates(const TwoMassReport& report, ProcedureOutcome& outcome) {
     // A Stribeck speed means another one in each form of the law.
     const bool formless = !right && quantity == std::string_view("stribeck_speed_rad_per_s");
     if (formless || (!right && estimate.half_width() > kWidest * std::fabs(value))) {
-      outcome.withheld.push_back(
-          {.quantity = quantity,
-           .reason =
-               fmt::format("{:.3g} {} +-{:.0f} %: the two-mass model leaves {:.1f} counts RMS "
-                           "of the pulses",
-                           value, unit, 100 * estimate.half_width() / std::fabs(value),
-                           fit.residual_rms_counts)});
+      const double half_pct = 100 * estimate.half_width() / std::fabs(value);
+      outcome.withheld.push_back(identify::withheld(
+          std::move(estimate),
+          fmt::format("{:.3g} {} +-{:.0f} %: the two-mass model leaves {:.1f} counts RMS of the "
+                      "pulses",
+                      value, unit, half_pct, fit.residual_rms_counts)));
       return;
     }
     outcome.estimates.push_back(std::move(estimate));

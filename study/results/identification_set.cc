@@ -49,7 +49,7 @@ nlohmann::json to_json(const std::vector<Recovery>& recoveries,
   for (const auto& step : result.steps) {
     for (const auto& each : step.outcome.withheld) {
       json["withheld"].push_back(
-          fmt::format("{} {}: {}", each.quantity, core::name_of(step.axis), each.reason));
+          fmt::format("{} {}: {}", each.quantity, core::name_of(step.axis), each.no_interval));
     }
     if (step.outcome.status != ProcedureOutcome::Status::kDone) {
       json["not_done"].push_back(
