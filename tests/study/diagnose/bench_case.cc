@@ -24,7 +24,10 @@ constexpr const char* kRig = "fixtures/rigs/macs-nominal.toml";
 constexpr const char* kPlant = "fixtures/plants/macs-nominal.toml";
 constexpr const char* kController = "fixtures/controllers/bbmc-tuned.toml";
 
-using Hide = std::function<void(RigAxisParameters&, double)>;
+struct Hideout {
+  std::function<void(RigAxisParameters&, double)> hide;
+  bool alone = false;  // named, and nothing beside it
+};
 
 // The spring stays: its mode gets slower with the carriage.
 void add_to_carriage(emulator::AxisParameters& p, double mass_kg) {
@@ -37,52 +40,56 @@ void add_to_carriage(emulator::AxisParameters& p, double mass_kg) {
   p.chain.resonance_Hz = w / 6.283185307179586;
 }
 
-const std::map<std::string, Hide>& hideouts() {
-  static const std::map<std::string, Hide> kAll{
-      {"viscous", [](auto& a, double s) { a.plant.viscous_friction_Nm_s_per_rad *= 1 + 0.4 * s; }},
+const std::map<std::string, Hideout>& hideouts() {
+  static const std::map<std::string, Hideout> kAll{
+      {"viscous",
+       {[](auto& a, double s) { a.plant.viscous_friction_Nm_s_per_rad *= 1 + 0.4 * s; }, true}},
       {"coulomb",
-       [](auto& a, double s) {
-         a.plant.friction.breakaway_Nm += 0.3 * s * a.plant.coulomb_friction_Nm;
-         a.plant.coulomb_friction_Nm *= 1 + 0.3 * s;
-       }},
-      {"added_mass", [](auto& a, double s) { add_to_carriage(a.plant, 0.8 * s); }},
+       {[](auto& a, double s) {
+          a.plant.friction.breakaway_Nm += 0.3 * s * a.plant.coulomb_friction_Nm;
+          a.plant.coulomb_friction_Nm *= 1 + 0.3 * s;
+        },
+        true}},
+      {"added_mass", {[](auto& a, double s) { add_to_carriage(a.plant, 0.8 * s); }, true}},
       {"coulomb_asymmetry",
-       [](auto& a, double s) { a.plant.friction.options.asymmetry.coulomb = 0.2 * s; }},
+       {[](auto& a, double s) { a.plant.friction.options.asymmetry.coulomb = 0.2 * s; }, true}},
       {"viscous_asymmetry",
-       [](auto& a, double s) { a.plant.friction.options.asymmetry.viscous = 0.3 * s; }},
-      {"stribeck", [](auto& a, double s) { a.plant.friction.breakaway_Nm *= 1 + 0.5 * s; }},
+       {[](auto& a, double s) { a.plant.friction.options.asymmetry.viscous = 0.3 * s; }, true}},
+      {"stribeck", {[](auto& a, double s) { a.plant.friction.breakaway_Nm *= 1 + 0.5 * s; }}},
       {"position_friction",
-       [](auto& a, double s) { a.plant.friction.position.friction_Nm[1] *= 1 - 0.6 * s; }},
-      {"position_force",
-       [](auto& a, double s) {
+       {[](auto& a, double s) { a.plant.friction.position.friction_Nm[1] *= 1 - 0.6 * s; }}},
+      {"position_force", {[](auto& a, double s) {
          for (int i = 0; i < 9; ++i) {
            (void)a.plant.disturbances.position_force.position_m.push_back(0.5 * i);
            (void)a.plant.disturbances.position_force.torque_Nm.push_back(0.7e-3 * s *
                                                                          (i % 2 == 0 ? 1 : -1));
          }
-       }},
-      {"cable_spring",
-       [](auto& a, double s) {
+       }}},
+      {"cable_spring", {[](auto& a, double s) {
          a.plant.disturbances.cable.stiffness_N_per_m = 1.0 * s;
          a.plant.disturbances.cable.reference_m = 1.5;
-       }},
-      {"constant_bias", [](auto& a, double s) { a.plant.disturbances.tilt_deg = 0.4 * s; }},
+       }}},
+      {"constant_bias", {[](auto& a, double s) { a.plant.disturbances.tilt_deg = 0.4 * s; }, true}},
       {"torque_ripple",
-       [](auto& a, double s) {
-         a.plant.disturbances.torque_ripple.amplitude_Nm = 0.5e-3 * s;
-         a.plant.disturbances.torque_ripple.periods_per_turn = 2;
-       }},
+       {[](auto& a, double s) {
+          a.plant.disturbances.torque_ripple.amplitude_Nm = 0.5e-3 * s;
+          a.plant.disturbances.torque_ripple.periods_per_turn = 2;
+        },
+        true}},
       {"load_dependent_friction",
-       [](auto& a, double s) { a.plant.friction.options.load_ratio = 0.15 * s; }},
+       {[](auto& a, double s) { a.plant.friction.options.load_ratio = 0.15 * s; }, true}},
       {"thermal_drift",
-       [](auto& a, double s) {
-         a.plant.friction.options.warming.depth = std::min(0.9, 0.5 * s);
-         a.plant.friction.options.warming.full_power_W = 0.3;
-         a.plant.friction.options.warming.time_constant_s = 20;
-       }},
-      {"amplifier_gain", [](auto& a, double s) { a.plant.amplifier_gain_A_per_V *= 1 - 0.1 * s; }},
-      {"chain_elasticity", [](auto& a, double s) { a.plant.chain.resonance_Hz *= 1 - 0.12 * s; }},
-      {"backlash", [](auto& a, double s) { a.plant.gear.backlash_deg = 0.5 * s; }},
+       {[](auto& a, double s) {
+          a.plant.friction.options.warming.depth = std::min(0.9, 0.5 * s);
+          a.plant.friction.options.warming.full_power_W = 0.3;
+          a.plant.friction.options.warming.time_constant_s = 20;
+        },
+        true}},
+      {"amplifier_gain",
+       {[](auto& a, double s) { a.plant.amplifier_gain_A_per_V *= 1 - 0.1 * s; }}},
+      {"chain_elasticity",
+       {[](auto& a, double s) { a.plant.chain.resonance_Hz *= 1 - 0.12 * s; }, true}},
+      {"backlash", {[](auto& a, double s) { a.plant.gear.backlash_deg = 0.5 * s; }}},
   };
   return kAll;
 }
@@ -110,22 +117,21 @@ procedures::Conversation drawn_motions(std::uint64_t seed) {
 
 }  // namespace
 
-const std::vector<std::string>& bench_effects() {
-  static const std::vector<std::string> kNames = [] {
-    std::vector<std::string> names;
-    for (const auto& [name, hide] : hideouts()) {
+std::vector<std::string> bench_effects(bool alone) {
+  std::vector<std::string> names;
+  for (const auto& [name, hideout] : hideouts()) {
+    if (hideout.alone || !alone) {
       names.push_back(name);
     }
-    return names;
-  }();
-  return kNames;
+  }
+  return names;
 }
 
 diagnose::Run bench_run(const BenchCase& one) {
   SourceFiles sources;
   RigFixture rig = load_rig(kRig, sources);
   if (!one.effect.empty()) {
-    hideouts().at(one.effect)(rig.parameters.axes[kY], one.strength);
+    hideouts().at(one.effect).hide(rig.parameters.axes[kY], one.strength);
   }
   const procedures::Machine machine(rig, load_controller(kController, sources), one.seed);
   procedures::Conversation talk = drawn_motions(one.seed);

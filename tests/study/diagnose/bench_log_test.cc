@@ -20,7 +20,7 @@ TEST(BenchLog, OfTheMachineAsStatedNamesNothing) {
   EXPECT_THAT(d.verdicts, testing::ElementsAre("model_adequate"));
 }
 
-class BenchEffect : public testing::TestWithParam<const char*> {};
+class BenchEffect : public testing::TestWithParam<std::string> {};
 
 TEST_P(BenchEffect, HiddenInTheEmulatorIsNamedAndNothingElse) {
   const std::string effect = GetParam();
@@ -32,12 +32,8 @@ TEST_P(BenchEffect, HiddenInTheEmulatorIsNamedAndNothingElse) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BenchEffect,
-                         testing::Values("viscous", "coulomb", "added_mass", "coulomb_asymmetry",
-                                         "constant_bias", "torque_ripple", "viscous_asymmetry",
-                                         "load_dependent_friction", "thermal_drift",
-                                         "chain_elasticity"),
-                         [](const auto& parameter) { return std::string(parameter.param); });
+INSTANTIATE_TEST_SUITE_P(All, BenchEffect, testing::ValuesIn(bench_effects(true)),
+                         [](const auto& parameter) { return parameter.param; });
 
 }  // namespace
 }  // namespace towbench::tests

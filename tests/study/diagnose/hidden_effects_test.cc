@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/study/diagnose/generator/hidden_force.h"
 #include "tests/study/diagnose/hidden_case.h"
 
 namespace towbench::tests {
@@ -24,7 +25,7 @@ void expect_named_alone(const HiddenAxis& axis) {
   }
 }
 
-class HiddenEffect : public testing::TestWithParam<const char*> {};
+class HiddenEffect : public testing::TestWithParam<std::string> {};
 
 TEST_P(HiddenEffect, IsNamedFromTheLogAndTheNominalModelAlone) {
   HiddenAxis axis;
@@ -32,17 +33,18 @@ TEST_P(HiddenEffect, IsNamedFromTheLogAndTheNominalModelAlone) {
   expect_named_alone(axis);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, HiddenEffect,
-    testing::Values("coulomb_asymmetry", "viscous_asymmetry", "quadratic_drag", "cubic_viscous",
-                    "stribeck", "low_speed_rolloff", "presliding", "added_mass", "chain_elasticity",
-                    "transport_delay", "command_saturation", "voltage_saturation", "position_force",
-                    "thermal_drift", "amplifier_gain", "amplifier_deadband",
-                    "load_dependent_friction", "cable_spring", "position_friction",
-                    "position_viscous", "torque_ripple", "sprocket_eccentricity", "chain_polygon",
-                    "encoder_eccentricity", "constant_bias", "encoder_count_loss",
-                    "periodic_force"),
-    [](const auto& parameter) { return std::string(parameter.param); });
+std::vector<std::string> effects_of_the_gate() {
+  std::vector<std::string> names;
+  for (const auto& effect : hidden_effects()) {
+    if (effect.in_gate) {
+      names.emplace_back(effect.name);
+    }
+  }
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, HiddenEffect, testing::ValuesIn(effects_of_the_gate()),
+                         [](const auto& parameter) { return parameter.param; });
 
 constexpr double kWeak = 0.4;
 

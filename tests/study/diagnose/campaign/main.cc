@@ -21,6 +21,7 @@
 
 #include "core/random.h"
 #include "tests/study/diagnose/bench_case.h"
+#include "tests/study/diagnose/generator/hidden_force.h"
 #include "tests/study/diagnose/hidden_case.h"
 
 namespace {
@@ -28,17 +29,19 @@ namespace {
 using namespace towbench::tests;
 using towbench::harness::diagnose::Diagnosis;
 
-const std::vector<std::vector<std::string>> kFamilies{
-    {"coulomb_asymmetry", "viscous_asymmetry", "quadratic_drag", "cubic_viscous",
-     "load_dependent_friction"},
-    {"stribeck", "low_speed_rolloff", "stiction", "presliding"},
-    {"added_mass", "backlash", "chain_elasticity"},
-    {"transport_delay", "current_loop_lag", "amplifier_gain", "amplifier_deadband",
-     "command_saturation", "voltage_saturation", "constant_bias"},
-    {"position_force", "cable_spring", "position_friction", "position_viscous"},
-    {"torque_ripple", "sprocket_eccentricity", "chain_polygon", "encoder_eccentricity",
-     "periodic_force"},
-    {"thermal_drift", "encoder_count_loss"}};
+using Families = std::vector<std::vector<std::string>>;
+
+const Families& families() {
+  static const Families kAll = [] {
+    Families all;
+    for (const auto& effect : hidden_effects()) {
+      all.resize(std::max(all.size(), effect.family + 1));
+      all[effect.family].emplace_back(effect.name);
+    }
+    return all;
+  }();
+  return kAll;
+}
 
 struct Seeds {
   int first = 1;
@@ -52,8 +55,8 @@ Seeds seeds_in(const char* text) {
 
 std::vector<std::string> all_effects() {
   std::vector<std::string> all{""};
-  for (const auto& family : kFamilies) {
-    all.insert(all.end(), family.begin(), family.end());
+  for (const auto& effect : hidden_effects()) {
+    all.emplace_back(effect.name);
   }
   all.emplace_back("outside");
   return all;
@@ -170,13 +173,13 @@ void pairs(const Seeds& seeds, double strength) {
   for (int seed = seeds.first; seed <= seeds.last; ++seed) {
     const auto drawn = static_cast<std::uint64_t>(seed);
     towbench::core::Random random(drawn);
-    const auto count = static_cast<double>(kFamilies.size());
+    const auto count = static_cast<double>(families().size());
     const auto first = static_cast<std::size_t>(random.uniform() * count);
     const auto step = 1 + static_cast<std::size_t>(random.uniform() * (count - 1));
     HiddenAxis axis;
     axis.size = axis.second_size = strength;
-    axis.effect = drawn_from(kFamilies[first], random);
-    axis.second_effect = drawn_from(kFamilies[(first + step) % kFamilies.size()], random);
+    axis.effect = drawn_from(families()[first], random);
+    axis.second_effect = drawn_from(families()[(first + step) % families().size()], random);
     if (is_one_class(axis)) {
       fmt::print("| {} + {} | one class: no pair | | |\n", axis.effect, axis.second_effect);
       continue;

@@ -1,6 +1,7 @@
 #include "tests/study/diagnose/generator/hidden_force.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -13,7 +14,44 @@ constexpr double kMotorTurnsPerMetre = 111.336;
 constexpr double kSprocket_m = 0.05;
 constexpr double kDuration_s = 30;
 
+constexpr auto kHiddenEffects = std::to_array<HiddenEffectRow>({
+    {"coulomb_asymmetry", 0},
+    {"viscous_asymmetry", 0},
+    {"quadratic_drag", 0},
+    {"cubic_viscous", 0},
+    {"load_dependent_friction", 0},
+    {"stribeck", 1},
+    {"low_speed_rolloff", 1},
+    {"stiction", 1, false},
+    {"presliding", 1},
+    {"added_mass", 2},
+    {"backlash", 2, false},
+    {"chain_elasticity", 2},
+    {"transport_delay", 3},
+    {"current_loop_lag", 3, false},
+    {"amplifier_gain", 3},
+    {"amplifier_deadband", 3},
+    {"command_saturation", 3},
+    {"voltage_saturation", 3},
+    {"constant_bias", 3},
+    {"position_force", 4},
+    {"cable_spring", 4},
+    {"position_friction", 4},
+    {"position_viscous", 4},
+    {"torque_ripple", 5},
+    {"sprocket_eccentricity", 5},
+    {"chain_polygon", 5},
+    {"encoder_eccentricity", 5},
+    {"periodic_force", 5},
+    {"thermal_drift", 6},
+    {"encoder_count_loss", 6},
+});
+
 }  // namespace
+
+std::span<const HiddenEffectRow> hidden_effects() {
+  return kHiddenEffects;
+}
 
 HiddenForce::HiddenForce(std::string effect, double size, core::Random& random)
     : effect_(std::move(effect)),

@@ -1,11 +1,23 @@
 // The forces that hidden effects put on the body, and what they do to command and encoder.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "core/random.h"
 
 namespace towbench::tests {
+
+// An effect that this generator hides. Within a family a log tells them apart least; a pair is
+// drawn from two families.
+struct HiddenEffectRow {
+  std::string_view name;  // as study/prediction names it
+  std::size_t family = 0;
+  bool in_gate = true;  // one seed at full size is tried before every merge
+};
+[[nodiscard]] std::span<const HiddenEffectRow> hidden_effects();
 
 struct BodyState {
   double t_s = 0;
