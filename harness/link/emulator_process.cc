@@ -172,7 +172,7 @@ std::string EmulatorProcess::join() {
     return {};
   }
   stream_.reset();
-  if (struck_ && !ends_by_itself_) {  // it waits for somebody who will not come
+  if (struck_ && !ends_by_itself_) {  // it waits for a peer that has ended
     end_child();
     return {};
   }

@@ -35,7 +35,8 @@ std::filesystem::path create_run_folder(const std::filesystem::path& parent,
                                         const std::string& name, const std::string& short_hash) {
   std::filesystem::create_directories(parent);
   const std::string stem = fmt::format("{}-{}-{}", utc_now_compact(), name, short_hash);
-  // Several runs in one second get -2, -3 ...; create_directory() says who was first.
+  // Several runs in one second get -2, -3 ...; create_directory() succeeds for one
+  // process alone.
   for (int copy = 1;; ++copy) {
     auto folder = parent / (copy == 1 ? stem : fmt::format("{}-{}", stem, copy));
     if (std::filesystem::create_directory(folder)) {

@@ -41,7 +41,7 @@ int wait_for(pid_t child) noexcept {
   return status;
 }
 
-// Empty: the other end is gone, or has nothing more to say.
+// Empty: the other end is closed, or it sent an empty message, which ends the conversation.
 std::string receive(int socket) {
   std::string text(kLongestAnswer, '\0');
   ssize_t length = -1;
@@ -64,13 +64,14 @@ std::array<int, 2> socket_pair() {
   return ends;
 }
 
-// An answer has a letter before it, so that an empty one is one too.
+// First letter of a message to the asker, so that an empty answer is a message too.
 constexpr char kAnswered = 'a';
-constexpr char kDied = 'd';
+constexpr char kEnded = 'e';  // the process of the run ended without an answer
 
 }  // namespace
 
-// Stays where a moment is, in the process that has come there, while its child runs on to the next.
+// At each moment the process forks: the parent stays there and serves requests, the child runs on
+// to the next moment.
 class Snapshots::HeldRun final : public Hand {
  public:
   HeldRun(const std::vector<core::Nanoseconds>& moments_ns, const std::vector<int>& sockets,
@@ -105,7 +106,7 @@ class Snapshots::HeldRun final : public Hand {
   }
 
  private:
-  // Nobody but who is at a moment holds its socket, so that its end shows.
+  // Only the process at a moment keeps its socket open, so that the asker sees when it ends.
   void keep_socket(std::size_t moment) noexcept {
     socket_ = sockets_[moment];
     for (std::size_t i = moment + 1; i < sockets_.size(); ++i) {
@@ -114,7 +115,7 @@ class Snapshots::HeldRun final : public Hand {
     close(ready_);
   }
 
-  // Comes back in a child that is to go on; the process itself ends here.
+  // Returns only in a child that runs a request; the process itself ends here.
   void serve(pid_t next) {
     while (true) {
       request_ = receive(socket_);
@@ -128,7 +129,7 @@ class Snapshots::HeldRun final : public Hand {
         return;
       }
       if (wait_for(child) != 0) {
-        (void)send_to(socket_, std::string(1, kDied));
+        (void)send_to(socket_, std::string(1, kEnded));
       }
     }
   }
@@ -167,7 +168,7 @@ void Snapshots::hold(const ExperimentFixture& plain, std::uint64_t seed,
       held.tell_reached();
     }
   } catch (const std::exception&) {
-    _exit(kExitRuntime);  // whoever asked hears that the process ended
+    _exit(kExitRuntime);  // the asker gets kEnded
   }
   _exit(0);
 }

@@ -3,6 +3,7 @@
 #include "protocol/carriers/gpio_edges.h"
 
 #include <cstdlib>
+#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>

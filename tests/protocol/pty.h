@@ -2,13 +2,9 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include <fcntl.h>
-#include <poll.h>
 #include <stdlib.h>
 #include <unistd.h>
 

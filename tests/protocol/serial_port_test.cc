@@ -5,6 +5,7 @@
 #include <thread>
 
 #include <gtest/gtest.h>
+#include <poll.h>
 
 #include "core/random.h"
 #include "protocol/carriers/lockstep_link.h"
