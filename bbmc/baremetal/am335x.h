@@ -17,7 +17,6 @@ inline volatile std::uint16_t& half(std::uint32_t address) noexcept {
 
 // Clocks: MODULEMODE = 2 enables a module (TRM 8.1.12.1).
 inline constexpr std::uint32_t kClockPer = 0x44E0'0000;
-inline constexpr std::uint32_t kClockWakeUp = 0x44E0'0400;
 inline constexpr std::uint32_t kModuleEnabled = 2;
 inline constexpr std::array<std::uint32_t, 5> kModuleClocks{kClockPer + 0x80,   // TIMER2
                                                             kClockPer + 0x7C,   // TIMER7

@@ -52,7 +52,6 @@ inline constexpr int kExitFail = 1;
 inline constexpr int kExitBadInput = 2;
 inline constexpr int kExitRuntime = 3;
 inline constexpr int kExitInvalid = 4;
-inline constexpr int kExitSkipped = 99;
 
 [[nodiscard]] constexpr int exit_code_of(Verdict verdict) noexcept {
   switch (verdict) {

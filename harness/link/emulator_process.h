@@ -42,8 +42,6 @@ class EmulatorProcess final : public PeerControl {
   [[nodiscard]] core::ErrorCode kill_peer() noexcept override;
   [[nodiscard]] core::ErrorCode restart_peer() noexcept override;
   [[nodiscard]] core::ErrorCode leave_bus() noexcept override;
-  // Whether one of these was done: then the child's end is no trouble.
-  [[nodiscard]] bool was_struck() const noexcept { return struck_; }
 
   // Waits for the child; the stream must have been closed. "" when the child ended by itself with
   // 0, else a sentence.

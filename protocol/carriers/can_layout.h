@@ -41,10 +41,6 @@ struct BitField {
     return width == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << width) - 1U;
   }
   [[nodiscard]] constexpr bool fits(std::uint64_t value) const noexcept { return value <= mask(); }
-  [[nodiscard]] constexpr bool fits_signed(std::int64_t value) const noexcept {
-    const std::int64_t half = std::int64_t{1} << (width - 1);
-    return value >= -half && value < half;
-  }
   // Whatever does not fit is cut off.
   [[nodiscard]] constexpr std::uint64_t put(std::uint64_t value) const noexcept {
     return (value & mask()) << first;

@@ -13,9 +13,6 @@ namespace towbench::bbmc {
 
 class SystemManager;
 
-// A part of a report fits into so many characters.
-inline constexpr std::size_t kReportPart = 512;
-
 // The list of commands, one word's commands with their options, or all of that.
 class HelpReport {
  public:
