@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "harness/metrics/statistics.h"
 
@@ -34,6 +35,45 @@ Statistics carriage_error(const RunData& data, core::Axis axis, const TimeSpan& 
     statistics.add(reference_m[sample.log_row] - sample.carriage_m);
   }
   return statistics;
+}
+
+// What is left to the place where the reference stays: before it, positive, in the direction of the
+// reference's last change.
+struct Approach {
+  std::vector<double> time_s;  // from that change on
+  std::vector<double> left_m;
+};
+
+Approach approach(const RunData& data, core::Axis axis, const TimeSpan& span) {
+  constexpr double kChange_m = 1e-9;
+  const auto time_s = data.log.column("time_s");
+  const auto state = data.log_of(axis, "state");
+  const auto reference_m = data.log_of(axis, "reference_m");
+  const auto position_m = data.log_of(axis, "position_m");
+  Approach way;
+  double direction = 0;
+  std::optional<double> before_m;
+  std::vector<double> position_after_m;
+  for (std::size_t i = 0; i < std::min(reference_m.size(), position_m.size()); ++i) {
+    if (!span.holds(time_s[i]) || state[i] != kStatePosition) {
+      continue;
+    }
+    const double change_m = reference_m[i] - before_m.value_or(reference_m[i]);
+    before_m = reference_m[i];
+    if (std::fabs(change_m) > kChange_m) {
+      direction = change_m > 0 ? 1 : -1;
+      way.time_s.clear();
+      position_after_m.clear();
+    }
+    if (direction != 0) {
+      way.time_s.push_back(time_s[i]);
+      position_after_m.push_back(position_m[i]);
+    }
+  }
+  for (const double place_m : position_after_m) {
+    way.left_m.push_back(direction * (*before_m - place_m));
+  }
+  return way;
 }
 
 }  // namespace
@@ -97,6 +137,24 @@ MetricValue final_error(const RunData& data, core::Axis axis, const TimeSpan& sp
     }
   }
   return last;
+}
+MetricValue overshoot(const RunData& data, core::Axis axis, const TimeSpan& span) {
+  Statistics beyond;
+  for (const double left_m : approach(data, axis, span).left_m) {
+    beyond.add(left_m > 0 ? 0 : left_m);  // what is no number spoils the whole
+  }
+  return beyond.peak();
+}
+MetricValue settling_time(const RunData& data, core::Axis axis, const TimeSpan& span) {
+  constexpr double kSettled_m = 1e-4;  // assumed: half of what a final error may be
+  const auto way = approach(data, axis, span);
+  std::size_t settled = way.left_m.size();
+  while (settled > 0 && std::fabs(way.left_m[settled - 1]) <= kSettled_m) {
+    --settled;
+  }
+  return settled == way.left_m.size()
+             ? MetricValue{}
+             : MetricValue{way.time_s[settled] - way.time_s.front(), way.left_m.size()};
 }
 MetricValue carriage_error_peak(const RunData& data, core::Axis axis, const TimeSpan& span) {
   return carriage_error(data, axis, span).peak();

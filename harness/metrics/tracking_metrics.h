@@ -16,6 +16,12 @@ MetricValue tracking_error_rms(const RunData& data, core::Axis axis, const TimeS
 MetricValue tracking_error_mean(const RunData& data, core::Axis axis, const TimeSpan& span);
 // |reference - encoder| in the last control tick of the span.
 MetricValue final_error(const RunData& data, core::Axis axis, const TimeSpan& span);
+// Largest way of the encoder beyond the reference's last place, in the direction of its last
+// change, from that change on; 0 where it does not come so far.
+MetricValue overshoot(const RunData& data, core::Axis axis, const TimeSpan& span);
+// From the reference's last change until the encoder stays within 0.1 mm of its last place. No
+// sample where it does not within the span.
+MetricValue settling_time(const RunData& data, core::Axis axis, const TimeSpan& span);
 MetricValue carriage_error_peak(const RunData& data, core::Axis axis, const TimeSpan& span);
 MetricValue carriage_error_rms(const RunData& data, core::Axis axis, const TimeSpan& span);
 

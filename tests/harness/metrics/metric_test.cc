@@ -72,6 +72,47 @@ TEST(TrackingMetrics, AnAxisThatFollowsNothingHasNoSample) {
   EXPECT_EQ(compute(data, "carriage_path_error_peak_m").samples, 0U);
 }
 
+// A step of 10 mm at 0.1 s, answered by a second order of 10 rad/s and the damping given.
+RunData step_response(double damping, double end_s) {
+  SyntheticRun run;
+  run.write(
+      kMillisecond, static_cast<core::Nanoseconds>(end_s * 1e3) * kMillisecond,
+      [&](double time_s, bbmc::TelemetryRow& row) {
+        auto& y = row.axes[kY];
+        y.mode = bbmc::AxisMode::kPosition;
+        const double since_s = time_s - 0.1;
+        const double swing = std::sqrt(1 - damping * damping);
+        const double rest =
+            std::exp(-damping * 10 * since_s) *
+            (std::cos(swing * 10 * since_s) + damping / swing * std::sin(swing * 10 * since_s));
+        y.reference_m = since_s < 0 ? 0.5 : 0.49;
+        y.position_m = since_s < 0 ? 0.5 : 0.5 - 0.01 * (1 - rest);
+      },
+      [](double, emulator::TruthRow&) {});
+  return run.load();
+}
+
+TEST(TrackingMetrics, OvershootAndSettlingOfAStepAreThoseOfItsSecondOrder) {
+  constexpr double kDamping = 0.5;
+  const auto data = step_response(kDamping, 3.0);
+  const double swing = std::sqrt(1 - kDamping * kDamping);
+  EXPECT_NEAR(compute(data, "y_overshoot_m").value,
+              0.01 * std::exp(-kDamping / swing * std::numbers::pi), 1e-6);
+  // |rest| <= exp(-damping w t) / swing: the last crossing of 1 % lies before the envelope's, and
+  // not by more than half a swing.
+  const double envelope_s = std::log(100 / swing) / (kDamping * 10);
+  const double settled_s = compute(data, "y_settling_s").value;
+  EXPECT_LE(settled_s, envelope_s + 1e-3);
+  EXPECT_GE(settled_s, envelope_s - std::numbers::pi / (swing * 10));
+}
+
+TEST(TrackingMetrics, WhatHasNotSettledOrNeverMovedHasNoSettlingTime) {
+  EXPECT_EQ(compute(step_response(0.5, 0.5), "y_settling_s").samples, 0U);
+  EXPECT_EQ(compute(sinusoidal_error(), "y_settling_s").samples, 0U);
+  EXPECT_EQ(compute(sinusoidal_error(), "y_overshoot_m").samples, 0U);
+  EXPECT_NEAR(compute(step_response(0.99, 3.0), "y_overshoot_m").value, 0.0, 1e-6);
+}
+
 TEST(TrackingMetrics, ASingleValueThatIsNoNumberSpoilsTheMetric) {
   SyntheticRun run;
   run.write(
