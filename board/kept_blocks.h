@@ -1,7 +1,7 @@
 // Known blocks of the AM335x whose registers are kept and do nothing here: what start-up code of a
 // board sets and a motion controller does not need (AM335x TRM chapter 2). An image that waits in
 // one of them for something to change waits for ever; the board says so (board_end.cc). What it
-// reads again without having written it makes the run doubtful (kept_registers.h).
+// reads there may make the run doubtful (kept_registers.h).
 #pragma once
 
 #include <array>

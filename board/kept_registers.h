@@ -1,8 +1,8 @@
 // Registers of a block that is not modelled: they hold what is written, and nothing happens. Each
-// access is noted once. An image that reads what it has not written, and reads it again, goes by a
-// value that nobody computes: the first such register is told (Bus::doubt), and the run proves
-// nothing. A single read before a write changes some bits and keeps the others, as start-up code
-// does.
+// access is noted once. An image that reads what the hardware changes (a sample, a state, a time),
+// or reads again what it has not written, goes by a value that nobody computes: the first such
+// register is told (Bus::doubt), and the run proves nothing. A single read of another before a
+// write changes some bits and keeps the others, as start-up code does.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,8 @@ class KeptRegisters final : public RegisterBlock {
   void write_word(std::uint32_t offset, std::uint32_t value, std::uint32_t lanes) override;
 
  private:
-  enum class Use : std::uint8_t { kNone, kReadOnce, kWritten };
+  enum class Use : std::uint8_t { kNone, kReadOnce, kWritten, kVolatile };
+  void forget();
   std::vector<Use> uses_;
 };
 

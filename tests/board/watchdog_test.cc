@@ -158,6 +158,23 @@ TEST(KeptRegisters, AnEcapThatIsPolledIsToldByName) {
             "which is not modelled");
 }
 
+// Sets the clock to 2 s and reads it: what was written is not what the clock would show.
+TEST(KeptRegisters, ATimeThatIsReadOnceMakesTheRunDoubtfulThoughItWasWritten) {
+  Board board;
+  run_image(board,
+            {
+                0xE59F000C,  // ldr r0, [pc, #12]
+                0xE3A01002,  // mov r1, #2
+                0xE5801000,  // str r1, [r0]
+                0xE5902000,  // ldr r2, [r0]
+                0xEAFFFFFE,  // b .
+                0x44E3E000,
+            },
+            1e-3);
+  EXPECT_NE(board.doubt().find("register 0x0 of rtc (0x44e3e000)"), std::string::npos)
+      << board.doubt();
+}
+
 TEST(KeptRegisters, AReadThatAWriteFollowsIsNotedAndNoMore) {
   Board board;
   run_image(board,
