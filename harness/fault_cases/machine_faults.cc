@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -129,6 +130,31 @@ double longest_at_limit_s(const std::filesystem::path& folder) {
   return longest_s;
 }
 
+bool changes(std::span<const double> column) {
+  return std::any_of(column.begin(), column.end(), [&](double each) {
+    return std::fabs(each - column.front()) > 0;  // false where either is no number
+  });
+}
+
+// A controller that does nothing withstands everything, and shows nothing.
+Check reference_moves(const std::filesystem::path& reference) {
+  bool moves = false;
+  std::string trouble = "without the fault nothing is driven and counted";
+  try {
+    const auto log = CsvTable::load(reference / "log.csv");
+    for (const auto axis : core::kAxes) {
+      moves = moves || (changes(log.column(fmt::format("{}_duty_pct", core::name_of(axis)))) &&
+                        changes(log.column(fmt::format("{}_count", core::name_of(axis)))));
+    }
+  } catch (const CsvError& error) {
+    trouble = error.what();
+  }
+  auto check = invalid_check("reference_moves", "without the fault an axis is driven and moves",
+                             moves ? "" : trouble);
+  check.verdict = moves ? Verdict::kPass : Verdict::kInvalid;
+  return check;
+}
+
 Check no_longer_at_limit(const std::filesystem::path& folder,
                          const std::filesystem::path& reference) {
   constexpr double kLonger_s = 0.3;
@@ -225,6 +251,7 @@ std::vector<Check> judge_beside_reference(const std::filesystem::path& folder,
                                           const std::filesystem::path& reference,
                                           const std::vector<RunWithout>& without) {
   auto checks = each_fired(folder, reference, without);
+  checks.push_back(reference_moves(reference));
   checks.push_back(no_further_contact(folder, reference));
   checks.push_back(no_longer_at_limit(folder, reference));
   return checks;

@@ -51,9 +51,10 @@ struct RunWithout {
   std::shared_ptr<const ReferenceRun> run;
 };
 
-// From the records of the runs: whether each fault changed anything (INVALID where one did not),
-// whether the carriage met a hard end that it did not meet without any, and ANY-8: whether an axis
-// is at its limit for longer. INVALID when a record cannot be read.
+// From the records of the runs: whether each fault changed anything and whether anything moves
+// without them (INVALID where not), whether the carriage met a hard end that it did not meet
+// without any, and ANY-8: whether an axis is at its limit for longer. INVALID when a record cannot
+// be read.
 [[nodiscard]] std::vector<Check> judge_beside_reference(const std::filesystem::path& folder,
                                                         const std::filesystem::path& reference,
                                                         const std::vector<RunWithout>& without);

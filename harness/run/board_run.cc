@@ -65,6 +65,9 @@ void BoardRun::judge_into(const std::filesystem::path& folder, const RunOutcome&
   if (reference_ || (!faults.empty() && !fixture_.experiment.budgets_apply)) {
     drop("console_script");  // it speaks of the sound machine
   }
+  if (reference_) {
+    drop("edges_seen");  // a fault may keep every axis still; that the run without moves is judged
+  }
   checks.insert(checks.begin(), checks_.begin(), checks_.end());
   if (reference_) {
     const auto beside = judge_beside_reference(folder, folder / kReferenceFolder, without_);

@@ -30,7 +30,7 @@ if kind == "one_axis":
     bench.greet(axes=("y",))
 if kind == "other_tick":
     bench.greet(tick_ns=50_000)
-bench.greet(reference=True, resets=kind != "takes_no_reset", edges=kind == "takes_edges", exchange_ns=2_000_000 if kind == "one_tick_late" else 1_000_000)
+bench.greet(reference=True, resets=kind != "takes_no_reset", edges=kind == "takes_edges")
 if kind == "waits_for_ever":
     bench.silence_s = 60.0
 loops = [pid.Pid("y"), pid.Pid("x")]
@@ -92,6 +92,8 @@ while True:
     if kind in LATE_BY:
         history.append(duties)
         duties = history[max(0, len(history) - 1 - LATE_BY[kind])]
+    if kind == "does_nothing":
+        duties = dict.fromkeys(duties, 0.0)
     for axis, duty in duties.items():
         bench.drive(axis, duty, enable=kind in LATE_BY or stopped != "kill switch")
     if now_s > 1.0:
