@@ -213,6 +213,7 @@ void add_board_fault(ExperimentFixture& fixture, const BoardFault& fault) {
   fixture.experiment.budgets_apply = false;
   auto& text = fixture.sources.front().text;
   text += to_toml(fault);
+  text += kBudgetsDoNotApply;
   CanonicalHash hash;
   hash.add(text);
   fixture.hash = hash.value();

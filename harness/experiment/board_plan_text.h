@@ -27,4 +27,8 @@ namespace towbench::harness {
 // which speak of the sound board, do not apply any more.
 void add_board_fault(ExperimentFixture& fixture, const BoardFault& fault);
 
+// Behind the faults of the command line, in the experiment that the run folder keeps: what they do
+// to the budgets is not judged when it is run again either.
+inline constexpr const char* kBudgetsDoNotApply = "budgets_apply = false\n";
+
 }  // namespace towbench::harness

@@ -136,10 +136,18 @@ Experiment read_script(TableReader& reader) {
                        "one of them: BBMC's console, or a reference for any controller");
   }
   experiment.events = read_events(reader, !experiment.reference.empty());
+  const auto read_whether_budgets_apply = [&](TableReader& fault) {
+    bool apply = true;
+    fault.value("budgets_apply", apply, core::Range{},
+                "false of a fault of the command line: what it does to the budgets is not judged");
+    experiment.budgets_apply = experiment.budgets_apply && apply;
+  };
   for (auto& fault : reader.tables("fault")) {
+    read_whether_budgets_apply(fault);
     experiment.faults.push_back(read_fault(fault));
   }
   for (auto& fault : reader.tables("board_fault")) {
+    read_whether_budgets_apply(fault);
     experiment.board.faults.push_back(read_board_fault(fault));
   }
   for (auto& budget : reader.tables("board_budget")) {

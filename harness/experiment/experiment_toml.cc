@@ -82,6 +82,8 @@ std::string to_toml(const ExperimentFixture& fixture, const std::string& rig,
          [](const emulator::ScheduledEvent& event) { return to_toml(event); });
   append(text, experiment.faults, [](const Fault& fault) { return to_toml(fault); });
   append(text, experiment.board.faults, [](const BoardFault& fault) { return to_toml(fault); });
+  const bool has_faults = !experiment.faults.empty() || !experiment.board.faults.empty();
+  text += has_faults && !experiment.budgets_apply ? kBudgetsDoNotApply : "";
   append(text, experiment.board.budgets, [](const BoardBudget& budget) { return to_toml(budget); });
   append(text, experiment.hand, hand_toml);
   append(text, std::span(experiment.windows).subspan(1), window_toml);  // "whole" always exists

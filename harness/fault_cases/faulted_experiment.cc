@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/experiment/board_plan_text.h"
 #include "harness/fault_cases/case_headline.h"
 #include "harness/fault_cases/case_run.h"
 #include "harness/fault_plan/fault_text.h"
@@ -43,6 +44,7 @@ void add_faults(ExperimentFixture& fixture, const FaultPlan& plan) {
     fixture.experiment.faults.push_back(fault);
     text += to_toml(fault);
   }
+  text += kBudgetsDoNotApply;
   fixture.experiment.budgets_apply = false;
   CanonicalHash hash;
   hash.add(text);

@@ -86,6 +86,8 @@ def expect_caught(what: str, by: str, *arguments: str) -> None:
 
 
 def good() -> None:
+    lines = len((root / "clients/python/examples/pid.py").read_text().splitlines())
+    expect("the example in Python has at most 80 lines", lines <= 80, lines)
     for name, file in (("trapezoid", TRAPEZOID), ("circle", CIRCLE)):
         one = expect_pass(f"Python, {name}", file, PYTHON_PID)
         two = expect_pass(f"Python, {name}, again", file, PYTHON_PID)
@@ -105,8 +107,28 @@ def good() -> None:
     code, result, error = run(TRAPEZOID, C_PID, *kill, "--fault", "encoder.y frozen at=30s")
     fired = {c["name"]: c["verdict"] for c in result.get("checks", []) if c["name"].endswith("_fired")}
     expect("one of two faults that never fires", code == 4 and fired.get("fault_1_fired") == "PASS" and fired.get("fault_2_fired") == "INVALID", (code, fired, error))
-    replay = subprocess.run([program, "replay", str(one)], capture_output=True, text=True)
-    expect("a run of a process replays", replay.returncode == 0, replay.stdout + replay.stderr)
+    broken = expect_pass("to be replayed", TRAPEZOID, C_PID, *kill)
+    for what, folder in (("a run of a process", one), ("a run with a fault", broken)):
+        replay = subprocess.run([program, "replay", str(folder)], capture_output=True, text=True)
+        expect(f"{what} replays", replay.returncode == 0, replay.stdout + replay.stderr)
+    comes_by_itself()
+
+
+def comes_by_itself() -> None:
+    address = f"local:{work}/bench"
+    bench = subprocess.Popen(
+        [program, "run", TRAPEZOID, "--controller", f"external:{address}", "--no-report", "--quiet", "--out", str(work / "runs")],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    says = bench.stderr.readline()
+    expect("the bench says where it waits", address in says, says)
+    comes = subprocess.run([c_pid, address], capture_output=True, text=True, timeout=120)
+    printed, error = bench.communicate(timeout=120)
+    expect("one that comes by itself passes", (bench.returncode, comes.returncode) == (0, 0), (printed, error, comes.stderr))
+    replay = subprocess.run([program, "replay", printed.split()[-1]], capture_output=True, text=True)
+    expect("and is not replayed", replay.returncode == 2 and len(replay.stderr.strip().splitlines()) == 1, replay.stderr)
 
 
 def reset() -> None:
@@ -231,6 +253,9 @@ def deaf() -> None:
         expect_pass(f"the good one, {name},", file, PYTHON_PID)
     expect_caught("deaf to the kill switch", "kill_to_zero_duty", kill, bad("deaf_to_kill"))
     expect_caught("deaf to the kill switch as a fault", "kill_to_zero_duty", TRAPEZOID, bad("deaf_to_kill"), "--fault", "kill_switch pressed at=1.2s")
+    code, result, error = run(TRAPEZOID, bad("does_nothing"), "--fault", "kill_switch pressed at=1s")
+    invalid = [c["name"] for c in result.get("checks", []) if c["verdict"] == "INVALID"]
+    expect("one that does nothing withstands a fault and proves nothing", code == 4 and "reference_moves" in invalid, (code, invalid, error))
     expect_caught("driving again after the kill", "kill_to_zero_duty", let_go, bad("forgets_the_kill"))
     expect_caught("deaf to the end-stops", "end_stop_not_outwards", end, bad("deaf_to_end_stops"))
     expect_caught("trusting a frozen encoder", "no_runaway", TRAPEZOID, bad("trusts_the_encoder"), "--fault", "encoder.y frozen at=1.2s")

@@ -16,8 +16,7 @@ STALL_DUTY, STALL_COUNTS, STALL_S = 0.04, 2, 0.04  # more than friction takes, a
 class Pid:
     def __init__(self, axis: str) -> None:
         self.axis = axis
-        self.integral = self.slope = self.error_before = self.stalled_s = 0.0
-        self.count_before = self.still_count = 0
+        self.integral = self.slope = self.error_before = self.stalled_s = self.count_before = self.still_count = 0.0
 
     def braking_duty(self, bench: towbench.Bench) -> float:
         moved_m = METRES_PER_COUNT[self.axis] * (bench.axes[self.axis].count - self.count_before)
