@@ -147,6 +147,8 @@ void read_file(const std::filesystem::path& path, Campaign& campaign) {
                "whether each motion is judged without a fault too, by its budgets");
   reader.value("without_fault_on_every_machine", campaign.without_fault_on_every_machine,
                core::Range{}, "the same on the drawn machines too");
+  reader.value("protocol_duties", campaign.protocol_duties, core::Range{},
+               "whether a program is tried on each duty of `towbench conform` too");
   for (auto& table : reader.tables("inject")) {
     campaign.entries.push_back(read_entry(table));
     check_entry(campaign.entries.back(), table);

@@ -65,6 +65,7 @@ struct Campaign {
   std::filesystem::path for_any_controller;
   bool without_fault = false;                   // every motion is judged by its budgets too
   bool without_fault_on_every_machine = false;  // the same on the drawn machines
+  bool protocol_duties = false;                 // a program is tried on each (conformance.h) too
   CandidateController controller;
   std::filesystem::path file;
   std::vector<std::string> texts;  // of the file and of those that it builds on
@@ -96,12 +97,15 @@ struct CampaignCase {
   std::string kind;
   std::string moment;                  // phase or event; "built" for what is so from the start
   std::vector<std::string> faults;     // in words; the first is the one that the case is about;
-                                       // none: the motion itself is judged
+                                       // none: the motion itself, or the duty, is judged
   std::size_t machine = 0;             // 0: nominal
   std::string carrier = "in-process";  // as `run --carrier` takes it
   // Of the same phase, tried in turn while the fault takes no effect at the moment before: an edge
   // cannot go missing where there is none.
   std::vector<double> further_moments_s{};
+
+  // One of the protocol's, named by the kind: there is no motion, and no run folder.
+  [[nodiscard]] bool is_duty() const noexcept { return part == "protocol"; }
 };
 
 // The files alone: nothing has run. Throws FixtureError.

@@ -7,6 +7,7 @@
 
 #include "harness/campaign/campaign.h"
 #include "harness/campaign/drawn_machines.h"
+#include "harness/external/conformance.h"
 #include "harness/fault_cases/faulted_experiment.h"
 #include "harness/fault_plan/fault_text.h"
 #include "harness/record/temporary_folder.h"
@@ -68,7 +69,20 @@ CaseVerdict verdict_by_budgets(const Campaign& campaign, const CampaignCase& one
   return verdict;
 }
 
+CaseVerdict verdict_of_duty(const Campaign& campaign, const CampaignCase& one) {
+  CaseVerdict verdict;
+  verdict.checks =
+      check_conformance(campaign.controller.external->command,
+                        campaign.motions.front().plain.rig.parameters, "/dev/null", one.kind);
+  verdict.fired = verdict.verdict() != Verdict::kInvalid;
+  verdict.handled = verdict.verdict() == Verdict::kPass;
+  return verdict;
+}
+
 CaseVerdict verdict_of(const Campaign& campaign, const CampaignCase& one) {
+  if (one.is_duty()) {
+    return verdict_of_duty(campaign, one);
+  }
   if (one.faults.empty() && campaign.controller.is_bbmc()) {
     return verdict_by_budgets(campaign, one);
   }

@@ -7,6 +7,7 @@
 
 #include "core/random.h"
 #include "harness/campaign/campaign.h"
+#include "harness/external/conformance.h"
 #include "harness/fixtures/canonical_hash.h"
 
 namespace towbench::harness {
@@ -45,6 +46,12 @@ class CaseList {
     if (campaign_.without_fault || campaign_.without_fault_on_every_machine) {
       for (const auto& motion : campaign_.motions) {
         add_without_fault(motion.plain.experiment.name);
+      }
+    }
+    if (campaign_.protocol_duties && campaign_.controller.external) {
+      for (const auto& duty : conformance_duties()) {
+        cases_.push_back(
+            {"protocol/" + duty, "protocol", "protocol", duty, "none", {}, 0, kNoCarrier});
       }
     }
     for (const auto& entry : campaign_.entries) {

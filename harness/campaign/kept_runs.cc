@@ -74,6 +74,10 @@ CampaignCase case_of(const json& line) {
 
 ExperimentFixture experiment_of(const Campaign& campaign, const CampaignCase& one,
                                 const std::filesystem::path& folder) {
+  if (one.is_duty()) {
+    throw FixtureError({"--keep"}, '"' + one.id + '"',
+                       "a case with a motion; a duty is tried alone by conform --only " + one.kind);
+  }
   auto fixture = load_experiment(DrawnMachines::file_of(campaign, folder, one.machine, one.motion));
   add_faults(fixture, plan_of(one));
   return fixture;
@@ -82,6 +86,10 @@ ExperimentFixture experiment_of(const Campaign& campaign, const CampaignCase& on
 std::string command_of(const Campaign& campaign, const json& line,
                        const std::filesystem::path& folder) {
   const auto one = case_of(line);
+  if (one.is_duty()) {
+    return fmt::format("./towbench conform --controller {} --only {}",
+                       shell_quoted(campaign.controller.text), one.kind);
+  }
   auto text = "./towbench run " +
               DrawnMachines::file_of(campaign, folder, one.machine, one.motion).generic_string();
   if (one.carrier != "in-process") {

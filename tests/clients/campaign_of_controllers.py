@@ -26,7 +26,8 @@ BAD = {
     "starts_with_duty": "starts_undriven",
     "wraps_at_16_bits": "y_tracking_error_peak_m",
     "sign_reversed": "no_runaway",
-    "one_tick_late": "kill_to_zero_duty",
+    "one_tick_late": "obeys_kill",
+    "waits_for_ever": "stops_when_silent",
     "full_duty_only": "y_duty_saturated_share",
 }
 failures = []
@@ -77,6 +78,8 @@ def bad(kind: str, only: str = "") -> None:
 
 if group == "guard":
     good("C", C_PID, 8, "any-trapezoid-y/kill_switch")
+    good("C, the protocol's duties", C_PID, 13, "protocol/")
+    bad("waits_for_ever", "protocol/stops_when_silent")
     bad("deaf_to_kill", "any-trapezoid-y/kill_switch.pressed")
     code, results, said, took_s = campaign("process:/nonexistent {address}")
     invalid = [line["verdict"] for line in results] == ["INVALID"] * len(results)
