@@ -13,6 +13,7 @@
 #include "harness/campaign/campaign.h"
 #include "harness/checks/check.h"
 #include "harness/commands/command.h"
+#include "harness/commands/machine_defaults.h"
 #include "harness/commands/sibling.h"
 #include "harness/experiment/board_wiring_text.h"
 #include "harness/experiment/experiment_fixture.h"
@@ -25,7 +26,7 @@ namespace towbench::harness {
 namespace {
 
 // The kind of a fixture follows from the keys that only it may have.
-void read_by_kind(const std::filesystem::path& path) {
+void read_by_kind(const std::filesystem::path& path, MachineDefaults& defaults) {
   SourceFiles sources;
   const auto file = FixtureFile::load(path);
   const auto& table = file.table();
@@ -39,16 +40,16 @@ void read_by_kind(const std::filesystem::path& path) {
   } else if (folder == "devices") {
     (void)load_linux_devices(path);
   } else if (table.contains("rig") || table.contains("console") || table.contains("budget")) {
-    (void)load_experiment(path);
+    defaults.of_rig(load_experiment(path).rig_file);
   } else if (table.contains("fault")) {
     (void)read_fault_plan(file);
   } else if (table.contains("plants")) {
-    (void)load_rig(path, sources);
+    defaults.of_rig(path);
   } else if (table.contains("control_rate_Hz") || table.contains("safety") ||
              folder == "controllers") {
     (void)load_controller(path, sources);
   } else {
-    (void)load_plant(path, sources);
+    defaults.of_plant(path);
   }
 }
 
@@ -95,12 +96,13 @@ std::vector<std::filesystem::path> fixtures_named(const std::vector<std::string>
 int validate_each(const std::vector<std::filesystem::path>& paths,
                   const ReadFixture& read_settings) {
   int exit_code = kExitPass;
+  MachineDefaults defaults;
   for (const auto& path : paths) {
     try {
       if (read_settings && holds_settings(path)) {
         read_settings(path);
       } else {
-        read_by_kind(path);
+        read_by_kind(path, defaults);
       }
       std::printf("ok  %s\n", path.c_str());
     } catch (const FixtureError& error) {
@@ -108,6 +110,7 @@ int validate_each(const std::vector<std::filesystem::path>& paths,
       exit_code = kExitBadInput;
     }
   }
+  defaults.print();
   return exit_code;
 }
 
