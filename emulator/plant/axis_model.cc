@@ -144,7 +144,8 @@ bool any_term(const AxisModel& model) noexcept {
   const FrictionOptions& options = model.parameters.friction.options;
   const FrictionAsymmetry& asymmetry = options.asymmetry;
   return model.ripple.present() || model.sprocket.present() || model.position_force.present() ||
-         model.play.present() || model.gear_loss.present() || model.motor_contact.present() ||
+         model.parameters.disturbances.gravity.torque_Nm != 0 || model.play.present() ||
+         model.gear_loss.present() || model.motor_contact.present() ||
          model.carriage_contact.present() || options.load_ratio != 0 ||
          options.warming.depth != 0 || asymmetry.coulomb != 0 || asymmetry.breakaway != 0 ||
          asymmetry.viscous != 0;

@@ -1,5 +1,6 @@
 // Parameters of what pushes an axis besides motor and friction: torque ripple, an eccentric or
-// many-sided sprocket, cables, a tilted rail, a force that depends on place. All off by default.
+// many-sided sprocket, cables, a tilted rail, a joint's weight, a force that depends on place. All
+// off by default.
 #pragma once
 
 #include "core/bounded_vector.h"
@@ -64,11 +65,28 @@ struct PositionForce {
   }
 };
 
+// The weight of a load that turns: F = -m g l sin(q + q0) with q in rad, q0 the angle at which q =
+// 0 stands from hanging. The law of the physical pendulum; m, l: mass and distance of its centre
+// from the axis of rotation.
+struct GravityParameters {
+  double torque_Nm = 0;
+  double zero_at_deg = 0;
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("torque_Nm", torque_Nm, core::between(0.0, 1e6),
+            "m g l of a load that turns, the most that its weight takes; 0: none");
+    v.value("zero_at_deg", zero_at_deg, core::between(-360.0, 360.0),
+            "from hanging to position 0, + towards max");
+  }
+};
+
 struct DisturbanceParameters {
   TorqueRippleParameters torque_ripple;
   SprocketParameters sprocket;
   CableParameters cable;
   PositionForce position_force;
+  GravityParameters gravity;
   double tilt_deg = 0;
 
   template <typename Visitor>
@@ -77,8 +95,9 @@ struct DisturbanceParameters {
     v.group("sprocket", sprocket, "a sprocket that is not a true circle");
     v.group("cable", cable, "cables that pull on the carriage");
     v.group("position_force", position_force, "a force that depends on where the carriage is");
-    v.value("tilt_deg", tilt_deg, core::between(-10.0, 10.0),
-            "of the rails; + when the max end is the higher one");
+    v.group("gravity", gravity, "the weight of a load that turns");
+    v.value("tilt_deg", tilt_deg, core::between(-90.0, 90.0),
+            "of the rails; + when the max end is the higher one, 90: upright");
   }
 };
 

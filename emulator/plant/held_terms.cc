@@ -1,5 +1,9 @@
 #include "emulator/plant/held_terms.h"
 
+#include <numbers>
+
+#include "core/deterministic_math.h"
+
 namespace towbench::emulator {
 namespace {
 
@@ -53,6 +57,13 @@ void hold_chain(const AxisModel& model, Situation& s, const MiddleOfMotion& midd
               t.extra_chain_N;
 }
 
+// Of a load that turns: its position is an angle.
+double weight_Nm(const GravityParameters& gravity, double load_rad) noexcept {
+  constexpr double kTurnsPerRad = 0.5 / std::numbers::pi;
+  const double turns = load_rad * kTurnsPerRad + gravity.zero_at_deg / 360.0;
+  return -gravity.torque_Nm * core::sine_cosine_of_turns(turns).sine;
+}
+
 // What break-away takes on the side to which a contact is bent.
 double level_at_bend(const BreakAway& level, double bend, double chain_N) noexcept {
   return breakaway_margin(level, bend < 0 ? -1.0 : 1.0, 0.0, chain_N, 1.0);
@@ -71,8 +82,12 @@ void hold_terms(const AxisModel& model, Situation& s, const MiddleOfMotion& midd
   if (model.ripple.present()) {
     t.motor_Nm = model.ripple.mean(model.sine, middle.motor_rad, middle.travel_rad);
   }
-  if (model.position_force.present()) {
-    t.carriage_N = model.position_force(middle.carriage_m, s.force_interval);
+  t.carriage_N = model.position_force.present()
+                     ? model.position_force(middle.carriage_m, s.force_interval)
+                     : 0.0;
+  if (const GravityParameters& gravity = model.parameters.disturbances.gravity;
+      gravity.torque_Nm != 0) {
+    t.carriage_N += weight_Nm(gravity, middle.carriage_m);
   }
   const double along = s.regime.motor_direction;
   if (model.motor_is_dry && along != 0) {

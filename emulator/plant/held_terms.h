@@ -2,7 +2,7 @@
 // where it stands for the piece's mean to second order in its length.
 //
 //   motor    + ripple(theta) - r F_x - delta'(theta) F_chain
-//   carriage + F_P(x) + F_x
+//   carriage + F_P(x) + F_x - m g l sin(q + q0)
 //   F_x      = what the mode's chain lacks: K delta + B delta' w, and the gap's constant
 //   level    = scale ((C + (S - C) f_s)(1 + s a) + ...) + s a_v B |v| + position + load
 //              motor: gear loss (gear_loss.h); carriage: load_ratio |F_chain|

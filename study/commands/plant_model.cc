@@ -43,7 +43,8 @@ PlantModel load_plant_model(const std::filesystem::path& path, const std::string
     throw FixtureError({.file = path.string(), .key = "axis." + axis}, "nothing",
                        "the axis that is to be diagnosed");
   }
-  const auto& a = rig.parameters.axes[axis == "x" ? core::Axis::kX : core::Axis::kY];
+  const auto which = axis == "x" ? core::Axis::kX : core::Axis::kY;
+  const auto& a = rig.parameters.axes[which];
   const auto& p = a.plant;
   const double r = p.sprocket_radius_m / p.gear_ratio;
   diagnose::NominalModel& m = out.model;
@@ -57,6 +58,7 @@ PlantModel load_plant_model(const std::filesystem::path& path, const std::string
   m.force_limit_N = newton_per_A * p.current_limit_A;
   m.metres_per_count = emulator::metres_per_count(a);
   m.metres_per_motor_rad = r;
+  m.rotary = rig.transmissions[which]->turns_load;
   m.sprocket_radius_m = p.sprocket_radius_m;
   const double volts = p.amplifier.output_limit_ratio * rig.parameters.supply.voltage_V;
   m.no_load_speed_m_per_s = volts / p.torque_constant_Nm_per_A * r;

@@ -131,6 +131,16 @@ class Writer {
                                         {"reference_m", c.stroke_min_m + 0.5 * c.stroke_m}});
       return true;
     }
+    if (name == "gravity") {
+      // What the command must make: s sin q + c cos q = m g l sin(q + q0).
+      const double sine = p[Key::kGravitySine];
+      const double cosine = p[Key::kGravityCosine];
+      table("disturbances")
+          .insert_or_assign("gravity",
+                            toml::table{{"torque_Nm", std::hypot(sine, cosine)},
+                                        {"zero_at_deg", std::atan2(cosine, sine) * kDegrees}});
+      return true;
+    }
     if (name == "torque_ripple" && r_ > 0) {
       // -(a cos + b sin) = A sin(k theta + phi)
       const double phase = std::atan2(-p[Key::kRippleCosine], -p[Key::kRippleSine]);

@@ -9,7 +9,7 @@ namespace {
 
 using core::Axis;
 
-constexpr core::Nanoseconds kMs = core::kNanosecondsPerMillisecond;
+constexpr core::Nanoseconds kMillisecond_ns = core::kNanosecondsPerMillisecond;
 
 RigParameters quiet_sensors(RigParameters rig) {
   for (RigAxisParameters& axis : rig.axes) {
@@ -27,7 +27,7 @@ RigParameters quiet_sensors(RigParameters rig) {
 TEST(PlantNodeMeasurement, NothingIsMeasuredThatIsNotFitted) {
   ScriptedController c(rig_starting_at(1.0, 0.3));
   c.greet();
-  c.run_for(20 * kMs);
+  c.run_for(20 * kMillisecond_ns);
   EXPECT_TRUE(c.peer.all<protocol::CurrentSample>().empty());
   EXPECT_TRUE(c.peer.all<protocol::ForceSample>().empty());
 }
@@ -37,14 +37,14 @@ TEST(PlantNodeMeasurement, SamplesComeAtTheirPeriodWhateverTheExchange) {
   rig.axes[Axis::kX].current_monitor.sample_period_s = 0.3e-3;
   ScriptedController c(rig);
   c.greet();
-  c.advance_by(3 * kMs);
+  c.advance_by(3 * kMillisecond_ns);
   std::vector<core::Nanoseconds> x_times;
   std::size_t y_samples = 0;
   for (const auto& sample : c.peer.all<protocol::CurrentSample>()) {
     if (sample.axis == Axis::kX) {
       x_times.push_back(sample.time_ns);
     } else {
-      EXPECT_EQ(sample.time_ns, static_cast<core::Nanoseconds>(++y_samples) * kMs);
+      EXPECT_EQ(sample.time_ns, static_cast<core::Nanoseconds>(++y_samples) * kMillisecond_ns);
     }
   }
   EXPECT_EQ(y_samples, 3U);
@@ -60,9 +60,9 @@ TEST(PlantNodeMeasurement, TheCurrentMonitorShowsTheArmatureCurrent) {
   c.greet();
   c.enable();
   c.drive(Axis::kY, 30);  // 0.3 V x 0.37 A/V: below break-away, so it comes to rest
-  c.run_for(1000 * kMs);
+  c.run_for(1000 * kMillisecond_ns);
   for (const auto& sample : c.peer.all<protocol::CurrentSample>()) {
-    if (sample.time_ns > 900 * kMs) {
+    if (sample.time_ns > 900 * kMillisecond_ns) {
       EXPECT_NEAR(sample.armature_current_A, sample.axis == Axis::kY ? 0.111 : 0.0, 1e-4);
     }
   }
@@ -74,7 +74,7 @@ TEST(PlantNodeMeasurement, AHeldLoadShowsThePushAndItsMomentInTheTankFrame) {
       {{.kind = ScheduledEventKind::kPushCarriage, .axis = Axis::kY, .value = -0.8},
        {.kind = ScheduledEventKind::kPushCarriage, .axis = Axis::kX, .value = 0.5}});
   c.greet();
-  c.run_for(2000 * kMs);  // below break-away: the chain rings, then all is still
+  c.run_for(2000 * kMillisecond_ns);  // below break-away: the chain rings, then all is still
   const auto sample = c.peer.all<protocol::ForceSample>().back();
   EXPECT_NEAR(sample.force_N[0], 0.5, 1e-3);
   EXPECT_NEAR(sample.force_N[1], -0.8, 1e-3);
@@ -91,7 +91,7 @@ TEST(PlantNodeMeasurement, TheForceOfAnUnloadedRunIntegratesToTheLoadsMomentum) 
   double impulse_Ns = 0.0;
   for (int i = 0; i < 300; ++i) {
     c.drive(Axis::kY, i < 200 ? 200 : 0);
-    c.advance_by(kMs);
+    c.advance_by(kMillisecond_ns);
   }
   for (const auto& sample : c.peer.all<protocol::ForceSample>()) {
     impulse_Ns += static_cast<double>(sample.force_N[1]) * 1e-3;
@@ -108,7 +108,7 @@ TEST(PlantNodeMeasurement, FittingASensorChangesNoBitOfTheMachine) {
     c.greet();
     c.enable();
     c.drive(Axis::kY, 230);
-    c.run_for(300 * kMs);
+    c.run_for(300 * kMillisecond_ns);
     return c.peer.truth.back().axes[Axis::kY].motor_angle_rad;
   };
   EXPECT_EQ(run(rig_starting_at(1.0, 0.3)), run(quiet_sensors(rig_starting_at(1.0, 0.3))));
@@ -120,7 +120,7 @@ TEST(PlantNodeMeasurement, NoiseRepeatsWithTheSeed) {
     rig.force_sensor.fitted = true;
     ScriptedController c(rig, {}, seed);
     c.greet();
-    c.run_for(10 * kMs);
+    c.run_for(10 * kMillisecond_ns);
     return c.peer.all<protocol::ForceSample>().back().force_N;
   };
   EXPECT_EQ(run(3), run(3));

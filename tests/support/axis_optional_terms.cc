@@ -31,6 +31,8 @@ std::vector<OptionalTerm> optional_terms() {
        }},
       {"polygon", [](AxisParameters& p) { p.disturbances.sprocket.teeth = 13; }},
       {"cable, tilt, position force", bend_the_rails},
+      {"weight of a joint",
+       [](AxisParameters& p) { p.disturbances.gravity = {.torque_Nm = 1.5, .zero_at_deg = 40}; }},
       {"asymmetry",
        [](AxisParameters& p) {
          p.friction.options.asymmetry = {.coulomb = 0.2, .breakaway = 0.15, .viscous = 0.3};

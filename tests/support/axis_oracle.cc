@@ -187,7 +187,9 @@ double AxisOracle::carriage_limit_N(const State& y, int direction) const {
 double AxisOracle::outside_N(const State& y) const {
   const auto& d = p_.disturbances;
   const double weight = -mass_ * 9.80665 * std::sin(d.tilt_deg * std::numbers::pi / 180);
-  return in_.force_N + weight + d.cable.stiffness_N_per_m * (d.cable.reference_m - y[4]) +
+  const double swing =
+      -d.gravity.torque_Nm * std::sin(y[4] + d.gravity.zero_at_deg * std::numbers::pi / 180);
+  return in_.force_N + weight + swing + d.cable.stiffness_N_per_m * (d.cable.reference_m - y[4]) +
          interpolated(d.position_force.position_m, d.position_force.torque_Nm, y[4]) / r_ +
          end_N(y);
 }

@@ -1,6 +1,7 @@
 // What was found must come back from the file that the emulator loads.
 #include "study/diagnose/extended_plant.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -8,6 +9,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "emulator/plant/axis_plant.h"
+#include "harness/fixtures/rig_fixture.h"
 #include "study/commands/plant_model.h"
 
 namespace towbench::tests {
@@ -62,6 +65,24 @@ class ExtendedPlantFile : public testing::Test {
   Diagnosis d_;
 };
 
+// The plant of the thesis's smallest set as a joint.
+constexpr const char* kJoint = R"(schema = 1
+[axis.y]
+inertia_kg_m2 = 1.714e-5
+viscous_friction_Nm_s_per_rad = 1.106e-5
+coulomb_friction_Nm = 2.26e-3
+torque_constant_Nm_per_A = 26.7e-3
+amplifier_gain_A_per_V = 0.37
+pwm_amplitude_V = 10.0
+current_limit_A = 3.7
+encoder_counts_per_rev = 4000
+[axis.y.transmission]
+kind = "gear"
+gear_ratio = 100.0
+[axis.y.hard_ends]
+fitted = false
+)";
+
 TEST_F(ExtendedPlantFile, NothingFoundLeavesTheModelAsItWas) {
   const NominalModel back = reloaded().model;
   EXPECT_DOUBLE_EQ(back.mass_kg, plant_.model.mass_kg);
@@ -99,6 +120,30 @@ TEST_F(ExtendedPlantFile, EffectsThatThePlantHasKeysForLoad) {
   add("load_dependent_friction", {{Key::kLoadFriction, 0.1}});
   add("backlash", {{Key::kPlay, 1e-3}});
   EXPECT_NEAR(reloaded().model.chain.play_m, 1e-3, 1e-6);
+}
+
+// What the command must make is s sin q + c cos q: the emulated joint is pulled by the opposite.
+TEST_F(ExtendedPlantFile, TheWeightOfAJointPullsTheEmulatedOne) {
+  const auto folder = std::filesystem::temp_directory_path();
+  const auto path = folder / ("extended_joint_" + std::to_string(getpid()) + ".toml");
+  std::ofstream(path) << kJoint;
+  plant_ = load_plant_model(path, "y");
+  EXPECT_TRUE(plant_.model.rotary);
+  d_.context.stated = plant_.model;
+  d_.extended = parameters_of(plant_.model);
+  const double sine = -1.5;
+  const double cosine = 0.8;
+  add("gravity", {{Key::kGravitySine, sine}, {Key::kGravityCosine, cosine}});
+  const ExtendedPlant extended = extend_plant(plant_.plant, d_);
+  EXPECT_THAT(extended.left_out, testing::IsEmpty());
+  std::ofstream(path) << extended.text;
+  SourceFiles sources;
+  const auto joint = load_plant(path, sources).parameters.axes[core::Axis::kY].plant;
+  std::filesystem::remove(path);
+  for (const double q : {-2.0, -0.4, 0.0, 0.7, 2.5}) {
+    const emulator::AxisPlant at(joint, q, 1e-4);
+    EXPECT_NEAR(at.forces().standing_force_N, -(sine * std::sin(q) + cosine * std::cos(q)), 1e-9);
+  }
 }
 
 }  // namespace
