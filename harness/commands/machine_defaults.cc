@@ -8,6 +8,7 @@
 
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/fixtures/rig_fixture.h"
+#include "harness/new_machine/disagreement.h"
 
 namespace towbench::harness {
 namespace {
@@ -82,6 +83,18 @@ void MachineDefaults::of_plant(const std::filesystem::path& path) {
   }
 }
 
+void MachineDefaults::of_experiment(const ExperimentFixture& fixture) {
+  of_rig(fixture.rig_file);
+  if (is_shipped(fixture.rig_file)) {
+    return;
+  }
+  for (const auto& sentence :
+       disagreements(fixture.rig.parameters, fixture.controller.configuration)) {
+    differences_.insert(fmt::format("warning: {} and {}: {}", fixture.rig_file.filename().string(),
+                                    fixture.controller_file.filename().string(), sentence));
+  }
+}
+
 bool MachineDefaults::has_its_rig(const Machine& plant) const {
   return plant.is_plant && std::any_of(machines_.begin(), machines_.end(), [&](const auto& each) {
            const Machine& other = each.second;
@@ -91,6 +104,9 @@ bool MachineDefaults::has_its_rig(const Machine& plant) const {
 }
 
 void MachineDefaults::print() const {
+  for (const auto& difference : differences_) {
+    std::printf("%s\n", difference.c_str());
+  }
   for (const auto& [path, machine] : machines_) {
     if (!has_its_rig(machine)) {
       print_values(path.filename().string(), machine.values);

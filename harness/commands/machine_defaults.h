@@ -1,12 +1,15 @@
 // What machines of one's own take without being told, printed once a machine however many of its
-// files `towbench validate` is given. The project's own machines take the nominal values on purpose
-// and are not told of.
+// files `towbench validate` is given; and where rig and controller of an experiment of one's own
+// differ. The project's own machines take the nominal values, and differ, on purpose.
 #pragma once
 
 #include <filesystem>
 #include <map>
+#include <set>
+#include <string>
 #include <vector>
 
+#include "harness/experiment/experiment_fixture.h"
 #include "harness/fixtures/unstated_values.h"
 
 namespace towbench::harness {
@@ -17,6 +20,7 @@ class MachineDefaults {
   void of_rig(const std::filesystem::path& path);
   // Told of only when no rig has the plant.
   void of_plant(const std::filesystem::path& path);
+  void of_experiment(const ExperimentFixture& fixture);
 
   void print() const;
 
@@ -29,6 +33,7 @@ class MachineDefaults {
   [[nodiscard]] bool has_its_rig(const Machine& plant) const;
 
   std::map<std::filesystem::path, Machine> machines_;  // by absolute path
+  std::set<std::string> differences_;
 };
 
 }  // namespace towbench::harness

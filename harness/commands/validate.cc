@@ -40,7 +40,7 @@ void read_by_kind(const std::filesystem::path& path, MachineDefaults& defaults) 
   } else if (folder == "devices") {
     (void)load_linux_devices(path);
   } else if (table.contains("rig") || table.contains("console") || table.contains("budget")) {
-    defaults.of_rig(load_experiment(path).rig_file);
+    defaults.of_experiment(load_experiment(path));
   } else if (table.contains("fault")) {
     (void)read_fault_plan(file);
   } else if (table.contains("plants")) {
