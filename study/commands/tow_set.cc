@@ -15,7 +15,7 @@ int code_of(const std::vector<TowSetRun>& runs) {
     }
   }
   for (const auto& each : coverage_of(runs)) {
-    if (each.withheld.empty() && each.verdict() == TowCoverage::Verdict::kNot) {
+    if (each.withheld.empty() && each.verdict() != TowCoverage::Verdict::kHeld) {
       return kExitFail;
     }
   }

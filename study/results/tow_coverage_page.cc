@@ -32,7 +32,7 @@ const char* word_of(TowCoverage::Verdict verdict) {
     case TowCoverage::Verdict::kHeld:
       return "yes";
     case TowCoverage::Verdict::kLikely:
-      return "within chance";
+      return "NO, within chance";
     case TowCoverage::Verdict::kNot:
       break;
   }
@@ -105,7 +105,7 @@ std::string tow_coverage_page(const TowSet& set, const std::vector<TowSetRun>& r
       "errors and widths are of the truth. Demand: 90 to 99 % of\n"
       "the 95 % intervals hold the truth; range: where the true share is likely to be (Clopper and "
       "Pearson, 95 %, as if the intervals were independent).\n"
-      "Within chance: the share lies outside the demand and its range does not; of 40 sound "
+      "NO, within chance: the share lies outside the demand and its range does not; of 40 sound "
       "intervals all hold the truth every eighth time.\n"
       "`./towbench tow --drawn {} --seeds {}` writes this page.\n\n"
       "| quantity, axis | intervals | covered, % | range, % | mean error, % | worst, % | mean "
