@@ -76,19 +76,26 @@ make_simulated_chip() {
   chip=$(<"$device/bank0/chip_name")
 }
 
+# failed_only_by_jitter LOG: its one failed check is the evenness of the controller's work.
+failed_only_by_jitter() { [[ $(grep -oE '^ +FAIL +[a-z_]+' "$1" | sed 's/.* //') == control_jitter ]]; }
+
 # wall_clock NAME ATTEMPTS [OPTION...]: short runs by the wall clock until one is valid. Each attempt is
-# shown and counted, and only INVALID is tried again.
+# shown and counted. INVALID is tried again, and so is the first that fails by jitter alone: the host can
+# interrupt the work of two ticks and show it nowhere else. A controller that is uneven fails twice.
 wall_clock() {
-  local name=$1 attempts=$2 log=$runs/wall-clock.log folder=$runs/wall-clock attempt code
+  local name=$1 attempts=$2 log=$runs/wall-clock.log folder=$runs/wall-clock attempt code uneven=0
   shift 2
   mkdir -p "$runs"
   for ((attempt = 1; attempt <= attempts; ++attempt)); do
     code=0
     rm -rf "$folder"
     "$build/bin/towbench-bench" run wall-clock-window --clock real --no-report --out "$folder" "$@" >"$log" 2>&1 || code=$?
+    if ((code == 1)) && failed_only_by_jitter "$log" && ((++uneven < 2)); then
+      code=4
+    fi
     ((code == 4)) || break
-    echo "   by the wall clock over $name, attempt $attempt of $attempts: INVALID:" \
-      "$(grep -A 1 '^ *INVALID .*_' "$log" | grep -vE 'INVALID|--' | sed 's/^ *//' | paste -sd ';')"
+    echo "   by the wall clock over $name, attempt $attempt of $attempts:" \
+      "$(grep -A 1 -E '^ *(INVALID|FAIL) .*_' "$log" | grep -vE '^ *(INVALID|FAIL)|--' | sed 's/^ *//' | paste -sd ';')"
   done
   grep -E 'overruns|lateness|execution' "$log"
   case $code in
