@@ -1,7 +1,5 @@
 #include "harness/record/background_writer.h"
 
-#include <utility>
-
 #include <pthread.h>
 #include <sched.h>
 
@@ -28,40 +26,56 @@ BackgroundWriter::~BackgroundWriter() {
     const std::lock_guard lock(mutex_);
     ending_ = true;
   }
-  changed_.notify_all();
+  look_.notify_one();
   thread_.join();
 }
 
-void BackgroundWriter::post(std::function<void()> job) {
-  {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return jobs_.size() < kMostWaiting; });
-    jobs_.push_back(std::move(job));
+void BackgroundWriter::give(WriterJob& job) noexcept {
+  job.is_given_.store(true, std::memory_order_relaxed);
+  while (!jobs_.push(&job)) {
+    wait();
   }
-  changed_.notify_all();
+  ++given_;
+}
+
+void BackgroundWriter::wait_for(const WriterJob& job) {
+  wait_until([&] { return !is_given(job); });
 }
 
 void BackgroundWriter::wait() {
+  wait_until([this] { return done_.load(std::memory_order_acquire) == given_; });
+}
+
+template <typename Condition>
+void BackgroundWriter::wait_until(Condition condition) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return jobs_.empty() && !busy_; });
+  is_awaited_ = true;
+  look_.notify_one();
+  progress_.wait(lock, condition);
+  is_awaited_ = false;
+}
+
+void BackgroundWriter::run_all() noexcept {
+  WriterJob* job = nullptr;
+  while (jobs_.pop(job)) {
+    job->run();
+    job->is_given_.store(false, std::memory_order_release);
+    done_.fetch_add(1, std::memory_order_release);
+    if (is_awaited_) {
+      const std::lock_guard lock(mutex_);
+      progress_.notify_one();
+    }
+  }
 }
 
 void BackgroundWriter::work() {
   be_ordinary();
   std::unique_lock lock(mutex_);
-  while (true) {
-    changed_.wait(lock, [this] { return ending_ || !jobs_.empty(); });
-    if (jobs_.empty()) {
-      return;
-    }
-    auto job = std::move(jobs_.front());
-    jobs_.pop_front();
-    busy_ = true;
+  while (!ending_ || !jobs_.empty()) {
     lock.unlock();
-    job();
+    run_all();
     lock.lock();
-    busy_ = false;
-    changed_.notify_all();
+    look_.wait_for(lock, kLook, [this] { return ending_ || (is_awaited_ && !jobs_.empty()); });
   }
 }
 

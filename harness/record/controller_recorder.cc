@@ -28,9 +28,18 @@ ControllerRecorder::~ControllerRecorder() {
   flush();
 }
 
-void ControllerRecorder::WriteTiming::operator()(const Timing& timing) const noexcept {
-  // Microseconds to the nanosecond: "3.25".
-  csv->time(timing.time_ns).time(timing.host_ns).time(timing.exchange_ns * 1'000'000).end_row();
+void ControllerRecorder::WriteLog::operator()(
+    std::span<const bbmc::TelemetryRow> rows) const noexcept {
+  for (const auto& row : rows) {
+    write_log_row(*csv, row);
+  }
+}
+
+void ControllerRecorder::WriteTiming::operator()(std::span<const Timing> rows) const noexcept {
+  for (const auto& row : rows) {
+    // Microseconds to the nanosecond: "3.25".
+    csv->time(row.time_ns).time(row.host_ns).time(row.exchange_ns * 1'000'000).end_row();
+  }
 }
 
 template <typename Controller>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 #include "bbmc/host/controller_node.h"
@@ -10,7 +11,7 @@
 #include "harness/record/csv_writer.h"
 #include "harness/record/line_writer.h"
 #include "harness/record/log_columns.h"
-#include "harness/record/row_block.h"
+#include "harness/record/row_blocks.h"
 #include "harness/record/run_tap.h"
 
 namespace towbench::harness {
@@ -42,8 +43,8 @@ class ControllerRecorder final : public BenchRecorder {
   void take_all(Controller& controller) noexcept;
 
   struct WriteLog {
-    CsvWriter* csv;
-    void operator()(const bbmc::TelemetryRow& row) const noexcept { write_log_row(*csv, row); }
+    CsvWriter* csv = nullptr;
+    void operator()(std::span<const bbmc::TelemetryRow> rows) const noexcept;
   };
   struct Timing {
     core::Nanoseconds time_ns = 0;
@@ -51,8 +52,8 @@ class ControllerRecorder final : public BenchRecorder {
     core::Nanoseconds exchange_ns = 0;
   };
   struct WriteTiming {
-    CsvWriter* csv;
-    void operator()(const Timing& timing) const noexcept;
+    CsvWriter* csv = nullptr;
+    void operator()(std::span<const Timing> rows) const noexcept;
   };
 
   void event(const std::string& line) noexcept;
@@ -63,8 +64,8 @@ class ControllerRecorder final : public BenchRecorder {
   LineWriter events_;
   LineWriter console_;
   BackgroundWriter writer_;  // ends before what it writes to
-  RowBlock<bbmc::TelemetryRow, WriteLog> log_rows_;
-  RowBlock<Timing, WriteTiming> timing_rows_;
+  RowBlocks<bbmc::TelemetryRow, WriteLog> log_rows_;
+  RowBlocks<Timing, WriteTiming> timing_rows_;
 };
 
 }  // namespace towbench::harness

@@ -4,7 +4,6 @@
 #include <iterator>
 #include <optional>
 #include <string_view>
-#include <utility>
 
 #include "protocol/each_message.h"
 #include "protocol/wire.h"
@@ -26,24 +25,18 @@ struct UntilAdvance final : protocol::EachMessage<UntilAdvance> {
 
 }  // namespace
 
-core::Status MessageRecord::Blocks::write(std::span<const std::byte> bytes) noexcept {
-  if (block.size() + bytes.size() > kBlockSize) {
-    hand_over();
-  }
-  block.insert(block.end(), bytes.begin(), bytes.end());
-  return {};
+void MessageRecord::WriteBytes::operator()(std::span<const std::byte> bytes) const noexcept {
+  file->write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});  // NOLINT
 }
 
-void MessageRecord::Blocks::hand_over() noexcept {
-  record.writer_.post([file = &record.file_, full = std::exchange(block, {})] {
-    file->write({reinterpret_cast<const char*>(full.data()), full.size()});  // NOLINT
-  });
-  block.reserve(kBlockSize);
+core::Status MessageRecord::Bytes::write(std::span<const std::byte> bytes) noexcept {
+  blocks.add(bytes);
+  return {};
 }
 
 void MessageRecord::flush() noexcept {
   (void)frames_.flush();
-  blocks_.hand_over();
+  bytes_.blocks.hand_over();
   writer_.wait();
   file_.flush();
 }

@@ -8,10 +8,12 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "harness/record/background_writer.h"
 #include "harness/record/line_writer.h"
+#include "harness/record/row_blocks.h"
 #include "protocol/frame.h"
 #include "protocol/stream_writer.h"
 
@@ -23,7 +25,8 @@ inline constexpr const char* kControllerInputsFile = "controller_inputs.bin";
 class MessageRecord {
  public:
   // Creates the file. Throws std::filesystem::filesystem_error.
-  explicit MessageRecord(const std::filesystem::path& path) : file_(path), blocks_(*this) {}
+  explicit MessageRecord(const std::filesystem::path& path)
+      : file_(path), bytes_(writer_, WriteBytes{&file_}) {}
 
   [[nodiscard]] protocol::MessageSink& sink() noexcept { return frames_; }
 
@@ -32,20 +35,22 @@ class MessageRecord {
   [[nodiscard]] bool good() const noexcept { return file_.good(); }
 
  private:
-  // Copies into memory; the file is written by another thread, a block at a time.
-  struct Blocks final : protocol::ByteSink {
-    explicit Blocks(MessageRecord& owner) : record(owner) { block.reserve(kBlockSize); }
-    core::Status write(std::span<const std::byte> bytes) noexcept override;
-    void hand_over() noexcept;
-    MessageRecord& record;
-    std::vector<std::byte> block;
+  struct WriteBytes {
+    LineWriter* file = nullptr;
+    void operator()(std::span<const std::byte> bytes) const noexcept;
   };
-  static constexpr std::size_t kBlockSize = std::size_t{1} << 16U;
+  // Copies into memory; the file is written by another thread, a block at a time.
+  struct Bytes final : protocol::ByteSink {
+    Bytes(BackgroundWriter& writer, WriteBytes write) : blocks(writer, write, kBlock_bytes) {}
+    core::Status write(std::span<const std::byte> bytes) noexcept override;
+    RowBlocks<std::byte, WriteBytes> blocks;
+  };
+  static constexpr std::size_t kBlock_bytes = std::size_t{1} << 16U;
 
   LineWriter file_;
   BackgroundWriter writer_;  // ends before what it writes to
-  Blocks blocks_;
-  protocol::FrameWriter frames_{blocks_, protocol::FlushAt::kRequest};
+  Bytes bytes_;
+  protocol::FrameWriter frames_{bytes_, protocol::FlushAt::kRequest};
 };
 
 // Reads such a file again.

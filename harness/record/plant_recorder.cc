@@ -16,6 +16,13 @@ PlantRecorder::~PlantRecorder() {
   flush();
 }
 
+void PlantRecorder::WriteTruth::operator()(
+    std::span<const emulator::TruthRow> rows) const noexcept {
+  for (const auto& row : rows) {
+    write_truth_row(*csv, row);
+  }
+}
+
 void PlantRecorder::on_truth(const emulator::TruthRow& row) noexcept {
   rows_.add(row);
   if (tap_ != nullptr) {

@@ -3,12 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 
 #include "emulator/plant_node.h"
 #include "harness/record/csv_writer.h"
 #include "harness/record/line_writer.h"
 #include "harness/record/log_columns.h"
-#include "harness/record/row_block.h"
+#include "harness/record/row_blocks.h"
 #include "harness/record/run_tap.h"
 #include "harness/record/sensor_recorder.h"
 
@@ -35,15 +36,15 @@ class PlantRecorder final : public emulator::PlantObserver {
 
  private:
   struct WriteTruth {
-    CsvWriter* csv;
-    void operator()(const emulator::TruthRow& row) const noexcept { write_truth_row(*csv, row); }
+    CsvWriter* csv = nullptr;
+    void operator()(std::span<const emulator::TruthRow> rows) const noexcept;
   };
 
   RunTap* tap_;
   CsvWriter truth_;
   LineWriter events_;
   BackgroundWriter writer_;  // ends before what it writes to
-  RowBlock<emulator::TruthRow, WriteTruth> rows_;
+  RowBlocks<emulator::TruthRow, WriteTruth> rows_;
   SensorRecorder sensors_;  // its files outlive the last flush(), which waits for the writer
 };
 

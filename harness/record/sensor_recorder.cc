@@ -16,19 +16,24 @@ SensorRecorder::SensorRecorder(const std::filesystem::path& folder,
   }
 }
 
-void SensorRecorder::WriteForce::operator()(const protocol::ForceSample& sample) const noexcept {
-  csv->time(sample.time_ns);
-  for (const auto* three : {&sample.force_N, &sample.torque_Nm}) {
-    for (const float value : *three) {
-      csv->number(value);
+void SensorRecorder::WriteForce::operator()(
+    std::span<const protocol::ForceSample> samples) const noexcept {
+  for (const auto& sample : samples) {
+    csv->time(sample.time_ns);
+    for (const auto* three : {&sample.force_N, &sample.torque_Nm}) {
+      for (const float value : *three) {
+        csv->number(value);
+      }
     }
+    csv->end_row();
   }
-  csv->end_row();
 }
 
 void SensorRecorder::WriteCurrent::operator()(
-    const protocol::CurrentSample& sample) const noexcept {
-  csv->time(sample.time_ns).number(sample.armature_current_A).end_row();
+    std::span<const protocol::CurrentSample> samples) const noexcept {
+  for (const auto& sample : samples) {
+    csv->time(sample.time_ns).number(sample.armature_current_A).end_row();
+  }
 }
 
 void SensorRecorder::add(const protocol::ForceSample& sample) noexcept {

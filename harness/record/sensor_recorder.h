@@ -5,11 +5,12 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "emulator/rig_parameters.h"
 #include "harness/record/csv_writer.h"
-#include "harness/record/row_block.h"
+#include "harness/record/row_blocks.h"
 #include "protocol/messages.h"
 
 namespace towbench::harness {
@@ -31,19 +32,19 @@ class SensorRecorder {
 
  private:
   struct WriteForce {
-    CsvWriter* csv;
-    void operator()(const protocol::ForceSample& sample) const noexcept;
+    CsvWriter* csv = nullptr;
+    void operator()(std::span<const protocol::ForceSample> samples) const noexcept;
   };
   struct WriteCurrent {
-    CsvWriter* csv;
-    void operator()(const protocol::CurrentSample& sample) const noexcept;
+    CsvWriter* csv = nullptr;
+    void operator()(std::span<const protocol::CurrentSample> samples) const noexcept;
   };
   template <typename Sample, typename Write>
   struct File {
     File(const std::filesystem::path& path, std::string_view header, BackgroundWriter& writer)
         : csv(path, header), rows(writer, Write{&csv}) {}
     CsvWriter csv;
-    RowBlock<Sample, Write> rows;
+    RowBlocks<Sample, Write> rows;
   };
 
   std::optional<File<protocol::ForceSample, WriteForce>> force_;
