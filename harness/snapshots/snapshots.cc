@@ -4,6 +4,8 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <iterator>
+#include <sstream>
 #include <system_error>
 
 #include <sys/prctl.h>
@@ -88,6 +90,7 @@ class Snapshots::HeldRun final : public Hand {
       const auto child = fork_bound();
       if (child == 0) {
         close(sockets_[next_++]);
+        taken_ += std::to_string(now_ns) + ' ';
         continue;
       }
       keep_socket(next_);
@@ -99,8 +102,8 @@ class Snapshots::HeldRun final : public Hand {
   [[nodiscard]] bool holds() const override { return false; }
 
   [[nodiscard]] bool goes_on() const noexcept { return goes_on_; }
-  // The run without a fault is over.
-  void tell_reached() const noexcept { (void)send_to(ready_, std::to_string(next_)); }
+  // The run without a fault is over: when each moment was saved, of those that it reached.
+  void tell_taken() const noexcept { (void)send_to(ready_, taken_); }
   void answer(std::unique_ptr<CaseRecord> run) {
     (void)send_to(socket_, kAnswered + work_.answer(request_, std::move(run)));
   }
@@ -150,6 +153,7 @@ class Snapshots::HeldRun final : public Hand {
   const SnapshotWork& work_;
   Injection& injection_;
   std::size_t next_ = 0;
+  std::string taken_;
   int socket_ = -1;
   bool goes_on_ = false;
   std::string request_;
@@ -165,7 +169,7 @@ void Snapshots::hold(const ExperimentFixture& plain, std::uint64_t seed,
     if (held.goes_on()) {
       held.answer(std::move(run));
     } else {
-      held.tell_reached();
+      held.tell_taken();
     }
   } catch (const std::exception&) {
     _exit(kExitRuntime);  // the asker gets kEnded
@@ -174,10 +178,9 @@ void Snapshots::hold(const ExperimentFixture& plain, std::uint64_t seed,
 }
 
 Snapshots::Snapshots(const ExperimentFixture& plain, std::uint64_t seed,
-                     std::vector<core::Nanoseconds> moments_ns, SnapshotWork work)
-    : moments_ns_(std::move(moments_ns)) {
+                     const std::vector<core::Nanoseconds>& moments_ns, SnapshotWork work) {
   std::vector<int> far_ends;
-  for (std::size_t i = 0; i < moments_ns_.size(); ++i) {
+  for (std::size_t i = 0; i < moments_ns.size(); ++i) {
     const auto ends = socket_pair();
     sockets_.push_back(ends[0]);
     far_ends.push_back(ends[1]);
@@ -187,14 +190,14 @@ Snapshots::Snapshots(const ExperimentFixture& plain, std::uint64_t seed,
   if (first_ == 0) {
     std::for_each(sockets_.begin(), sockets_.end(), close);
     close(ready[0]);
-    hold(plain, seed, moments_ns_, far_ends, ready[1], work);
+    hold(plain, seed, moments_ns, far_ends, ready[1], work);
   }
   std::for_each(far_ends.begin(), far_ends.end(), close);
   close(ready[1]);
   // Moments behind the end of the script are not saved; none when the run itself ended its process.
-  const auto reached = receive(ready[0]);
+  std::istringstream taken(receive(ready[0]));
   close(ready[0]);
-  moments_ns_.resize(reached.empty() ? 0 : std::stoul(reached));
+  taken_ns_.assign(std::istream_iterator<core::Nanoseconds>(taken), {});
 }
 
 Snapshots::~Snapshots() {
@@ -208,11 +211,13 @@ Snapshots::~Snapshots() {
 }
 
 std::optional<std::string> Snapshots::ask(core::Nanoseconds from_ns, const std::string& request) {
-  const auto later = std::upper_bound(moments_ns_.begin(), moments_ns_.end(), from_ns);
-  if (later == moments_ns_.begin() || request.empty()) {
+  // What the plant sends at the end of an exchange has crossed the link when its moment is saved.
+  const auto too_late =
+      std::lower_bound(taken_ns_.begin(), taken_ns_.end(), std::max<core::Nanoseconds>(from_ns, 1));
+  if (too_late == taken_ns_.begin() || request.empty()) {
     return std::nullopt;
   }
-  const int socket = sockets_[static_cast<std::size_t>(later - moments_ns_.begin()) - 1];
+  const int socket = sockets_[static_cast<std::size_t>(too_late - taken_ns_.begin()) - 1];
   if (!send_to(socket, request)) {
     return std::nullopt;
   }

@@ -37,13 +37,14 @@ class Snapshots {
   // exchange that is not earlier, while the script runs. The calling process has one thread.
   // Comes back when the run is over. Throws std::system_error.
   Snapshots(const ExperimentFixture& plain, std::uint64_t seed,
-            std::vector<core::Nanoseconds> moments_ns, SnapshotWork work);
+            const std::vector<core::Nanoseconds>& moments_ns, SnapshotWork work);
   Snapshots(const Snapshots&) = delete;
   Snapshots& operator=(const Snapshots&) = delete;
   ~Snapshots();
 
-  // Goes on from the last moment that is not later than `from_ns`, in a process of its own, and
-  // waits for its answer. None when no such moment was saved, or that process ended without one.
+  // Goes on in a process of its own and waits for its answer. `from_ns`: when what the request does
+  // begins. The run goes on from the last moment that was saved before. None when there is no such
+  // moment, or that process ended without an answer.
   [[nodiscard]] std::optional<std::string> ask(core::Nanoseconds from_ns,
                                                const std::string& request);
 
@@ -54,8 +55,8 @@ class Snapshots {
                                 const std::vector<int>& sockets, int ready,
                                 const SnapshotWork& work);
 
-  std::vector<core::Nanoseconds> moments_ns_;
-  std::vector<int> sockets_;  // one a moment, to the process that is there
+  std::vector<core::Nanoseconds> taken_ns_;  // when each was saved
+  std::vector<int> sockets_;                 // one a moment, to the process that is there
   pid_t first_ = -1;
 };
 

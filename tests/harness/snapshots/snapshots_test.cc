@@ -165,7 +165,8 @@ void go_on_from_random_moments(const std::string& name, std::size_t count, unsig
   const auto undisturbed = digest_of(*motion.reference);
   std::size_t differs = 0;
   for (const auto moment_ns : moments_ns) {
-    ASSERT_EQ(snapshots.ask(moment_ns, "none"), undisturbed) << name << " at " << moment_ns;
+    ASSERT_EQ(snapshots.ask(moment_ns + core::kNanosecondsPerMillisecond + 1, "none"), undisturbed)
+        << name << " at " << moment_ns;
     const auto words = std::string(kFaults[random() % std::size(kFaults)]) +
                        " at_s=" + std::to_string(core::seconds(moment_ns) + 1e-3) + " seed=5";
     const auto prepared = motion.prepared(words);
@@ -213,8 +214,22 @@ TEST(Snapshot, OfWhichTheProcessEndsGivesNoAnswerAndTheNextOneDoes) {
 TEST(Snapshot, IsNotTakenBeforeItsMoment) {
   const Motion motion("kill-1khz");
   Snapshots snapshots(motion.plain, 1, {core::kNanosecondsPerSecond}, motion.work());
-  EXPECT_EQ(snapshots.ask(core::kNanosecondsPerSecond - 1, "none"), std::nullopt);
-  EXPECT_TRUE(snapshots.ask(core::kNanosecondsPerSecond, "none"));
+  EXPECT_EQ(snapshots.ask(core::kNanosecondsPerSecond, "none"), std::nullopt);
+  EXPECT_TRUE(snapshots.ask(core::kNanosecondsPerSecond + 1, "none"));
+}
+
+// A moment between two exchanges is saved at the second; a link lets through what is sent until
+// then.
+TEST(Snapshot, IsNotGoneOnFromForAFaultThatBeganBeforeItWasSaved) {
+  const Motion motion("kill-1khz");
+  Snapshots snapshots(motion.plain, 1, {500'000'000, 1'000'000'000, 1'000'300'000}, motion.work());
+  for (const char* onset : {"1.0", "1.000000001", "1.0003", "1.0005", "1.001", "1.001000001"}) {
+    const auto words = std::string("link.to_controller loss probability=0.5 seed=5 at_s=") + onset;
+    const auto prepared = motion.prepared(words);
+    EXPECT_EQ(snapshots.ask(prepared.onsets_ns.front(), words),
+              digest_of(*run_case(motion.plain, prepared.built, prepared.injection, {.seed = 1})))
+        << words;
+  }
 }
 
 }  // namespace
