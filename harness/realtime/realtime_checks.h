@@ -17,10 +17,11 @@ inline constexpr std::uint64_t kFewestTicksOfJitter = 1000;
 // p99.9 - p50 over the period.
 [[nodiscard]] double jitter_ratio(const DurationFigures& figures, core::Nanoseconds period_ns);
 
-//   <side>_host_on_time    INVALID when more ticks were behind than the policy allows; names the tick
-//   control_lateness       INVALID when the controller's wake-ups jitter more than the budget
-//   control_jitter         FAIL when its execution does, INVALID when the wake-ups of either side do
-//   All are INVALID for a side without a tick, jitter for one with fewer than kFewestTicksOfJitter.
+//   <side>_host_on_time    INVALID when more ticks were behind than the policy allows; names the
+//   tick control_lateness       INVALID when the controller's wake-ups jitter more than the budget
+//   control_jitter         FAIL when its execution does, INVALID when the wake-ups of either side
+//   do All are INVALID for a side without a tick, jitter for one with fewer than
+//   kFewestTicksOfJitter.
 [[nodiscard]] Check host_on_time(const TickSummary& side);
 [[nodiscard]] std::vector<Check> realtime_checks(const TickSummary& emulator,
                                                  const TickSummary& controller,
