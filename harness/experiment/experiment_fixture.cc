@@ -279,6 +279,15 @@ Experiment read_experiment(const FixtureFile& file) {
   return experiment;
 }
 
+std::filesystem::path wiring_file(const std::filesystem::path& experiment) {
+  const auto file = FixtureFile::load(experiment);
+  TableReader reader(file, file.table());
+  std::string wiring;
+  reader.text("wiring", wiring, "path of the wiring file");
+  return wiring.empty() ? std::filesystem::path()
+                        : std::filesystem::path(file.resolve(wiring, reader.place_of("wiring")));
+}
+
 ExperimentFixture load_experiment(const std::filesystem::path& path) {
   const auto file = FixtureFile::load(path);
   ExperimentFixture fixture;

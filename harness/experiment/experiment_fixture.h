@@ -28,4 +28,7 @@ struct ExperimentFixture {
 // Throws FixtureError.
 [[nodiscard]] ExperimentFixture load_experiment(const std::filesystem::path& path);
 
+// The wiring file that the experiment's file names; empty: none. Throws FixtureError.
+[[nodiscard]] std::filesystem::path wiring_file(const std::filesystem::path& experiment);
+
 }  // namespace towbench::harness
