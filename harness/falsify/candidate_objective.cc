@@ -25,9 +25,17 @@ class Candidate final : public Objective {
     }
   }
 
-  Outcome measure(const FaultPlan& plan) override {
+  Outcome measure(const SearchCase& one) override {
     try {
-      return run(plan);
+      if (one.setup.is_nominal()) {
+        return run(one.faults, fixture_, reference_);
+      }
+      const TemporaryFolder folder;
+      const auto fixture = in_setup(fixture_, one.setup, folder.path());
+      const auto reference = reference_run_of(controller_, fixture);
+      return reference->record.outcome.complete
+                 ? run(one.faults, fixture, reference)
+                 : Outcome{.reason = reference->record.outcome.reason};
     } catch (const FixtureError& error) {
       return {.reason = error.what()};
     }
@@ -36,11 +44,12 @@ class Candidate final : public Objective {
   double end_s() const override { return core::seconds(reference_->record.outcome.end_ns); }
 
  private:
-  Outcome run(const FaultPlan& plan) const {
-    auto faulted = fixture_;
+  Outcome run(const FaultPlan& plan, const ExperimentFixture& fixture,
+              const std::shared_ptr<const ReferenceRun>& reference) const {
+    auto faulted = fixture;
     add_faults(faulted, plan);
     const TemporaryFolder folder;
-    auto run = run_candidate(controller_, faulted, reference_, folder.path());
+    auto run = run_candidate(controller_, faulted, reference, folder.path());
     if (!run.complete) {
       return {.reason = std::move(run.reason)};
     }

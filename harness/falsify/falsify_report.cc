@@ -11,27 +11,45 @@ namespace {
 
 constexpr std::size_t kParts = 20;
 
-std::string margin_text(const FalsifyTrial* trial, const std::string& unit) {
-  return trial == nullptr
-             ? "none"
-             : fmt::format("{:.4g}{}{}", *trial->outcome.margin, unit.empty() ? "" : " ", unit);
+// What has no other words is the experiment as its files say.
+std::string words_of(const SearchCase& one) {
+  const auto words = one.words();
+  return words.empty() ? "the experiment as it is" : fmt::format("`{}`", fmt::join(words, "`, `"));
+}
+
+std::string margin_text(double margin, const std::string& unit) {
+  return fmt::format("{:.4g}{}{}", margin + 0.0, unit.empty() ? "" : " ", unit);  // no -0
+}
+
+// Each variable, or the least covered of many.
+std::string covered_text(const std::vector<SearchVariable>& variables,
+                         const std::vector<double>& covered) {
+  constexpr std::size_t kMany = 5;
+  if (variables.size() > kMany) {
+    const auto least = std::min_element(covered.begin(), covered.end()) - covered.begin();
+    return fmt::format("{} variables, least {} {:.0f} %", variables.size(),
+                       variables[static_cast<std::size_t>(least)].name,
+                       100 * covered[static_cast<std::size_t>(least)]);
+  }
+  std::string text;
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    text += fmt::format("{}{} {:.0f} %", i == 0 ? "" : ", ", variables[i].name, 100 * covered[i]);
+  }
+  return text;
 }
 
 std::string row_of(const FalsifySession& session, std::size_t space, const std::string& unit) {
   const auto found = coverage_of(session, space);
-  std::string covered;
-  const auto& variables = session.spaces()[space].variables();
-  for (std::size_t i = 0; i < variables.size(); ++i) {
-    covered +=
-        fmt::format("{}{} {:.0f} %", i == 0 ? "" : ", ", variables[i].name, 100 * found.covered[i]);
-  }
+  const auto& of = session.spaces()[space];
   const auto bound = found.uniform_broken > 0
                          ? fmt::format("{} of {} broke it", found.uniform_broken, found.uniform)
                          : fmt::format("{:.3g} %", 100 * rule_of_three(found.uniform));
+  const bool one_of_few = found.worst != nullptr && !found.worst->tried.faults.empty();
   return fmt::format(
-      "| {} | {} | {} | {} | {} | {} | {} | {} |\n", session.spaces()[space].name(), found.runs,
-      found.fired, found.uniform, covered, margin_text(found.worst, unit), bound,
-      found.worst == nullptr ? "" : fmt::format("`{}`", fmt::join(found.worst->faults, "`, `")));
+      "| {} | {} | {} | {} | {} | {} | {} | {} |\n", of.name(), found.runs, found.fired,
+      found.uniform, covered_text(of.variables(), found.covered),
+      found.worst == nullptr ? "none" : margin_text(*found.worst->outcome.margin, unit), bound,
+      one_of_few ? words_of({.faults = found.worst->tried.faults}) : "");
 }
 
 }  // namespace
@@ -72,15 +90,21 @@ double rule_of_three(std::size_t samples) noexcept {
 }
 
 std::string falsify_report(const FalsifySession& session, const Asked& asked,
-                           const std::string& experiment) {
+                           const std::string& experiment, const ShrunkCase* needed) {
   const auto* worst = session.worst();
   auto text = fmt::format("# Worst case of {}\n\nAsked: `{}` ({}).\n\n", experiment, asked.text(),
                           asked.name());
-  text += worst == nullptr
-              ? std::string("No fault took effect with an occasion to judge: nothing was tried.\n")
-              : fmt::format("Smallest margin: {} with `{}`: {}.\n",
-                            margin_text(worst, asked.unit()), fmt::join(worst->faults, "`, `"),
-                            worst->outcome.broken ? "broken, " + worst->outcome.reason : "kept");
+  text +=
+      worst == nullptr
+          ? std::string("No fault took effect with an occasion to judge: nothing was tried.\n")
+          : fmt::format("Smallest margin: {} with {}: {}.\n",
+                        margin_text(*worst->outcome.margin, asked.unit()), words_of(worst->tried),
+                        worst->outcome.broken ? "broken, " + worst->outcome.reason : "kept");
+  if (needed != nullptr) {
+    text +=
+        fmt::format("Needed of it, by {} further runs: {}, margin {}.\n", needed->runs,
+                    words_of(needed->needed), margin_text(*needed->outcome.margin, asked.unit()));
+  }
   text +=
       "\n| faults | runs | took effect | uniform samples | covered of the range | smallest margin "
       "| may still break it | where |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n";

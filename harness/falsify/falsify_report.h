@@ -4,6 +4,7 @@
 #include <string>
 
 #include "harness/falsify/falsify_session.h"
+#include "harness/falsify/shrink_case.h"
 
 namespace towbench::harness {
 
@@ -22,7 +23,8 @@ struct SpaceCoverage {
 // ones did not: 1 - 0.05^(1/n), about 3/n (Hanley and Lippman-Hand, JAMA 249, 1983). 1 for none.
 [[nodiscard]] double rule_of_three(std::size_t samples) noexcept;
 
+// `needed`: what of the worst case it takes; null when nothing was tried.
 [[nodiscard]] std::string falsify_report(const FalsifySession& session, const Asked& asked,
-                                         const std::string& experiment);
+                                         const std::string& experiment, const ShrunkCase* needed);
 
 }  // namespace towbench::harness

@@ -23,7 +23,7 @@ std::string line_of(const FalsifyTrial& trial, const std::string& fingerprint) {
               {"space", trial.space},
               {"point", trial.point},
               {"uniform", trial.uniform},
-              {"faults", trial.faults},
+              {"tried", trial.tried.words()},
               {"fired", trial.outcome.fired},
               {"margin", trial.outcome.margin ? json(*trial.outcome.margin) : json(nullptr)},
               {"broken", trial.outcome.broken},
@@ -78,18 +78,17 @@ bool FalsifySession::over() const noexcept {
 
 FalsifyTrial FalsifySession::measured(std::size_t space, const BoxTrial& asked,
                                       Objective& objective) {
-  FalsifyTrial trial{.space = space, .point = asked.point, .uniform = asked.uniform};
-  const auto plan = spaces_[space].plan_at(asked.point);
-  for (const auto& fault : plan) {
-    trial.faults.push_back(describe(fault));
-  }
+  FalsifyTrial trial{.space = space,
+                     .point = asked.point,
+                     .uniform = asked.uniform,
+                     .tried = spaces_[space].case_at(asked.point)};
   if (trials_.size() < known_.size()) {
     if (auto known = known_outcome(known_[trials_.size()], trial)) {
       trial.outcome = std::move(*known);
       return trial;
     }
   }
-  trial.outcome = objective.measure(plan);
+  trial.outcome = objective.measure(trial.tried);
   ResultsFile(file_).append(line_of(trial, settings_.fingerprint));
   return trial;
 }

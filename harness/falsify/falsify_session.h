@@ -21,7 +21,7 @@ struct FalsifyTrial {
   std::size_t space = 0;
   BoxPoint point{};
   bool uniform = false;
-  std::vector<std::string> faults{};  // in words
+  SearchCase tried{};
   Outcome outcome{};
 };
 

@@ -34,13 +34,6 @@ bool has_axis(FaultPart part) noexcept {
          part == FaultPart::kAmplifier || part == FaultPart::kDriveTrain;
 }
 
-double value_at(const SearchVariable& variable, double share) {
-  double value = variable.logarithmic ? variable.from * std::pow(variable.to / variable.from, share)
-                                      : variable.from + (variable.to - variable.from) * share;
-  value = std::clamp(value, variable.from, variable.to);
-  return variable.whole ? std::round(value) : value;
-}
-
 double told(double time_s) {
   return std::round(time_s / kStep_s) * kStep_s;
 }
@@ -79,7 +72,8 @@ std::vector<FaultChoice> fault_choices(const std::vector<std::string>& words,
   return words.empty() ? all : chosen;
 }
 
-FaultSpace::FaultSpace(std::vector<FaultChoice> faults, double end_s) : faults_(std::move(faults)) {
+FaultSpace::FaultSpace(std::vector<FaultChoice> faults, double end_s, SetupSpace setup)
+    : faults_(std::move(faults)), setup_(std::move(setup)) {
   for (std::size_t i = 0; i < faults_.size(); ++i) {
     const std::string prefix = i == 0 ? "" : "second ";
     const auto& row = row_of(faults_[i].place.part, faults_[i].kind);
@@ -102,6 +96,8 @@ FaultSpace::FaultSpace(std::vector<FaultChoice> faults, double end_s) : faults_(
       }
     }
   }
+  const auto& of_setup = setup_.variables();
+  variables_.insert(variables_.end(), of_setup.begin(), of_setup.end());
 }
 
 FaultPlan FaultSpace::plan_at(const BoxPoint& point) const {
@@ -132,8 +128,21 @@ FaultPlan FaultSpace::plan_at(const BoxPoint& point) const {
   return plan;
 }
 
+SearchCase FaultSpace::case_at(const BoxPoint& point) const {
+  return {plan_at(point), setup_.at(std::span(point).last(setup_.variables().size()))};
+}
+
+std::vector<std::string> SearchCase::words() const {
+  std::vector<std::string> told;
+  std::transform(faults.begin(), faults.end(), std::back_inserter(told),
+                 [](const Fault& fault) { return harness::describe(fault); });
+  const auto of_setup = describe(setup);
+  told.insert(told.end(), of_setup.begin(), of_setup.end());
+  return told;
+}
+
 std::string FaultSpace::name() const {
-  std::string text;
+  std::string text = faults_.empty() ? "no fault" : "";
   for (const auto& fault : faults_) {
     text += (text.empty() ? "" : " and ") + fault.name();
   }

@@ -1,5 +1,5 @@
-// The faults that a search may choose from: each variable of a plan, and what a point of the unit
-// box means.
+// What a search may choose from: faults with each variable of theirs, a setup, and what a point of
+// the unit box means.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "harness/falsify/box_search.h"
+#include "harness/falsify/search_variable.h"
+#include "harness/falsify/setup.h"
 #include "harness/fault_plan/fault.h"
 
 namespace towbench::harness {
@@ -23,26 +25,27 @@ struct FaultChoice {
 [[nodiscard]] std::vector<FaultChoice> fault_choices(const std::vector<std::string>& words,
                                                      const core::PerAxis<bool>& exists);
 
-struct SearchVariable {
-  std::string name;  // "at_s", "duration_s", a parameter's key; of a second fault with "second "
-  double from = 0;
-  double to = 1;
-  bool logarithmic = false;
-  bool whole = false;     // whole numbers alone
-  bool may_last = false;  // in the last fifth: to the end of the run
+// One point of a search.
+struct SearchCase {
+  FaultPlan faults{};
+  Setup setup{};
+  // In words: what fails, and what differs from the experiment's files.
+  [[nodiscard]] std::vector<std::string> words() const;
 };
 
 class FaultSpace {
  public:
   // Onsets from 0 to `end_s`.
-  FaultSpace(std::vector<FaultChoice> faults, double end_s);
+  FaultSpace(std::vector<FaultChoice> faults, double end_s, SetupSpace setup = {});
 
   [[nodiscard]] const std::vector<SearchVariable>& variables() const noexcept { return variables_; }
   [[nodiscard]] FaultPlan plan_at(const BoxPoint& point) const;
+  [[nodiscard]] SearchCase case_at(const BoxPoint& point) const;
   [[nodiscard]] std::string name() const;
 
  private:
   std::vector<FaultChoice> faults_;
+  SetupSpace setup_;
   std::vector<SearchVariable> variables_;
 };
 

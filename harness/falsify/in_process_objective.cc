@@ -10,6 +10,7 @@
 #include "harness/fault_cases/record_data.h"
 #include "harness/fault_plan/fault_text.h"
 #include "harness/judge/judge.h"
+#include "harness/record/temporary_folder.h"
 #include "harness/requirements/judged_requirement.h"
 #include "harness/requirements/run_signals.h"
 #include "harness/snapshots/snapshots.h"
@@ -36,41 +37,68 @@ FaultPlan plan_of(const std::string& words) {
   return plan;
 }
 
+// An experiment, and how it runs without a fault.
+struct Fixed {
+  explicit Fixed(const ExperimentFixture& fixture)
+      : plain(without_expectations(fixture)),
+        seed(plain.experiment.seed),
+        reference(run_reference(plain, seed)) {
+    if (!reference->outcome.complete) {
+      throw FixtureError({.file = fixture.file.string()}, reference->outcome.reason,
+                         "an experiment whose fault-free run comes to its end");
+    }
+  }
+  ExperimentFixture plain;
+  std::uint64_t seed;
+  std::unique_ptr<CaseRecord> reference;
+};
+
 class InProcess final : public Objective {
  public:
   InProcess(const ExperimentFixture& fixture, Asked asked, std::size_t snapshots)
-      : plain_(without_expectations(fixture)),
-        asked_(std::move(asked)),
-        seed_(plain_.experiment.seed),
-        reference_(run_reference(plain_, seed_)) {
-    if (!reference_->outcome.complete) {
-      throw FixtureError({.file = fixture.file.string()}, reference_->outcome.reason,
-                         "an experiment whose fault-free run comes to its end");
-    }
-    if (snapshots > 0 && plain_.experiment.hand.empty()) {
+      : fixture_(fixture), asked_(std::move(asked)), nominal_(fixture) {
+    if (snapshots > 0 && nominal_.plain.experiment.hand.empty()) {
       snapshots_ = std::make_unique<Snapshots>(
-          plain_, seed_, even_moments(reference_->outcome.end_ns, snapshots),
-          SnapshotWork{.injection =
-                           [this](const std::string& words) {
-                             return prepare(plan_of(words), plain_, *reference_).injection;
-                           },
-                       .answer =
-                           [this](const std::string& words, std::unique_ptr<CaseRecord> run) {
-                             return text_of(judge(plan_of(words), *run));
-                           }});
+          nominal_.plain, nominal_.seed,
+          even_moments(nominal_.reference->outcome.end_ns, snapshots),
+          SnapshotWork{
+              .injection =
+                  [this](const std::string& words) {
+                    return prepare(plan_of(words), nominal_.plain, *nominal_.reference).injection;
+                  },
+              .answer =
+                  [this](const std::string& words, std::unique_ptr<CaseRecord> run) {
+                    return text_of(judge(plan_of(words), nominal_, *run));
+                  }});
     }
   }
 
-  Outcome measure(const FaultPlan& plan) override {
-    PreparedPlan prepared;
+  Outcome measure(const SearchCase& one) override {
     try {
-      prepared = prepare(plan, plain_, *reference_);
+      if (one.setup.is_nominal()) {
+        return snapshots_ ? from_snapshot(one.faults) : anew(one.faults, nominal_);
+      }
+      const TemporaryFolder folder;
+      return anew(one.faults, Fixed(in_setup(fixture_, one.setup, folder.path())));
     } catch (const FixtureError& error) {
       return {.reason = error.what()};
     }
-    if (!snapshots_) {
-      return judge(plan, *run_case(plain_, prepared.built, prepared.injection, {.seed = seed_}));
+  }
+
+  double end_s() const override { return core::seconds(nominal_.reference->outcome.end_ns); }
+
+ private:
+  Outcome anew(const FaultPlan& plan, const Fixed& bench) const {
+    if (plan.empty()) {
+      return judge(plan, bench, *bench.reference);
     }
+    const auto prepared = prepare(plan, bench.plain, *bench.reference);
+    return judge(plan, bench,
+                 *run_case(bench.plain, prepared.built, prepared.injection, {.seed = bench.seed}));
+  }
+
+  Outcome from_snapshot(const FaultPlan& plan) {
+    const auto prepared = prepare(plan, nominal_.plain, *nominal_.reference);
     const auto first = std::min_element(prepared.onsets_ns.begin(), prepared.onsets_ns.end());
     const auto answer = snapshots_->ask(*first, words_of(plan));
     return answer ? outcome_of(*answer)
@@ -80,26 +108,23 @@ class InProcess final : public Objective {
                             .reason = "no_crash: the process ended"};
   }
 
-  double end_s() const override { return core::seconds(reference_->outcome.end_ns); }
-
- private:
-  Outcome judge(const FaultPlan& plan, const CaseRecord& run) const {
-    const auto prepared = prepare(plan, plain_, *reference_);
+  Outcome judge(const FaultPlan& plan, const Fixed& bench, const CaseRecord& run) const {
+    const auto prepared = prepare(plan, bench.plain, *bench.reference);
     const bool plainly_seen = plan.size() == 1 && plan.front().kind != FaultKind::kWelded;
     Outcome outcome;
     if (!asked_.requirement || !plainly_seen) {
-      const auto verdict = judge_run(plain_, prepared, *reference_, seed_, run);
+      const auto verdict = judge_run(bench.plain, prepared, *bench.reference, bench.seed, run);
       outcome.fired = verdict.fired;
       if (outcome.fired && !asked_.requirement) {
         add_margin_of(verdict.checks, outcome);
         return outcome;
       }
     } else {
-      outcome.fired = first_difference_ns(run, *reference_) >= 0;
+      outcome.fired = first_difference_ns(run, *bench.reference) >= 0;
     }
     if (outcome.fired && asked_.requirement) {
-      const auto data = run_data_of(run, limits_of(plain_.rig.parameters));
-      const auto windows = trace_windows(resolve_windows(plain_.experiment.windows, data));
+      const auto data = run_data_of(run, limits_of(bench.plain.rig.parameters));
+      const auto windows = trace_windows(resolve_windows(bench.plain.experiment.windows, data));
       const auto judged = judge_requirement(*asked_.requirement, trace_of(data, windows));
       outcome.margin = judged.check.margin;
       outcome.broken = judged.check.verdict == Verdict::kFail;
@@ -125,10 +150,9 @@ class InProcess final : public Objective {
     return outcome;
   }
 
-  ExperimentFixture plain_;
+  ExperimentFixture fixture_;
   Asked asked_;
-  std::uint64_t seed_;
-  std::unique_ptr<CaseRecord> reference_;
+  Fixed nominal_;
   std::unique_ptr<Snapshots> snapshots_{};
 };
 

@@ -1,4 +1,4 @@
-// By how much one run with faults keeps what is asked of it.
+// By how much one run with faults, in a setup, keeps what is asked of it.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 #include "harness/campaign/candidate_controller.h"
 #include "harness/experiment/experiment_fixture.h"
-#include "harness/fault_plan/fault.h"
+#include "harness/falsify/fault_space.h"
 
 namespace towbench::harness {
 
@@ -39,9 +39,9 @@ class Objective {
   Objective& operator=(const Objective&) = delete;
   virtual ~Objective() = default;
 
-  // Every fault begins at a time that is given. Never throws for a plan that cannot be: it did not
-  // fire.
-  [[nodiscard]] virtual Outcome measure(const FaultPlan& plan) = 0;
+  // Every fault begins at a time that is given. Without one, what is asked is a requirement. Never
+  // throws for a case that cannot be: it did not fire.
+  [[nodiscard]] virtual Outcome measure(const SearchCase& one) = 0;
   // Where the fault-free run ends.
   [[nodiscard]] virtual double end_s() const = 0;
 };

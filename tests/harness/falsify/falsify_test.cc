@@ -44,9 +44,9 @@ TEST(FaultSpace, IsChosenByKindPlaceOrBoth) {
 // A margin that is known: the distance of the onset from 3 s, where the fault acts before 8 s.
 class KnownObjective final : public Objective {
  public:
-  Outcome measure(const FaultPlan& plan) override {
+  Outcome measure(const SearchCase& one) override {
     ++runs;
-    const double at_s = plan.front().trigger.value;
+    const double at_s = one.faults.front().trigger.value;
     return {.fired =
                 at_s<8, .margin = std::fabs(at_s - 3) - 0.05, .broken = at_s> 2.95 && at_s < 3.05};
   }
@@ -77,7 +77,7 @@ TEST(Falsify, ThatWasInterruptedGoesOnWithTheSameTrials) {
   EXPECT_EQ(parts.runs, whole.runs);
   ASSERT_EQ(second.trials().size(), at_once.trials().size());
   for (std::size_t i = 0; i < 200; ++i) {
-    EXPECT_EQ(second.trials()[i].faults, at_once.trials()[i].faults);
+    EXPECT_EQ(second.trials()[i].tried.words(), at_once.trials()[i].tried.words());
     EXPECT_EQ(second.trials()[i].outcome.margin, at_once.trials()[i].outcome.margin);
   }
   EXPECT_EQ(contents_of(files.folder() / "parts.jsonl"),
@@ -98,7 +98,7 @@ TEST(Falsify, CountsWhatDidNotFireAsNotTried) {
   EXPECT_LE(found.covered[0], 0.8);
   EXPECT_GT(found.covered[0], 0.6);
   ASSERT_NE(search.worst(), nullptr);
-  EXPECT_NEAR(parse_fault(search.worst()->faults.front()).trigger.value, 3.0, 0.01);
+  EXPECT_NEAR(parse_fault(search.worst()->tried.words().front()).trigger.value, 3.0, 0.01);
   EXPECT_TRUE(search.worst()->outcome.broken);
 }
 
@@ -126,12 +126,12 @@ TEST(Objective, GivesTheMarginOfTheRunFolder) {
     const auto run = runs.run(faulted);
     const auto* check = check_named(run, "TRACK");
     ASSERT_NE(check, nullptr);
-    EXPECT_TRUE(from_snapshots->measure(plan).fired);
-    EXPECT_EQ(from_snapshots->measure(plan).margin, check->margin) << words;
-    EXPECT_EQ(anew->measure(plan).margin, check->margin) << words;
+    EXPECT_TRUE(from_snapshots->measure({plan}).fired);
+    EXPECT_EQ(from_snapshots->measure({plan}).margin, check->margin) << words;
+    EXPECT_EQ(anew->measure({plan}).margin, check->margin) << words;
     EXPECT_TRUE(std::filesystem::exists(run.folder / "margins.csv"));
   }
-  const auto late = from_snapshots->measure({parse_fault("encoder.y jump at_s=3.2 counts=0")});
+  const auto late = from_snapshots->measure({{parse_fault("encoder.y jump at_s=3.2 counts=0")}});
   EXPECT_FALSE(late.fired);
 }
 
@@ -143,7 +143,10 @@ TEST(FalsifyVerb, RefusesInOneLine) {
   for (const char* arguments :
        {"kill-1khz --budget 0", "kill-1khz --budget \"3 weeks\"", "kill-1khz --faults melted",
         "kill-1khz --requirement NO-1", "no-such-experiment", "kill-1khz --optimiser guess",
-        "kill-1khz --controller external:/tmp/x"}) {
+        "kill-1khz --controller external:/tmp/x", "kill-1khz --faults none",
+        "kill-1khz --faults none --machine 0.1 --requirement rules", "pulses --speed 0.5 1",
+        "circle --speed 2 1", "circle --snapshots 3 --start 0.01",
+        "fixtures/any-controller/circle.toml --typed stop --controller process:true"}) {
     const auto output = falsify(arguments);
     EXPECT_EQ(output.code, kExitBadInput) << arguments << output.text;
     EXPECT_EQ(std::count(output.text.begin(), output.text.end(), '\n'), 1) << output.text;

@@ -53,7 +53,7 @@ Truth exhaust(const Pair& pair, double step_s) {
   const auto onsets = static_cast<std::size_t>(objective->end_s() / step_s);
   for (std::size_t i = 0; i < onsets; ++i) {
     const auto words = fmt::format("{} at_s={}", pair.fault, static_cast<double>(i) * step_s);
-    const auto outcome = objective->measure({parse_fault(words)});
+    const auto outcome = objective->measure({{parse_fault(words)}});
     truth.margins.push_back(outcome.fired ? outcome.margin : std::nullopt);
     truth.fired += outcome.fired ? 1U : 0U;
     const auto& best = truth.margins[truth.worst];
