@@ -66,10 +66,11 @@ std::vector<Check> realtime_checks(const TickSummary& emulator, const TickSummar
   auto lateness =
       jitter("control_lateness", "the host wakes the controller evenly", controller.lateness,
              controller, control_period_ns, budget, Verdict::kInvalid);
-  // A host that does not wake both sides evenly interrupts their work too: whose it was, is unknown.
-  const bool host_is_even = lateness.verdict == Verdict::kPass &&
-                            jitter_ratio(emulator.lateness, control_period_ns) <
-                                budget.jitter_p999_max_ratio;
+  // A host that does not wake both sides evenly interrupts their work too: whose it was, is
+  // unknown.
+  const bool host_is_even =
+      lateness.verdict == Verdict::kPass &&
+      jitter_ratio(emulator.lateness, control_period_ns) < budget.jitter_p999_max_ratio;
   const auto worse = host_is_even ? Verdict::kFail : Verdict::kInvalid;
   auto work =
       jitter("control_jitter", "the controller's own work takes the same time in every tick",
