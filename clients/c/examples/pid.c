@@ -1,5 +1,6 @@
-/* A PID position controller: pid ADDRESS [AXES], with ADDRESS = local:PATH or can:INTERFACE and
- * AXES = yx (the default), y or x. */
+/* A PID position controller: pid ADDRESS [AXES [NAME=VALUE ...]], with ADDRESS = local:PATH or
+ * can:INTERFACE and AXES = yx (the default), y or x. NAME=VALUE says what a machine unlike the tow
+ * tank has, on all its axes (settings, below); rad for m where it turns. */
 #define _POSIX_C_SOURCE 200809L
 #include <linux/can.h>
 #include <math.h>
@@ -15,39 +16,56 @@
 
 #include "towbench.h"
 
-static const double kMetresPerCount[] = {2.24545e-6, 1.34727e-6};
-static const double kInertia[] = {0.13, 0.06}; /* duty per m/s2: the amplifier sets the current */
-static const double kProportional = 4600.0, kIntegral = 20000.0,
-                    kDerivative = 120.0; /* m/s2 per m, m s, m/s */
-static const double kFilter = 0.5, kPeriod_s = 1e-3, kLargestError_m = 0.01, kBrake = 20.0;
+static double metres_per_count[] = {2.24545e-6, 1.34727e-6};
+static double inertia[] = {0.13, 0.06}; /* duty per m/s2: the amplifier sets the current */
+static double proportional = 4600.0, integral = 20000.0, derivative = 120.0; /* m/s2 per m, ... */
+static double filter = 0.5, largest_error = 0.01, brake = 20.0;
 /* More than friction takes, and no way made. */
-static const double kStallDuty = 0.04, kStall_s = 0.04;
-static const int64_t kStallCounts = 2;
+static double stall_duty = 0.04, stall_counts = 2, stall_s = 0.04;
+static const struct {
+  const char* name;
+  double* value[TB_AXES];
+} settings[] = {
+    {"metres_per_count", {&metres_per_count[0], &metres_per_count[1]}},
+    {"inertia", {&inertia[0], &inertia[1]}},
+    {"proportional", {&proportional, &proportional}},
+    {"integral", {&integral, &integral}},
+    {"derivative", {&derivative, &derivative}},
+    {"brake", {&brake, &brake}},
+    {"filter", {&filter, &filter}},
+    {"largest_error", {&largest_error, &largest_error}},
+    {"stall_duty", {&stall_duty, &stall_duty}},
+    {"stall_counts", {&stall_counts, &stall_counts}},
+    {"stall_s", {&stall_s, &stall_s}},
+};
+static const double kPeriod_s = 1e-3;
 static const int kSilence_ms = 1000, kSpins = 32, kMostWithout = 1024;
 
 typedef struct {
-  double integral, slope, before, stalled_s;
+  double summed, slope, before, stalled_s;
   int64_t count_before, still_count;
 } pid;
 
-static int drives(const tb_bench* bench, int axis) { return bench->axes_mask >> axis & 1; }
+static int drives(const tb_bench* bench, int axis) {
+  return bench->axes_mask >> axis & 1;
+}
 
 static double error_of(const tb_bench* bench, int axis) {
   return (double)bench->axis[axis].reference.position_m -
-         kMetresPerCount[axis] * (double)bench->axis[axis].count;
+         metres_per_count[axis] * (double)bench->axis[axis].count;
 }
 
 static double duty_of(pid* loop, const tb_bench* bench, int axis) {
   const double error = error_of(bench, axis);
-  loop->slope += kFilter * ((error - loop->before) / kPeriod_s - loop->slope);
+  loop->slope += filter * ((error - loop->before) / kPeriod_s - loop->slope);
   loop->before = error;
-  const double duty = kInertia[axis] * ((double)bench->axis[axis].reference.acceleration_m_per_s2 +
-                                        kProportional * error + kIntegral * loop->integral +
-                                        kDerivative * loop->slope);
-  if (fabs(duty) < 1.0) loop->integral += error * kPeriod_s; /* no wind-up at the limit */
+  const double duty =
+      inertia[axis] * ((double)bench->axis[axis].reference.acceleration_m_per_s2 +
+                       proportional * error + integral * loop->summed + derivative * loop->slope);
+  if (fabs(duty) < 1.0) loop->summed += error * kPeriod_s; /* no wind-up at the limit */
   const int64_t count = bench->axis[axis].count;
-  const int stays = llabs(count - loop->still_count) <= kStallCounts;
-  const int stalls = (stays && fabs(duty) > kStallDuty) || fabs(duty) >= 1.0;
+  const int stays = (double)llabs(count - loop->still_count) <= stall_counts;
+  const int stalls = (stays && fabs(duty) > stall_duty) || fabs(duty) >= 1.0;
   if (!stays) loop->still_count = count;
   loop->stalled_s = stalls ? loop->stalled_s + kPeriod_s : 0;
   return duty;
@@ -55,8 +73,8 @@ static double duty_of(pid* loop, const tb_bench* bench, int axis) {
 
 static double braking_duty(const pid* loop, const tb_bench* bench, int axis) {
   const double moved_m =
-      kMetresPerCount[axis] * (double)(bench->axis[axis].count - loop->count_before);
-  return -kInertia[axis] * kBrake * moved_m / kPeriod_s;
+      metres_per_count[axis] * (double)(bench->axis[axis].count - loop->count_before);
+  return -inertia[axis] * brake * moved_m / kPeriod_s;
 }
 
 static const char* reason_to_stop(const pid* loops, const tb_bench* bench) {
@@ -66,8 +84,8 @@ static const char* reason_to_stop(const pid* loops, const tb_bench* bench) {
   if (bench->counts.sequence_gaps) return "a message was lost";
   for (int i = 0; i < TB_AXES; ++i) {
     if (!drives(bench, i)) continue;
-    if (fabs(error_of(bench, i)) > kLargestError_m) return "tracking error";
-    if (loops[i].stalled_s > kStall_s) return "an axis does not follow its drive";
+    if (fabs(error_of(bench, i)) > largest_error) return "tracking error";
+    if (loops[i].stalled_s > stall_s) return "an axis does not follow its drive";
   }
   return NULL;
 }
@@ -158,15 +176,32 @@ static int open_line(const char* address) {
   return -1;
 }
 
+/* A word NAME=VALUE of the command line. 0 when there is no such setting. */
+static int set(const char* word) {
+  for (size_t i = 0; i < sizeof settings / sizeof settings[0]; ++i) {
+    const size_t size = strlen(settings[i].name);
+    if (strncmp(word, settings[i].name, size) != 0 || word[size] != '=') continue;
+    for (int axis = 0; axis < TB_AXES; ++axis) {
+      *settings[i].value[axis] = strtod(word + size + 1, NULL);
+    }
+    return 1;
+  }
+  return 0;
+}
+
 int main(int argc, char** argv) {
   static tb_bench bench;
   static pid loops[TB_AXES];
   const char* stopped = NULL;
   int killed = 0, brakes = 0;
-  const char* axes = argc == 3 ? argv[2] : "yx";
+  const char* axes = argc >= 3 ? argv[2] : "yx";
   const uint8_t mask = (uint8_t)((strchr(axes, 'y') != NULL) | (strchr(axes, 'x') != NULL) << 1);
-  const int line = argc == 2 || argc == 3 ? open_line(argv[1]) : -1;
-  if (line < 0) return fprintf(stderr, "usage: pid local:PATH | can:INTERFACE [yx | y | x]\n"), 2;
+  for (int i = 3; i < argc; ++i) {
+    if (!set(argv[i])) return fprintf(stderr, "%s: given an unknown setting\n", argv[i]), 2;
+  }
+  const int line = argc >= 2 ? open_line(argv[1]) : -1;
+  if (line < 0)
+    return fprintf(stderr, "usage: pid local:PATH | can:INTERFACE [AXES [NAME=VALUE ...]]\n"), 2;
   const tb_framing framing = argv[1][0] == 'c' ? TB_CAN : TB_STREAM;
   tb_init(&bench, framing, mask, 1000000, TB_DIGEST | TB_REFERENCE | TB_RESETS);
   if (!await_bench(line, &bench)) return fprintf(stderr, "no bench on the bus\n"), 1;

@@ -1,4 +1,4 @@
-"""A PID position controller: python3 pid.py ADDRESS [AXES], AXES one of yx (the default), y, x"""
+"""A PID position controller: python3 pid.py ADDRESS [AXES [NAME=VALUE ...]], AXES one of yx (the default), y, x"""
 
 import sys
 from pathlib import Path
@@ -6,44 +6,53 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import towbench  # noqa: E402
 
-METRES_PER_COUNT = {"y": 2.24545e-6, "x": 1.34727e-6}
-INERTIA = {"y": 0.13, "x": 0.06}  # duty per m/s2: the amplifier sets the current
-PROPORTIONAL, INTEGRAL, DERIVATIVE = 4600.0, 20000.0, 120.0  # m/s2 per m, per m s, per m/s
-BRAKE, FILTER, LARGEST_ERROR_M = 20.0, 0.5, 0.01  # m/s2 per m/s, share of the newest slope, m
-STALL_DUTY, STALL_COUNTS, STALL_S = 0.04, 2, 0.04  # more than friction takes, and no way made
+# Of the tow tank. NAME=VALUE says what another machine has, on all its axes; rad for m where it turns.
+SETTINGS = {
+    **{"y.metres_per_count": 2.24545e-6, "x.metres_per_count": 1.34727e-6},
+    **{"y.inertia": 0.13, "x.inertia": 0.06},  # duty per m/s2: the amplifier sets the current
+    **{"proportional": 4600.0, "integral": 20000.0, "derivative": 120.0},  # m/s2 per m, per m s, per m/s
+    **{"brake": 20.0, "filter": 0.5, "largest_error": 0.01},  # m/s2 per m/s, share of the newest slope, m
+    **{"stall_duty": 0.04, "stall_counts": 2.0, "stall_s": 0.04},  # more than friction takes, and no way made
+}
 
 
 class Pid:
     def __init__(self, axis: str) -> None:
-        self.axis = axis
-        self.integral = self.slope = self.error_before = self.stalled_s = self.count_before = self.still_count = 0.0
+        vars(self).update({name.removeprefix(axis + "."): value for name, value in SETTINGS.items()})
+        self.axis, self.still_count, self.count_before, self.stalled_s = axis, 0, 0, 0.0
+        self.summed = self.slope = self.error_before = 0.0
 
     def braking_duty(self, bench: towbench.Bench) -> float:
-        moved_m = METRES_PER_COUNT[self.axis] * (bench.axes[self.axis].count - self.count_before)
-        return -INERTIA[self.axis] * BRAKE * moved_m / (bench.exchange_ns * 1e-9)
+        moved_m = self.metres_per_count * (bench.axes[self.axis].count - self.count_before)
+        return -self.inertia * self.brake * moved_m / (bench.exchange_ns * 1e-9)
 
     def error(self, bench: towbench.Bench) -> float:
         state = bench.axes[self.axis]
-        return state.reference.position_m - METRES_PER_COUNT[self.axis] * state.count
+        return state.reference.position_m - self.metres_per_count * state.count
 
     def duty(self, bench: towbench.Bench) -> float:
         period_s = bench.exchange_ns * 1e-9
         error = self.error(bench)
-        self.slope += FILTER * ((error - self.error_before) / period_s - self.slope)
+        self.slope += self.filter * ((error - self.error_before) / period_s - self.slope)
         self.error_before = error
-        feedback = PROPORTIONAL * error + INTEGRAL * self.integral + DERIVATIVE * self.slope
-        wanted = INERTIA[self.axis] * (bench.axes[self.axis].reference.acceleration_m_per_s2 + feedback)
+        feedback = self.proportional * error + self.integral * self.summed + self.derivative * self.slope
+        wanted = self.inertia * (bench.axes[self.axis].reference.acceleration_m_per_s2 + feedback)
         if abs(wanted) < 1.0:  # no wind-up while the duty is at its limit
-            self.integral += error * period_s
-        stays = abs(bench.axes[self.axis].count - self.still_count) <= STALL_COUNTS
+            self.summed += error * period_s
+        stays = abs(bench.axes[self.axis].count - self.still_count) <= self.stall_counts
         self.still_count = self.still_count if stays else bench.axes[self.axis].count
-        stalls = (stays and abs(wanted) > STALL_DUTY) or abs(wanted) >= 1.0
+        stalls = (stays and abs(wanted) > self.stall_duty) or abs(wanted) >= 1.0
         self.stalled_s = self.stalled_s + period_s if stalls else 0.0
         return max(-1.0, min(1.0, wanted))
 
 
 def main() -> None:
     axes = tuple(sys.argv[2]) if len(sys.argv) > 2 else ("y", "x")
+    for name, _, value in (word.partition("=") for word in sys.argv[3:]):
+        named = [key for key in SETTINGS if key in (name, f"y.{name}", f"x.{name}")]
+        if not named:
+            sys.exit(f"{name}: given an unknown setting; allowed: {', '.join(SETTINGS)}")
+        SETTINGS.update(dict.fromkeys(named, float(value)))
     bench = towbench.connect(sys.argv[1])
     bench.greet(reference=True, resets=True, axes=axes)
     bench.enable(*axes)
@@ -72,7 +81,7 @@ def reason_to_stop(bench: towbench.Bench, loops: list) -> str:
         return "end-stop"
     if bench.counts.sequence_gaps:
         return "a message was lost"
-    lost = [p.axis for p in loops if abs(p.error(bench)) > LARGEST_ERROR_M or p.stalled_s > STALL_S]
+    lost = [p.axis for p in loops if abs(p.error(bench)) > p.largest_error or p.stalled_s > p.stall_s]
     return f"{lost[0]} does not follow" if lost else ""
 
 
