@@ -220,6 +220,12 @@ Check no_hard_end(const RunData& data) {
   return check;
 }
 
+// A short axis has no room to be lost in.
+double runaway_limit_m(const AxisLimits& limits) {
+  const double way_m = limits.hard_max_m - limits.hard_min_m;
+  return way_m > 0 ? std::min(kRunaway_m, way_m / 4) : kRunaway_m;
+}
+
 Check no_runaway(const RunData& data) {
   auto check = named("no_runaway", "a driven axis is never farther from its reference", "ANY-5");
   check.unit = "m";
@@ -234,6 +240,8 @@ Check no_runaway(const RunData& data) {
     if (!data.limits[axis].exists || carriage_m.empty() || reference_m.empty()) {
       continue;
     }
+    const double limit_m = runaway_limit_m(data.limits[axis]);
+    check.max = std::min(*check.max, limit_m);
     std::size_t at = 0;
     for (std::size_t i = 0; i < time_s.size(); ++i) {
       while (at + 1 < truth_s.size() && truth_s[at] < time_s[i] - kSameMoment_s) {
@@ -242,7 +250,7 @@ Check no_runaway(const RunData& data) {
       const double far_m = std::fabs(carriage_m[at] - reference_m[i]);
       if (drives(duty_pct[i]) && far_m > *check.value) {
         check.value = far_m;
-        if (far_m > kRunaway_m && check.verdict == Verdict::kPass) {
+        if (far_m > limit_m && check.verdict == Verdict::kPass) {
           fail(check, fmt::format("{} at {:.4f} s", core::name_of(axis), time_s[i]));
         }
       }

@@ -20,8 +20,9 @@ namespace towbench::harness {
 //                            it is active and the axis moves that way, faster than 0.05 m/s; from
 //                            10 ms on, not for 5 ms in a row
 //   no_hard_end              no axis meets a hard end
-//   no_runaway               a driven axis is never farther than 0.25 m from its reference, as the
-//                            truth has it; not of a controller that keeps its reference to itself
+//   no_runaway               a driven axis is never farther than 0.25 m, or a quarter of a shorter
+//                            axis's way, from its reference, as the truth has it; not of a
+//                            controller that keeps its reference to itself
 // A requirement whose occasion did not come is left out. INVALID when the record cannot be read.
 struct SafetyScope {
   bool reference_is_known = true;   // reference_m of the log lies in the machine's frame
