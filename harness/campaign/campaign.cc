@@ -8,6 +8,7 @@
 
 #include "core/check.h"
 #include "harness/campaign/drawn_machines.h"
+#include "harness/campaign/own_motions.h"
 #include "harness/fault_cases/case_run.h"
 #include "harness/fault_cases/machine_faults.h"
 #include "harness/fault_plan/fault_text.h"
@@ -122,6 +123,7 @@ void read_file(const std::filesystem::path& path, Campaign& campaign) {
   reader.text("base", base, "campaign whose motions and faults are tried first");
   if (!base.empty()) {
     read_file(file.resolve(base, reader.place_of("base")), campaign);
+    take_own_motions(reader, campaign);
   }
   reader.text("name", campaign.name, "short name");
   reader.text("title", campaign.title, "one line for a person");

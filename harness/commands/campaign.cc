@@ -50,9 +50,13 @@ const char* default_folder(const CampaignOptions& options) {
 }
 
 std::filesystem::path find_campaign(const std::string& named) {
-  const bool is_path = named.find('/') != std::string::npos || named.ends_with(".toml");
-  return is_path ? std::filesystem::path(named)
-                 : fixtures_directory() / "campaigns" / (named + ".toml");
+  if (named.find('/') != std::string::npos || named.ends_with(".toml")) {
+    return named;
+  }
+  const auto of_machine = fixtures_directory() / "machines" / named / "campaign.toml";
+  return std::filesystem::exists(of_machine)
+             ? of_machine
+             : fixtures_directory() / "campaigns" / (named + ".toml");
 }
 
 // Runs what is left of this shard here.
@@ -246,8 +250,10 @@ int execute_campaign(CampaignOptions& options) {
 void add_campaign(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CampaignOptions>();
   auto* verb = app.add_subcommand("campaign", "run a fault-injection campaign");
-  verb->add_option("campaign", options->campaign,
-                   "name of a campaign of fixtures/campaigns, or a path")
+  verb->add_option(
+          "campaign", options->campaign,
+          "name of a campaign of fixtures/campaigns, of a machine of fixtures/machines, or "
+          "a path")
       ->capture_default_str();
   verb->add_option(
           "--out", options->out,

@@ -25,8 +25,8 @@ std::string long_options_of(const CLI::App& verb) {
 
 std::string experiment_names() {
   std::string words;
-  for (const auto& path : toml_files_in(fixtures_directory() / "experiments")) {
-    words += " " + path.stem().string();
+  for (const auto& experiment : named_experiments()) {
+    words += " " + experiment.name;
   }
   return words;
 }

@@ -67,7 +67,7 @@ int list_signals(bool json) {
 int list_experiments(bool json) {
   auto array = nlohmann::json::array();
   int exit_code = kExitPass;
-  for (const auto& path : toml_files_in(fixtures_directory() / "experiments")) {
+  for (const auto& [name, path] : named_experiments()) {
     try {
       const auto fixture = load_experiment(path);
       if (json) {

@@ -31,7 +31,7 @@ void read_by_kind(const std::filesystem::path& path, MachineDefaults& defaults) 
   const auto file = FixtureFile::load(path);
   const auto& table = file.table();
   const auto folder = path.parent_path().filename();
-  if (folder == "campaigns") {
+  if (folder == "campaigns" || table.contains("base")) {
     (void)read_campaign(path);
   } else if (folder == "wirings") {
     (void)read_board_wiring(file);
@@ -87,6 +87,10 @@ std::vector<std::filesystem::path> fixtures_named(const std::vector<std::string>
         const auto files = toml_files_in(folder.path());
         paths.insert(paths.end(), files.begin(), files.end());
       }
+    }
+    for (const auto& machine : named_machines()) {
+      const auto files = toml_files_in(machine.path);
+      paths.insert(paths.end(), files.begin(), files.end());
     }
     std::sort(paths.begin(), paths.end());
   }

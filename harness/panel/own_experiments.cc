@@ -63,6 +63,13 @@ std::vector<std::pair<std::string, fs::path>> any_controller_experiments() {
     auto name = "any-controller/" + path.stem().string();
     found.emplace_back(std::move(name), std::move(path));
   }
+  for (const auto& machine : named_machines()) {
+    for (auto& path : toml_files_in(machine.path)) {
+      if (looks_like_experiment(path)) {
+        found.emplace_back("machines/" + machine.name + '/' + path.stem().string(), path);
+      }
+    }
+  }
   return found;
 }
 
