@@ -133,6 +133,8 @@ std::string_view describe(ErrorCode code) noexcept {
       return "amplifier under-voltage cut-out";
     case ErrorCode::kTimeNotMonotonic:
       return "time ran backwards";
+    case ErrorCode::kForeignPlantFailed:
+      return "plant library failed";
   }
   return kUnknown;
 }

@@ -83,6 +83,7 @@ enum class ErrorCode : std::uint16_t {
   kSupplyOverCurrent = 503,
   kSupplyUnderVoltage = 504,
   kTimeNotMonotonic = 505,
+  kForeignPlantFailed = 506,
 };
 
 [[nodiscard]] constexpr std::uint16_t number_of(ErrorCode code) noexcept {

@@ -151,8 +151,12 @@ void PlantExchange::advance(const protocol::Advance& advance) noexcept {
         output->edges.begin(now_ns());
       }
     }
-    while (now_ns() < advance.until_ns) {
+    while (now_ns() < advance.until_ns && failure().empty()) {
       tick();
+    }
+    if (!failure().empty()) {
+      end_failed();
+      return;
     }
     send_outputs();
     if (reset_ns_) {
@@ -263,6 +267,14 @@ void PlantExchange::end(const protocol::Bye& /*bye*/) noexcept {
   remove_drive(ErrorCode::kNone);
   finished_ = true;
   observer_->on_event({.time_ns = now_ns(), .kind = PlantEventKind::kFinished});
+  sink_->on(protocol::Bye{.time_ns = now_ns()});
+}
+
+// Nobody is told that the time has come: what the machine did in it is not known.
+void PlantExchange::end_failed() noexcept {
+  report(ErrorCode::kForeignPlantFailed, Axis::kY, 0);
+  remove_drive(ErrorCode::kForeignPlantFailed);
+  finished_ = true;
   sink_->on(protocol::Bye{.time_ns = now_ns()});
 }
 

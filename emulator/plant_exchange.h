@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "core/bounded_vector.h"
 #include "emulator/edge_stream.h"
@@ -45,6 +46,7 @@ class PlantExchange {
   void end(const protocol::Bye& bye) noexcept;
   void peer_lost(core::ErrorCode why) noexcept;
 
+  [[nodiscard]] const std::string& failure() const noexcept { return rig_.failure(); }
   [[nodiscard]] bool finished() const noexcept { return finished_; }
   [[nodiscard]] core::Nanoseconds now_ns() const noexcept { return rig_.now_ns(); }
   [[nodiscard]] protocol::EncoderLevels encoder_levels(core::Axis which) const noexcept {
@@ -62,6 +64,7 @@ class PlantExchange {
   [[nodiscard]] core::ErrorCode objection(const protocol::Advance& advance) const noexcept;
   void forget_controller() noexcept;
   void remove_drive(core::ErrorCode why) noexcept;
+  void end_failed() noexcept;
 
   void tick() noexcept;
   void collect_lines() noexcept;

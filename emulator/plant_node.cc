@@ -46,6 +46,9 @@ void PlantNode::peer_lost(core::ErrorCode why) noexcept {
 bool PlantNode::finished() const noexcept {
   return implementation_->finished();
 }
+const std::string& PlantNode::failure() const noexcept {
+  return implementation_->failure();
+}
 core::Nanoseconds PlantNode::now_ns() const noexcept {
   return implementation_->now_ns();
 }

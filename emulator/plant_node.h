@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "core/axis.h"
 #include "core/time.h"
@@ -57,6 +58,8 @@ class PlantNode : public protocol::MessageSink {
   void peer_lost(core::ErrorCode why) noexcept;
 
   [[nodiscard]] bool finished() const noexcept;
+  // Of the rig's foreign plant, in one line: it has ended the conversation. Empty: none.
+  [[nodiscard]] const std::string& failure() const noexcept;
   [[nodiscard]] core::Nanoseconds now_ns() const noexcept;
   // Of an encoder's lines before the first step: what real lines are set to before anybody counts
   // their edges. 0 for an axis that the rig has not.

@@ -32,9 +32,10 @@ void sort_by_time(LineChanges& changes) noexcept {
 
 }  // namespace
 
-RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, const Seeds& seeds)
+RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, const Seeds& seeds,
+                 const ForeignOutput* at_start)
     : command(p.command, seeds.ripple),
-      plant_(p.plant, p.start_m),
+      plant_(p.plant, p.start_m, at_start),
       state_(plant_.state()),
       encoder_(p.encoder, state_.motor_angle_rad),
       disc_(p.encoder),
@@ -48,17 +49,19 @@ RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, const Seeds& seeds)
   }
 }
 
-void RigAxis::step(core::Nanoseconds start_ns, const Surroundings& around,
+void RigAxis::take_command(const Surroundings& around) noexcept {
+  input_ = {.command_V = command.step(),
+            .supply_V = around.supply_V,
+            .carriage_force_N = around.external_N,
+            .amplifier_enabled = enable_line && around.amplifier_may_drive};
+  faults_.apply(state_, acceleration_m_per_s2_, input_);
+  command_V_ = input_.command_V;
+}
+
+void RigAxis::move(core::Nanoseconds start_ns, const ForeignOutput& output,
                    LineChanges& changes) noexcept {
-  command_V_ = command.step();
-  AxisInput input{.command_V = command_V_,
-                  .supply_V = around.supply_V,
-                  .carriage_force_N = around.external_N,
-                  .amplifier_enabled = enable_line && around.amplifier_may_drive};
   const AxisState before = state_;
-  faults_.apply(before, acceleration_m_per_s2_, input);
-  command_V_ = input.command_V;
-  plant_.step(input, segments_);
+  plant_.step(input_, output, segments_);
   if (skipped_rad_ != 0.0) {
     turn_shaft();
   }
@@ -136,6 +139,9 @@ AxisTruth RigAxis::truth() const noexcept {
 
 Rig::Rig(const RigParameters& parameters, std::uint64_t seed)
     : parameters_(parameters), supply_(parameters.supply) {
+  if (parameters.foreign_plant) {
+    make_foreign();
+  }
   // One stream of seeds in a fixed order, so that fitting one sensor leaves the others' noise
   // alone.
   core::Random seeds(seed);
@@ -159,7 +165,8 @@ Rig::Rig(const RigParameters& parameters, std::uint64_t seed)
     if (parameters_.axes[which].exists) {
       axes_[which].emplace(
           which, parameters_.axes[which],
-          RigAxis::Seeds{.current_monitor = axis_seed[which], .ripple = ripple_seed[which]});
+          RigAxis::Seeds{.current_monitor = axis_seed[which], .ripple = ripple_seed[which]},
+          foreign_ ? &foreign_outputs_[which] : nullptr);
       lines |= axes_[which]->hall_lines();
       lines |= supply_.ready() ? protocol::mask_of(kReadyLine[which]) : 0U;
     }
@@ -220,18 +227,24 @@ void Rig::step() noexcept {
   if (water_) {
     feel_water();
   }
+  for (const Axis which : core::kAxes) {
+    if (axes_[which]) {
+      axes_[which]->take_command({.supply_V = supply_.voltage_V(),
+                                  .amplifier_may_drive = may_drive,
+                                  .external_N = push_N_[which] + push_correction_N_[which] +
+                                                cross_N[which] + water_N_[which]});
+      push_correction_N_[which] = 0.0;
+    }
+  }
+  if (foreign_) {
+    step_foreign();
+  }
   double power_W = 0.0;
   for (const Axis which : core::kAxes) {
     if (!axes_[which]) {
       continue;
     }
-    axes_[which]->step(now_ns_,
-                       {.supply_V = supply_.voltage_V(),
-                        .amplifier_may_drive = may_drive,
-                        .external_N = push_N_[which] + push_correction_N_[which] + cross_N[which] +
-                                      water_N_[which]},
-                       changes_);
-    push_correction_N_[which] = 0.0;
+    axes_[which]->move(now_ns_, foreign_outputs_[which], changes_);
     power_W += std::max(0.0, axes_[which]->output_power_W());
   }
   const bool was_ready = supply_.ready();
@@ -246,6 +259,31 @@ void Rig::step() noexcept {
   }
   sort_by_time(changes_);
   input_wiring_.step(machine_lines_, arriving_lines_, changes_);
+}
+
+void Rig::make_foreign() {
+  core::PerAxis<std::optional<double>> starts_m;
+  for (const Axis which : core::kAxes) {
+    if (parameters_.axes[which].exists) {
+      starts_m[which] = parameters_.axes[which].start_m;
+    }
+  }
+  foreign_ = parameters_.foreign_plant->make(starts_m);
+  (void)foreign_->step(0.0, {}, foreign_outputs_);
+}
+
+void Rig::step_foreign() noexcept {
+  core::PerAxis<ForeignInput> inputs;
+  for (const Axis which : core::kAxes) {
+    if (axes_[which]) {
+      inputs[which] = axes_[which]->foreign_input();
+    }
+  }
+  if (!foreign_->step(core::seconds(now_ns_ + core::kPlantTick_ns), inputs, foreign_outputs_)) {
+    for (ForeignOutput& output : foreign_outputs_) {
+      output = {.position_m = output.position_m, .motor_angle_rad = output.motor_angle_rad};
+    }
+  }
 }
 
 void Rig::feel_water() noexcept {

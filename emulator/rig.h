@@ -2,13 +2,15 @@
 // the kill chain. Knows nothing of messages; plant_node.cc carries its inputs and outputs.
 //
 // Order of a tick, the same for every carrier and clock: supply voltage and kill chain of the tick
-// before -> water at the tick's predicted middle -> command voltage -> both axes -> encoders and
+// before -> water at the tick's predicted middle -> command voltages -> both axes -> encoders and
 // halls -> supply. Axes meet in the supply, in the water and in `cross_axis_force_ratio` only
 // (MACS-A-6); in supply and cross force with one tick of delay.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "core/axis.h"
 #include "core/realtime.h"
@@ -16,7 +18,7 @@
 #include "emulator/command_path.h"
 #include "emulator/faults/axis_faults.h"
 #include "emulator/faults/slipping_disc.h"
-#include "emulator/plant/axis_plant.h"
+#include "emulator/foreign/moved_axis.h"
 #include "emulator/rig_parameters.h"
 #include "emulator/sensors/current_monitor.h"
 #include "emulator/sensors/encoder_wiring.h"
@@ -38,15 +40,22 @@ class RigAxis {
     std::uint64_t current_monitor = 0;
     std::uint64_t ripple = 0;
   };
-  RigAxis(core::Axis axis, const RigAxisParameters& parameters, const Seeds& seeds);
+  // `at_start`: of a foreign plant, else null.
+  RigAxis(core::Axis axis, const RigAxisParameters& parameters, const Seeds& seeds,
+          const ForeignOutput* at_start);
 
   struct Surroundings {
     double supply_V = 0;
     bool amplifier_may_drive = false;
     double external_N = 0;
   };
-  // One tick from `start_ns` on; appends what the hall lines do.
-  TOWBENCH_REALTIME void step(core::Nanoseconds start_ns, const Surroundings& around,
+  // The first half of a tick: what reaches the plant.
+  TOWBENCH_REALTIME void take_command(const Surroundings& around) noexcept;
+  TOWBENCH_REALTIME [[nodiscard]] ForeignInput foreign_input() noexcept {
+    return plant_.foreign_input(input_);
+  }
+  // The second, from `start_ns` on; appends what the hall lines do. `output` is of a foreign plant.
+  TOWBENCH_REALTIME void move(core::Nanoseconds start_ns, const ForeignOutput& output,
                               LineChanges& changes) noexcept;
 
   CommandPath command;
@@ -55,7 +64,7 @@ class RigAxis {
   [[nodiscard]] EncoderWiring& wiring() noexcept { return wiring_; }
   // Breaks something between connectors and carriage, or puts it right, from the next tick on.
   TOWBENCH_REALTIME void fail(ScheduledEventKind kind, double value) noexcept;
-  [[nodiscard]] const AxisPlant& plant() const noexcept { return plant_; }
+  [[nodiscard]] const MovedAxis& plant() const noexcept { return plant_; }
   [[nodiscard]] const QuadratureEncoder& encoder() const noexcept { return encoder_; }
   // Of the last step, as they arrive at the controller.
   [[nodiscard]] const StepEdges& edges() const noexcept { return edges_; }
@@ -81,8 +90,9 @@ class RigAxis {
   TOWBENCH_REALTIME void turn_shaft() noexcept;
 
   // Each starts from the state of the one before it.
-  AxisPlant plant_;
+  MovedAxis plant_;
   AxisState state_;  // the plant's, at the end of the last step
+  AxisInput input_;  // of the tick
   QuadratureEncoder encoder_;
   SlippingDisc disc_;
   EncoderWiring wiring_;
@@ -140,14 +150,23 @@ class Rig {
   // Of the last tick, on the carriage: drag and thrust, without the added mass's inertia.
   [[nodiscard]] const core::PerAxis<double>& water_force_N() const noexcept { return water_N_; }
   [[nodiscard]] TruthRow truth() const noexcept;
+  // Of the foreign plant, in one line: from then on the machine stands. Empty: none.
+  [[nodiscard]] const std::string& failure() const noexcept {
+    static const std::string kNone;
+    return foreign_ ? foreign_->failure() : kNone;
+  }
 
  private:
+  void make_foreign();
+  void step_foreign() noexcept;
   void feel_water() noexcept;
   void measure_force() noexcept;
   void update_ready_lines() noexcept;
   [[nodiscard]] double cross_axis_force_N(core::Axis which) const noexcept;
 
   RigParameters parameters_;
+  std::unique_ptr<ForeignPlant> foreign_;  // null: the built-in equations
+  core::PerAxis<ForeignOutput> foreign_outputs_;
   core::PerAxis<std::optional<RigAxis>> axes_;
   Supply supply_;
   std::optional<Water> water_;

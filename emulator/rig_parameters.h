@@ -12,10 +12,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "core/axis.h"
 #include "core/parameter.h"
 #include "core/time.h"
+#include "emulator/foreign/foreign_plant.h"
 #include "emulator/plant/axis_parameters.h"
 #include "emulator/sensors/sensor_parameters.h"
 #include "emulator/water/water_parameters.h"
@@ -124,6 +126,8 @@ struct RigParameters {
   WaterParameters water;
   // Of the file this was read from; no parameter. 0 = not known.
   std::uint64_t fixture_hash = 0;
+  // Moves the axes in place of the built-in equations; null: these do. No parameter.
+  std::shared_ptr<const ForeignPlantSource> foreign_plant;
 
   // The nominal machine.
   RigParameters() noexcept;

@@ -273,7 +273,7 @@ static int is_plausible(uint8_t id, size_t size) {
 static int is_known(uint16_t code) {
   static const uint16_t ranges[][2] = {{0, 0},     {100, 109}, {200, 211}, {300, 303}, {310, 315},
                                        {320, 321}, {330, 330}, {340, 340}, {350, 351}, {400, 406},
-                                       {410, 414}, {420, 424}, {500, 505}};
+                                       {410, 414}, {420, 424}, {500, 506}};
   for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; ++i) {
     if (code >= ranges[i][0] && code <= ranges[i][1]) return 1;
   }

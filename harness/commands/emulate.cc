@@ -194,6 +194,10 @@ int execute_emulate(const EmulateOptions& options) {
   if (recorder) {
     recorder->flush();
   }
+  if (!plant.failure().empty()) {
+    std::fprintf(stderr, "emulator: %s; drive removed\n", plant.failure().c_str());
+    return kExitInvalid;
+  }
   const bool all_taken =
       !by_a_person || tell_of_losses(refusals.refused(), caller.connection->link().counts());
   if (!ended) {

@@ -298,9 +298,15 @@ void ExternalBench::ToController::handle(const protocol::Advanced& advanced) noe
 }
 
 void ExternalBench::ToController::handle(const protocol::Bye& bye) noexcept {
-  if (!bench.ended_) {
-    bench.link_.peer().on(bye);
+  if (bench.ended_) {
+    return;
   }
+  if (const auto& why = bench.plant_.node.failure(); !why.empty()) {
+    bench.outcome_.complete = false;
+    bench.outcome_.reason = why;
+    bench.ended_ = true;
+  }
+  bench.link_.peer().on(bye);
 }
 
 }  // namespace towbench::harness

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "emulator/plant_node.h"
 #include "harness/link/peer_control.h"
@@ -32,8 +33,10 @@ class InProcessPlant final : public PlantEnd, public PeerControl {
   }
   [[nodiscard]] core::Status wait_for(protocol::Turn /*expected*/) noexcept override {
     answers_.deliver();
-    return {};
+    return failure().empty() ? core::Status{} : core::failure(core::ErrorCode::kForeignPlantFailed);
   }
+  // Of the rig's foreign plant; empty: none.
+  [[nodiscard]] const std::string& failure() const noexcept { return node_->failure(); }
   [[nodiscard]] bool happen(const emulator::ScheduledEvent& event) override {
     node_->add_event(event);
     return true;

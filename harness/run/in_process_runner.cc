@@ -12,6 +12,10 @@ RunOutcome InProcessRunner::play() {
                        recorder);
   auto outcome = converse(plan(), plant, plant);
   recorder.flush();
+  if (const auto& why = plant.failure(); !why.empty()) {
+    outcome.complete = false;
+    outcome.reason = why;
+  }
   outcome.writes_succeeded = outcome.writes_succeeded && recorder.good();
   return outcome;
 }
