@@ -5,6 +5,7 @@ install(TARGETS towbench-bench towbench-panel towbench-study DESTINATION ${home}
 install(DIRECTORY fixtures DESTINATION share/towbench)
 install(DIRECTORY docs/ DESTINATION share/doc/towbench/docs)
 install(FILES README.md DESTINATION share/doc/towbench)
+install(DIRECTORY clients/plant DESTINATION share/towbench)
 install(CODE "
   set(to \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\")
   file(MAKE_DIRECTORY \${to}/bin)

@@ -1,6 +1,7 @@
 #include "emulator/foreign/foreign_axis.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/time.h"
 #include "emulator/sensors/cubic_motion.h"
@@ -28,20 +29,25 @@ ForeignInput ForeignAxis::input_for(const AxisInput& input) noexcept {
   return to_plant;
 }
 
+// The mean over the coming step, if the load goes on at its speed.
 double ForeignAxis::end_force_N() const noexcept {
   const auto& ends = parameters_.hard_ends;
-  if (!ends.fitted) {
+  const double step_m = core::kPlantTick_s * now_.velocity_m_per_s;
+  const bool at_max = now_.position_m + std::max(0.0, step_m) > ends.max_m;
+  const bool at_min = now_.position_m + std::min(0.0, step_m) < ends.min_m;
+  if (!ends.fitted || !(at_max || at_min)) {
     return 0.0;
   }
-  const double middle_m = now_.position_m + 0.5 * core::kPlantTick_s * now_.velocity_m_per_s;
-  const double sign = middle_m > ends.max_m ? 1.0 : -1.0;
-  const double depth_m = sign > 0 ? middle_m - ends.max_m : ends.min_m - middle_m;
-  if (depth_m <= 0) {
-    return 0.0;
-  }
-  const double push_N =
-      ends.stiffness_N_per_m * depth_m + ends.damping_N_s_per_m * sign * now_.velocity_m_per_s;
-  return -sign * std::max(0.0, push_N);
+  const double sign = at_max ? 1.0 : -1.0;
+  const double first_m = sign * (now_.position_m - (at_max ? ends.max_m : ends.min_m));
+  const double last_m = first_m + sign * step_m;
+  const double deepest_m = std::max(first_m, last_m);
+  const double nearest_m = std::max(0.0, std::min(first_m, last_m));
+  const double share =
+      first_m > 0 && last_m > 0 ? 1.0 : deepest_m / std::fabs(last_m - first_m);  // of the step
+  const double push_N = ends.stiffness_N_per_m * 0.5 * (deepest_m + nearest_m) +
+                        ends.damping_N_s_per_m * sign * now_.velocity_m_per_s;
+  return -sign * share * std::max(0.0, push_N);
 }
 
 void ForeignAxis::follow(const ForeignOutput& output, MotionSegments& segments) noexcept {
@@ -68,13 +74,12 @@ void ForeignAxis::find_contact(const ForeignOutput& before) noexcept {
   const CubicMotion motion(core::kPlantTick_s, before.position_m, before.velocity_m_per_s,
                            now_.position_m, now_.velocity_m_per_s);
   const double u = motion.reach((at_max ? ends.max_m : ends.min_m) - before.position_m, 0.0, 1.0);
-  const double speed_m_per_s = motion.slope(u) / core::kPlantTick_s;
   const double motor_rad_per_s =
-      speed_m_per_s * parameters_.gear_ratio / parameters_.sprocket_radius_m;
+      before.velocity_m_per_s * parameters_.gear_ratio / parameters_.sprocket_radius_m;
   contact_ = {.occurred = true,
               .at_max = at_max,
               .time_s = u * core::kPlantTick_s,
-              .speed_m_per_s = speed_m_per_s,
+              .speed_m_per_s = before.velocity_m_per_s,
               .energy_J = 0.5 * parameters_.inertia_kg_m2 * motor_rad_per_s * motor_rad_per_s};
 }
 

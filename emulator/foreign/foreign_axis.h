@@ -2,7 +2,7 @@
 // puts it out, and hard ends.
 //
 //   u = clamp(k_v u_c, r U)    i = clamp(k_a u_c, I_max)    F = K_T i n / R        off: 0
-//   F_end = -(c d + b v), d: depth beyond the end in the middle of the step; pushes, never pulls
+//   F_end = -(c d + b v), d: depth beyond the end; pushes, never pulls; the mean over the step
 //
 // u_c: command voltage, U: supply, the rest: AxisParameters. The motion inside a step is the cubic
 // Hermite polynomial between its ends; what that costs: tests/harness/foreign_plant.

@@ -22,10 +22,13 @@ bool is_shipped(const std::filesystem::path& path) {
   }
 }
 
-std::vector<std::filesystem::path> paths_of(const SourceFiles& sources) {
+// Without the binary of a plant of one's own.
+std::vector<std::filesystem::path> fixtures_of(const SourceFiles& sources) {
   std::vector<std::filesystem::path> paths;
   for (const auto& source : sources) {
-    paths.push_back(source.path);
+    if (source.path.extension() == ".toml") {
+      paths.push_back(source.path);
+    }
   }
   return paths;
 }
@@ -69,7 +72,7 @@ void MachineDefaults::of_rig(const std::filesystem::path& path) {
   SourceFiles sources;
   const auto rig = load_rig(path, sources);
   if (!is_shipped(path)) {
-    const auto files = paths_of(sources);
+    const auto files = fixtures_of(sources);
     machines_[files.front()] = {unstated_values(rig.parameters, files), false, files};
   }
 }
@@ -78,7 +81,7 @@ void MachineDefaults::of_plant(const std::filesystem::path& path) {
   SourceFiles sources;
   const auto plant = load_plant(path, sources);
   if (!is_shipped(path)) {
-    const auto files = paths_of(sources);
+    const auto files = fixtures_of(sources);
     machines_[files.front()] = {unstated_values(plant.parameters, files), true, files};
   }
 }

@@ -85,6 +85,10 @@ std::string changed_machine(const std::filesystem::path& rig_file,
                             std::string_view source, const std::filesystem::path& folder) {
   const auto file = FixtureFile::load(rig_file);
   TableReader reader(file, file.table());
+  if (reader.has("plant")) {
+    throw FixtureError(reader.place_of("plant"), "a plant of one's own on a machine that differs",
+                       "the built-in plant: what differs moves nothing here");
+  }
   std::vector<std::string> plants;
   reader.strings("plants", plants, "plant files");
   for (auto& plant : plants) {

@@ -74,11 +74,23 @@ Check fired_check(const ExperimentFixture& plain, const PreparedPlan& prepared,
   return check;
 }
 
+void refuse_inside_foreign_plant(const FaultPlan& plan, const emulator::RigParameters& rig) {
+  for (const auto& fault : plan) {
+    const bool is_inside =
+        fault.kind == FaultKind::kChainSkip || fault.kind == FaultKind::kBacklash;
+    if (is_inside && rig.foreign_plant) {
+      throw FixtureError({.file = "fault plan"}, describe(fault),
+                         "a fault outside the plant: this one is inside the rig's own [plant]");
+    }
+  }
+}
+
 }  // namespace
 
 PreparedPlan prepare_at(const FaultPlan& plan, const std::vector<core::Nanoseconds>& onsets_ns,
                         const ExperimentFixture& fixture, const CaseRecord& reference,
                         bool over_can) {
+  refuse_inside_foreign_plant(plan, fixture.rig.parameters);
   PreparedPlan prepared{.plan = plan, .onsets_ns = onsets_ns};
   prepared.built = rig_of(plan, fixture, kAll);
   if (const char* wrong = emulator::inconsistency(prepared.built)) {
