@@ -37,13 +37,17 @@ RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, const Seeds& seeds,
     : command(p.command, seeds.ripple),
       plant_(p.plant, p.start_m, at_start),
       state_(plant_.state()),
-      encoder_(p.encoder, state_.motor_angle_rad),
+      encoder_(p.encoder, p.encoder.side == EncoderSide::kLoad
+                              ? state_.carriage_m * p.plant.gear_ratio / p.plant.sprocket_radius_m
+                              : state_.motor_angle_rad),
       disc_(p.encoder),
       wiring_(encoder_.levels()),
       hall_min_(p.hall_min, TravelEnd::kMin, kHallMinLine[axis], p.start_m),
       hall_max_(p.hall_max, TravelEnd::kMax, kHallMaxLine[axis], p.start_m),
       resistance_ohm_(p.plant.winding.resistance_ohm),
-      torque_constant_Nm_per_A_(p.plant.torque_constant_Nm_per_A) {
+      torque_constant_Nm_per_A_(p.plant.torque_constant_Nm_per_A),
+      motor_rad_per_m_(p.plant.gear_ratio / p.plant.sprocket_radius_m),
+      sees_load_(p.encoder.side == EncoderSide::kLoad) {
   if (p.current_monitor.fitted) {
     current_monitor_.emplace(p.current_monitor, axis, seeds.current_monitor);
   }
@@ -62,12 +66,14 @@ void RigAxis::move(core::Nanoseconds start_ns, const ForeignOutput& output,
                    LineChanges& changes) noexcept {
   const AxisState before = state_;
   plant_.step(input_, output, segments_);
-  if (skipped_rad_ != 0.0) {
+  state_ = plant_.state();
+  if (sees_load_) {
+    follow_load(before, state_);
+  } else if (skipped_rad_ != 0.0) {
     turn_shaft();
   }
   encoder_.step(segments_, edges_);
   wiring_.step(disc_.step(encoder_.levels(), edges_), edges_);
-  state_ = plant_.state();
   const AxisState& after = state_;
   const CarriageMotion motion{.before_m = before.carriage_m,
                               .before_m_per_s = before.carriage_speed_m_per_s,
@@ -91,6 +97,19 @@ void RigAxis::turn_shaft() noexcept {
     segments_[i].start_angle_rad += skipped_rad_;
     segments_[i].end_angle_rad += skipped_rad_;
   }
+}
+
+// The encoder sits on the load. Its place and speed at both ends of the tick: what happens between
+// them, a hard end's touch above all, is smoothed over the tick.
+void RigAxis::follow_load(const AxisState& before, const AxisState& after) noexcept {
+  segments_.clear();
+  (void)segments_.push_back(
+      {.start_s = 0.0,
+       .end_s = core::kPlantTick_s,
+       .start_angle_rad = before.carriage_m * motor_rad_per_m_,
+       .start_speed_rad_per_s = before.carriage_speed_m_per_s * motor_rad_per_m_,
+       .end_angle_rad = after.carriage_m * motor_rad_per_m_,
+       .end_speed_rad_per_s = after.carriage_speed_m_per_s * motor_rad_per_m_});
 }
 
 void RigAxis::fail(ScheduledEventKind kind, double value) noexcept {

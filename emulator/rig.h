@@ -88,6 +88,7 @@ class RigAxis {
 
  private:
   TOWBENCH_REALTIME void turn_shaft() noexcept;
+  TOWBENCH_REALTIME void follow_load(const AxisState& before, const AxisState& after) noexcept;
 
   // Each starts from the state of the one before it.
   MovedAxis plant_;
@@ -105,6 +106,8 @@ class RigAxis {
   AxisFaults faults_;
   double resistance_ohm_;
   double torque_constant_Nm_per_A_;
+  double motor_rad_per_m_;
+  bool sees_load_;  // the encoder
   double command_V_ = 0.0;
   double skipped_rad_ = 0.0;  // the shaft's angle above that by the chain
   double acceleration_m_per_s2_ = 0.0;

@@ -1,5 +1,6 @@
 #include "emulator/rig.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -68,6 +69,32 @@ TEST(Rig, TheCountIsTheFloorOfTheMotorsAngleAtTheEndOfEveryTick) {
     }
   }
   EXPECT_GT(reversals, 20);
+}
+
+// Behind the elastic chain, which the carriage leaves by many counts.
+TEST(Rig, AnEncoderOnTheLoadCountsTheCarriage) {
+  auto parameters = rig_starting_at(1.0, 0.3);
+  parameters.axes[Axis::kY].encoder.side = EncoderSide::kLoad;
+  Rig rig = driven_rig(parameters, 0, 0);
+  const double m_per_count = metres_per_count(parameters.axes[Axis::kY]);
+  double farthest_counts = 0;
+  std::uint32_t sequence = 1;
+  for (int tick = 0; tick < 10'000; ++tick) {
+    if (tick % 350 == 0) {
+      const int sign = tick % 700 == 0 ? 1 : -1;
+      ASSERT_EQ(rig.axis(Axis::kY)->command.accept(duty(Axis::kY, sign * 120, sequence++)),
+                core::ErrorCode::kNone);
+    }
+    rig.step();
+    const AxisTruth axis = rig.truth().axes[Axis::kY];
+    const double counts = axis.carriage_m / m_per_count;
+    if (std::fabs(counts - std::round(counts)) > 1e-6) {
+      ASSERT_EQ(axis.count, static_cast<std::int64_t>(std::floor(counts))) << tick;
+    }
+    const double motor_counts = axis.motor_angle_rad * 4000.0 / (2.0 * std::numbers::pi);
+    farthest_counts = std::max(farthest_counts, std::fabs(motor_counts - counts));
+  }
+  EXPECT_GT(farthest_counts, 20.0);
 }
 
 TEST(Rig, AxesAreIndependentWithoutACrossTerm) {
