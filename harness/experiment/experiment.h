@@ -53,6 +53,7 @@ struct Experiment {
   std::string description;
   double duration_limit_s = 60;
   std::uint64_t seed = 1;
+  double logger_rate_Hz = 0;                     // of logger.csv; 0: there is none
   std::vector<ConsoleStep> console;              // of BBMC; none with a reference
   std::vector<ReferenceMotion> reference;        // sorted by time
   std::vector<emulator::ScheduledEvent> events;  // sorted by time

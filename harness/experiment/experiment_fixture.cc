@@ -127,6 +127,8 @@ Experiment read_script(TableReader& reader) {
   reader.value("duration_limit_s", experiment.duration_limit_s, core::between(1e-3, kLongestRun_s),
                "virtual time at which the run ends in any case");
   reader.value("seed", experiment.seed, core::between(0, 9e15), "of every random quantity");
+  reader.value("logger_rate_Hz", experiment.logger_rate_Hz, core::between(1.0, 10e3),
+               "of logger.csv: what a data logger beside the controller keeps of log.csv");
   for (auto& step : reader.tables("console")) {
     experiment.console.push_back(read_console_step(step));
   }

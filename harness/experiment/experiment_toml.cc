@@ -75,6 +75,9 @@ std::string to_toml(const ExperimentFixture& fixture, const std::string& rig,
       (controller.empty() ? "" : "controller = " + toml_string(controller) + '\n') +
           (wiring.empty() ? "" : "wiring = " + toml_string(wiring) + '\n'),
       toml_number(experiment.duration_limit_s), experiment.seed);
+  if (experiment.logger_rate_Hz > 0) {
+    text += fmt::format("logger_rate_Hz = {}\n", toml_number(experiment.logger_rate_Hz));
+  }
   text += start_toml(fixture.rig.parameters);
   append(text, experiment.console, console_toml);
   append(text, experiment.reference, [](const ReferenceMotion& motion) { return to_toml(motion); });

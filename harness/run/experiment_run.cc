@@ -2,6 +2,7 @@
 
 #include "harness/proof/run_manifest.h"
 #include "harness/record/event_lines.h"
+#include "harness/record/logger_file.h"
 #include "harness/record/result_files.h"
 #include "harness/run/run_plan.h"
 #include "harness/run/runner.h"
@@ -18,6 +19,7 @@ void judge_complete(const RunPlan& plan, Runner& runner, RunResult& result) {
                                              .host_was_killed = runner.host_was_killed()},
                                             result.judgement);
   }
+  write_logger_file(plan.folder, plan.fixture.experiment.logger_rate_Hz);
   write_judged(plan.folder, plan.fixture, plan.identity, result.outcome, result.judgement);
   result.exit_code = exit_code_of(result.judgement.verdict);
 }
