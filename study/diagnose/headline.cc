@@ -121,12 +121,6 @@ std::string next_step(const Diagnosis& d) {
                : fmt::format("look at unexplained.csv: what is left depends on {}",
                              d.unexplained->coordinate);
   }
-  for (const NamedCause& cause : d.causes) {
-    if (cause.effect->structural) {
-      return fmt::format("take the size of {} from diagnosis.json: no plant file can state it",
-                         cause.effect->name);
-    }
-  }
   return d.verdicts.front() == "model_adequate"
              ? "nothing; see not_testable for what was out of reach"
              : "use extended_plant.toml";
