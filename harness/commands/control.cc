@@ -15,6 +15,7 @@
 #include "harness/commands/option_checks.h"
 #include "harness/commands/serial_console.h"
 #include "harness/commands/stop_signal.h"
+#include "harness/commands/tank_controller.h"
 #include "harness/fixtures/controller_fixture.h"
 #include "harness/fixtures/rig_fixture.h"
 #include "harness/link/in_process_plant.h"
@@ -203,6 +204,9 @@ int execute_control(const ControlOptions& options) {
     plant = &whole->whole();
   } else {
     const auto rig = load_rig(options.rig, sources);
+    if (const auto note = tank_controller_note(rig); !note.empty()) {
+      std::fprintf(stderr, "note: %s\n", note.c_str());
+    }
     plant_recorder = options.out.empty()
                          ? nullptr
                          : std::make_unique<PlantRecorder>(options.out, rig.parameters);

@@ -13,6 +13,7 @@
 #include "harness/commands/option_checks.h"
 #include "harness/commands/progress_line.h"
 #include "harness/commands/stop_signal.h"
+#include "harness/commands/tank_controller.h"
 #include "harness/fixtures/fixture_error.h"
 #include "harness/realtime/wall_clock_carrier.h"
 #include "harness/report/report.h"
@@ -177,6 +178,10 @@ RunResult run_with_options(const ExperimentFixture& fixture, const ExperimentOpt
                          simulated_s / progress.elapsed_s());
     });
   };
+  if (const auto note = tank_controller_note(fixture.rig);
+      options.controller.empty() && !options.quiet && !options.json && !note.empty()) {
+    std::fprintf(stderr, "note: %s\n", note.c_str());
+  }
   auto result = run_experiment(fixture, run_options);
   if (!options.quiet && !options.json) {
     std::fputs(result.timing.c_str(), stdout);
