@@ -51,6 +51,7 @@ struct RigAxisParameters {
   CurrentMonitorParameters current_monitor;
   double start_m = 0.0;  // carriage at rest there at time 0, chain relaxed
   double cross_axis_force_ratio = 0.0;
+  bool load_turns = false;  // read rad for m; no key: the plant's transmission says so
 
   template <typename Visitor>
   void visit(Visitor& v) {

@@ -61,7 +61,8 @@ std::string also_failed(const Judgement& judgement) {
 
 std::string with_unit(double value, const std::string& unit) {
   const double size = std::fabs(value);
-  const bool scales = unit == "m" || unit == "s" || unit == "m/s";
+  const bool scales =
+      unit == "m" || unit == "s" || unit == "m/s" || unit == "rad" || unit == "rad/s";
   if (scales && size > 0 && size < 1e-3) {
     return fmt::format("{:.4g} u{}", value * 1e6, unit);
   }

@@ -80,7 +80,8 @@ std::vector<Measurement> measure(const RunData& data, const std::vector<Resolved
       if (window.found) {
         value = metric.compute(data, metric.axis, window.span);
       }
-      measurements.push_back({&metric, window.name, value});
+      measurements.push_back(
+          {&metric, window.name, value, data.limits[metric.axis].unit(metric.unit)});
     }
   }
   return measurements;
@@ -101,7 +102,7 @@ Check judge_budget(const Budget& budget, const std::vector<Measurement>& measure
     check.reason = "no such metric over such a window";
     return check;
   }
-  check.unit = found->metric->unit;
+  check.unit = found->unit;
   check.meaning = found->metric->meaning;
   if (found->value.samples == 0 || !std::isfinite(found->value.value)) {
     check.reason = "the run holds nothing to compute this from";

@@ -30,6 +30,7 @@ struct Measurement {
   const Metric* metric = nullptr;
   std::string window;
   MetricValue value;
+  std::string unit{};  // rad for m where the axis turns
 };
 
 [[nodiscard]] std::vector<Measurement> measure(const RunData& data,

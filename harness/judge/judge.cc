@@ -97,7 +97,8 @@ core::PerAxis<AxisLimits> limits_of(const emulator::RigParameters& rig) {
                      .hall_max_m = axis.hall_max.position_m,
                      .hard_min_m = axis.plant.hard_ends.min_m,
                      .hard_max_m = axis.plant.hard_ends.max_m,
-                     .metres_per_count = emulator::metres_per_count(axis)};
+                     .metres_per_count = emulator::metres_per_count(axis),
+                     .turns = axis.load_turns};
   }
   return limits;
 }

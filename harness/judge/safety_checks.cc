@@ -241,6 +241,7 @@ Check no_runaway(const RunData& data) {
       continue;
     }
     const double limit_m = runaway_limit_m(data.limits[axis]);
+    check.unit = data.limits[axis].unit("m");
     check.max = std::min(*check.max, limit_m);
     std::size_t at = 0;
     for (std::size_t i = 0; i < time_s.size(); ++i) {

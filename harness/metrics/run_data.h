@@ -9,6 +9,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/axis.h"
@@ -24,6 +25,13 @@ struct AxisLimits {
   double hard_min_m = 0;
   double hard_max_m = 0;
   double metres_per_count = 0;
+  bool turns = false;  // read rad for m
+
+  // "rad" for "m", "rad/s" for "m/s" of an axis that turns.
+  [[nodiscard]] std::string unit(std::string_view of_a_line) const {
+    const bool is_length = of_a_line == "m" || of_a_line == "m/s";
+    return turns && is_length ? "rad" + std::string(of_a_line.substr(1)) : std::string(of_a_line);
+  }
 };
 
 // One line of events.jsonl.

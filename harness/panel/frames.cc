@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/judge/judge.h"
+#include "harness/panel/shown_configuration.h"
 
 namespace towbench::harness {
 namespace {
@@ -122,9 +123,10 @@ void FrameMaker::begin(std::uint64_t number) {
   next_row_ = next_truth_ = missed_ = 0;
   estimators_.reset();
   if (const auto* const fixture = session_.fixture()) {
-    estimators_.emplace(fixture->controller.configuration);
+    const auto shown = shown_configuration(*fixture);
+    estimators_.emplace(shown);
     for (const auto axis : core::kAxes) {
-      m_per_count_[axis] = fixture->controller.configuration.axes[axis].m_per_count();
+      m_per_count_[axis] = shown.axes[axis].m_per_count();
     }
   }
 }
@@ -252,8 +254,9 @@ std::string FrameMaker::state_text() {
     auto& limits = object["limits"];
     auto& followed = object["followed"];
     const auto ends = limits_of(fixture->rig.parameters);
+    const auto shown = shown_configuration(*fixture);
     for (const auto axis : core::kAxes) {
-      const auto& believed = fixture->controller.configuration.axes[axis];
+      const auto& believed = shown.axes[axis];
       const double m_per_count = believed.m_per_count();
       constexpr std::array<const char*, LiveEstimators::kMethods> kMethods{"frequency", "period",
                                                                            "hybrid"};
@@ -266,7 +269,8 @@ std::string FrameMaker::state_text() {
           {"hall_min_m", ends[axis].hall_min_m},
           {"hall_max_m", ends[axis].hall_max_m},
           {"hard_min_m", ends[axis].hard_min_m},
-          {"hard_max_m", ends[axis].hard_max_m}};
+          {"hard_max_m", ends[axis].hard_max_m},
+          {"turns", ends[axis].turns}};
     }
     object["exchange_us_bins"] = session_.tap().exchange_times();
   }

@@ -62,6 +62,9 @@ json limits_json(const emulator::RigParameters& rig) {
         {"exists", ends.exists},         {"hall_min_m", ends.hall_min_m},
         {"hall_max_m", ends.hall_max_m}, {"hard_min_m", ends.hard_min_m},
         {"hard_max_m", ends.hard_max_m}, {"metres_per_count", ends.metres_per_count}};
+    if (ends.turns) {
+      object[std::string(core::name_of(axis))]["turns"] = true;
+    }
   }
   return object;
 }
@@ -104,7 +107,7 @@ json metrics_json(const Judgement& judgement, double end_s) {
     metrics.push_back({{"name", measurement.metric->name},
                        {"window", measurement.window},
                        {"value", known ? json(measurement.value.value) : json(nullptr)},
-                       {"unit", measurement.metric->unit},
+                       {"unit", measurement.unit},
                        {"samples", measurement.value.samples},
                        {"meaning", measurement.metric->meaning}});
   }

@@ -20,6 +20,7 @@ constexpr std::array kChoices{
     Choice{"m", 10.0, {"m", 1.0}},      Choice{"m", 1e-3, {"mm", 1e3}},
     Choice{"m", 0.0, {"µm", 1e6}},      Choice{"m/s", 10.0, {"m/s", 1.0}},
     Choice{"m/s", 1e-3, {"mm/s", 1e3}}, Choice{"m/s", 0.0, {"µm/s", 1e6}},
+    Choice{"rad", 0.1, {"rad", 1.0}},   Choice{"rad", 0.0, {"mrad", 1e3}},
     Choice{"s", 1.0, {"s", 1.0}},       Choice{"s", 1e-3, {"ms", 1e3}},
     Choice{"s", 0.0, {"µs", 1e6}},      Choice{"J", 1.0, {"J", 1.0}},
     Choice{"J", 0.0, {"mJ", 1e3}},      Choice{"V", 0.0, {"V", 1.0}},

@@ -20,6 +20,7 @@ export interface AxisLimits {
   hall_max_m?: number;
   hard_min_m?: number;
   hard_max_m?: number;
+  turns?: boolean; // read rad for m
 }
 
 export interface TimeWindow {

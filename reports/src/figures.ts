@@ -53,6 +53,7 @@ function limitGuides(limits: AxisLimits | undefined, drawn: Curve[]): Figure["gu
 
 export function axisFigures(run: RunData, axis: string): Figure[] {
   const { table } = run;
+  const length = run.limits[axis]?.turns ? "rad" : "m";
   const plain = { axis, held: false, zero: false, showLargest: false, guides: [], empty: "" };
   const position = curves(table, axis, [
     ["carriage_m", "carriage (truth)", "truth"],
@@ -64,7 +65,7 @@ export function axisFigures(run: RunData, axis: string): Figure[] {
       ...plain,
       id: `${axis}-position`,
       title: "Reference and position",
-      unit: "m",
+      unit: length,
       curves: position,
       guides: limitGuides(run.limits[axis], position),
     },
@@ -72,7 +73,7 @@ export function axisFigures(run: RunData, axis: string): Figure[] {
       ...plain,
       id: `${axis}-error`,
       title: "Tracking error",
-      unit: "m",
+      unit: length,
       zero: true,
       showLargest: true,
       empty: "No tracking error: the axis never followed a reference in this run.",
@@ -85,7 +86,7 @@ export function axisFigures(run: RunData, axis: string): Figure[] {
       ...plain,
       id: `${axis}-velocity`,
       title: "Velocity",
-      unit: "m/s",
+      unit: `${length}/s`,
       zero: true,
       curves: curves(table, axis, [
         ["carriage_speed_m_per_s", "carriage (truth)", "truth"],

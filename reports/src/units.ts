@@ -11,6 +11,10 @@ const choices: Record<string, [from: number, name: string, perSi: number][]> = {
     [1e-3, "mm", 1e3],
     [0, "µm", 1e6],
   ],
+  rad: [
+    [0.1, "rad", 1],
+    [0, "mrad", 1e3],
+  ],
   "m/s": [
     [10, "m/s", 1],
     [1e-3, "mm/s", 1e3],

@@ -1,5 +1,5 @@
-// The tank from above: carriage and end-effector where they truly are, the reference as a ring, the
-// chains' force and the force sensor's as arrows, end-stops and hard ends.
+// The machine from above: the load of one axis or two where it truly is, the reference as a ring, the
+// drives' force and the force sensor's as arrows, end-stops and hard ends; a joint as a dial.
 import { element, setText } from "../dom";
 import { Arrow } from "./arrow";
 import type { AxisLimits } from "./wire";
@@ -7,6 +7,7 @@ import type { AxisLimits } from "./wire";
 const svgNs = "http://www.w3.org/2000/svg";
 const width = 640;
 const margin = 12;
+const radius = 110; // of a joint's dial
 
 function shape(tag: string, attributes: Record<string, number | string>): SVGElement {
   const made = document.createElementNS(svgNs, tag);
@@ -32,6 +33,7 @@ export class Plan {
   private scale = 1;
   private height = 100;
   private limits: { y: AxisLimits; x: AxisLimits } | null = null;
+  private readonly arm = shape("line", { class: "arm" });
   private readonly beam = shape("rect", { class: "beam", width: 14 });
   private readonly effector = shape("circle", { class: "effector", r: 7 });
   private readonly aim = shape("circle", { class: "aim", r: 11 });
@@ -43,7 +45,7 @@ export class Plan {
   constructor() {
     this.svg.setAttribute("class", "plan");
     this.svg.setAttribute("role", "img");
-    this.svg.setAttribute("aria-label", "Plan view of the tank");
+    this.svg.setAttribute("aria-label", "Where the machine is");
     this.box.append(this.svg, this.caption);
   }
 
@@ -51,7 +53,8 @@ export class Plan {
     const key = JSON.stringify(limits);
     if (this.limits !== null && JSON.stringify(this.limits) === key) return;
     this.limits = limits;
-    this.draw(limits);
+    if (limits.y.turns) this.drawDial(limits.y);
+    else this.draw(limits);
   }
 
   private right(y_m: number): number {
@@ -59,6 +62,7 @@ export class Plan {
   }
 
   private down(x_m: number): number {
+    if (!this.limits!.x.exists) return this.height / 2;
     return this.height - margin - (x_m - this.limits!.x.hard_min_m) * this.scale;
   }
 
@@ -72,18 +76,15 @@ export class Plan {
     const right = this.right(limits.y.hard_max_m);
     const top = margin;
     const bottom = this.height - margin;
-    this.halls = [
-      this.vertical("hall", limits.y.hall_min_m, top, bottom),
-      this.vertical("hall", limits.y.hall_max_m, top, bottom),
-      this.horizontal("hall", limits.x.hall_min_m, left, right),
-      this.horizontal("hall", limits.x.hall_max_m, left, right),
-    ];
+    const along = [limits.y.hall_min_m, limits.y.hall_max_m].map((at) => this.vertical("hall", at, top, bottom));
+    const athwart = limits.x.exists ? [limits.x.hall_min_m, limits.x.hall_max_m] : [];
+    this.halls = [...along, ...athwart.map((at) => this.horizontal("hall", at, left, right))];
     const soft = shape("rect", {
       class: "soft",
       x: this.right(limits.y.soft_min_m),
-      y: this.down(limits.x.soft_max_m),
+      y: limits.x.exists ? this.down(limits.x.soft_max_m) : top,
       width: Math.max(0, (limits.y.soft_max_m - limits.y.soft_min_m) * this.scale),
-      height: Math.max(0, (limits.x.soft_max_m - limits.x.soft_min_m) * this.scale),
+      height: limits.x.exists ? Math.max(0, (limits.x.soft_max_m - limits.x.soft_min_m) * this.scale) : bottom - top,
     });
     this.beam.setAttribute("y", String(top));
     this.beam.setAttribute("height", String(bottom - top));
@@ -99,6 +100,41 @@ export class Plan {
     );
   }
 
+  // A joint: its arm hangs at 0 and turns to the right towards max.
+  private drawDial(limits: AxisLimits): void {
+    this.height = 2 * (radius + margin);
+    this.svg.setAttribute("viewBox", `0 0 ${width} ${this.height}`);
+    this.halls = [limits.hall_min_m, limits.hall_max_m].map((at) => this.spoke("hall", at));
+    const ends = [limits.hard_min_m, limits.hard_max_m].map((at) => this.spoke("wall", at));
+    const rim = shape("circle", { class: "wall", cx: width / 2, cy: this.height / 2, r: radius });
+    this.svg.replaceChildren(rim, ...ends, ...this.halls, this.arm, this.aim, this.effector);
+  }
+
+  private tip(angle_rad: number): { x: number; y: number } {
+    return { x: width / 2 + radius * Math.sin(angle_rad), y: this.height / 2 + radius * Math.cos(angle_rad) };
+  }
+
+  private spoke(name: string, angle_rad: number): SVGElement {
+    const { x, y } = this.tip(angle_rad);
+    return shape("line", { class: name, x1: width / 2, y1: this.height / 2, x2: x, y2: y });
+  }
+
+  private showDial(pose: PlanPose): void {
+    const at = this.tip(pose.y_m);
+    const wanted = this.tip(pose.yReference_m);
+    this.arm.setAttribute("x1", String(width / 2));
+    this.arm.setAttribute("y1", String(this.height / 2));
+    this.arm.setAttribute("x2", String(at.x));
+    this.arm.setAttribute("y2", String(at.y));
+    for (const [mark, place] of [[this.effector, at], [this.aim, wanted]] as const) {
+      mark.setAttribute("cx", String(place.x));
+      mark.setAttribute("cy", String(place.y));
+    }
+    const degrees = ((pose.y_m * 180) / Math.PI).toFixed(1);
+    const whose = pose.isTruth ? "truth" : "as the controller has it";
+    setText(this.caption, `Y at ${degrees}° (${whose}), 0 hangs; ring: reference; dashed: end-stops; solid: hard ends`);
+  }
+
   private vertical(name: string, y_m: number, top: number, bottom: number): SVGElement {
     const x = this.right(y_m);
     return shape("line", { class: name, x1: x, x2: x, y1: top, y2: bottom });
@@ -111,6 +147,13 @@ export class Plan {
 
   show(pose: PlanPose): void {
     if (this.limits === null) return;
+    this.halls.forEach((hall, bit) =>
+      hall.setAttribute("class", (pose.lines >> bit) & 1 ? "hall tripped" : "hall"),
+    );
+    if (this.limits.y.turns) {
+      this.showDial(pose);
+      return;
+    }
     const x = this.right(pose.y_m);
     const y = this.down(pose.x_m);
     this.beam.setAttribute("x", String(x - 7));
@@ -122,14 +165,11 @@ export class Plan {
     this.sensor.show(x, y, pose.sensor_N?.y ?? 0, pose.sensor_N?.x ?? 0);
     setText(
       this.caption,
-      "Y right, X up; bar, dot: carriage, end-effector " +
+      (this.limits.x.exists ? "Y right, X up; bar, dot: carriage, end-effector " : "Y right; bar and dot: the load ") +
         (pose.isTruth ? "(truth)" : "(as the controller has it)") +
-        "; ring: reference; arrow: chains' force" +
+        "; ring: reference; arrow: drive's force" +
         (pose.sensor_N === null ? "" : "; dotted: sensor's") +
         "; dashed: end-stops; shaded: soft limits",
-    );
-    this.halls.forEach((hall, bit) =>
-      hall.setAttribute("class", (pose.lines >> bit) & 1 ? "hall tripped" : "hall"),
     );
   }
 }

@@ -63,7 +63,7 @@ export class RunView {
     this.result.id = "result";
     const help = element("p", "help", "Keys, outside of fields: K presses and releases the kill switch, space pauses, S steps.");
     const left = element("div", "column");
-    left.append(this.card("Tank", this.plan.box), this.card("State", this.lamps.list), this.console.box, this.events.box);
+    left.append(this.card("Machine", this.plan.box), this.card("State", this.lamps.list), this.console.box, this.events.box);
     const scopes = element("section", "card");
     scopes.append(labelled(`Last ${shown_s} s of virtual time`, this.axis), this.scopesHost);
     const right = element("div", "column");
@@ -174,11 +174,12 @@ export class RunView {
     const axis = this.axis.value as AxisName;
     const followed = this.state?.followed?.[axis] ?? "hybrid";
     const hasForce = this.log.last?.[y.force] != null;
-    const wanted = `${axis} ${followed} ${hasForce}`;
+    const turns = this.state?.limits?.[axis]?.turns ?? false;
+    const wanted = `${axis} ${followed} ${hasForce} ${turns}`;
     if (wanted === this.scopesOf) return;
     this.scopesOf = wanted;
-    this.logScopes = logSpecs(axis, followed, hasForce).map((spec) => new Scope(spec));
-    this.truthScopes = truthSpecs(axis).map((spec) => new Scope(spec));
+    this.logScopes = logSpecs(axis, followed, hasForce, turns).map((spec) => new Scope(spec));
+    this.truthScopes = truthSpecs(axis, turns).map((spec) => new Scope(spec));
     this.scopesHost.replaceChildren(...[...this.logScopes, ...this.truthScopes].map((scope) => scope.box));
   }
 

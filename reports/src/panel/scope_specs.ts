@@ -36,8 +36,9 @@ function estimates(axis: AxisName, followed: Estimator, shown: (at: Columns, est
 const itself = (at: Columns, estimator: Estimator): Line["of"] => (c) => c[at[estimator]]!;
 const lessReference = (at: Columns, estimator: Estimator): Line["of"] => (c) => difference(c[at[estimator]]!, c[at.referenceSpeed]!);
 
-export function logSpecs(axis: AxisName, followed: Estimator, hasForce: boolean): ScopeSpec[] {
+export function logSpecs(axis: AxisName, followed: Estimator, hasForce: boolean, turns: boolean): ScopeSpec[] {
   const at = logColumns(axis);
+  const length = turns ? "rad" : "m";
   const force: ScopeSpec = {
     title: "Force sensor (measured)",
     unit: "N",
@@ -46,7 +47,7 @@ export function logSpecs(axis: AxisName, followed: Estimator, hasForce: boolean)
   return [
     {
       title: "Position",
-      unit: "m",
+      unit: length,
       lines: [
         { label: "reference", role: "reference", of: (c) => inThisFrame(c, at.reference) },
         { label: "motor side", role: "measured", of: (c) => inThisFrame(c, at.position) },
@@ -54,25 +55,27 @@ export function logSpecs(axis: AxisName, followed: Estimator, hasForce: boolean)
     },
     {
       title: "Tracking error, motor side",
-      unit: "mm",
+      unit: `m${length}`,
       lines: [{ label: "error", role: "measured", of: (c) => difference(c[at.reference]!, c[at.position]!) }],
     },
     {
       title: "Velocity, by each estimator",
-      unit: "m/s",
+      unit: `${length}/s`,
       lines: [{ label: "reference", role: "reference", of: (c) => c[at.referenceSpeed]! }, ...estimates(axis, followed, itself)],
     },
-    { title: "Velocity less reference", unit: "mm/s", lines: estimates(axis, followed, lessReference) },
+    { title: "Velocity less reference", unit: `m${length}/s`, lines: estimates(axis, followed, lessReference) },
     { title: "Duty", unit: "%", lines: [{ label: "duty", role: "measured", of: (c) => c[at.duty]! }] },
     ...(hasForce ? [force] : []),
   ];
 }
 
-export function truthSpecs(axis: AxisName): ScopeSpec[] {
+export function truthSpecs(axis: AxisName, turns: boolean): ScopeSpec[] {
   const at = truthColumns(axis);
   return [
-    { title: "Carriage speed (truth)", unit: "m/s", lines: [{ label: "speed", role: "truth", of: (c) => c[at.speed]! }] },
+    { title: "Load speed (truth)", unit: turns ? "rad/s" : "m/s", lines: [{ label: "speed", role: "truth", of: (c) => c[at.speed]! }] },
     { title: "Motor current (truth)", unit: "A", lines: [{ label: "current", role: "truth", of: (c) => c[at.current]! }] },
-    { title: "Chain force (truth)", unit: "N", lines: [{ label: "force", role: "truth", of: (c) => c[at.force]! }] },
+    turns
+      ? { title: "Torque on the load (truth)", unit: "N m", lines: [{ label: "torque", role: "truth", of: (c) => c[at.force]! }] }
+      : { title: "Force on the load (truth)", unit: "N", lines: [{ label: "force", role: "truth", of: (c) => c[at.force]! }] },
   ];
 }

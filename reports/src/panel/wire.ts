@@ -8,6 +8,7 @@ export interface AxisLimits {
   hard_max_m: number;
   soft_min_m: number; // as the controller believes
   soft_max_m: number;
+  turns: boolean; // read rad for m
 }
 
 export type Estimator = "frequency" | "period" | "hybrid";

@@ -1,0 +1,24 @@
+#include "harness/panel/shown_configuration.h"
+
+#include <cmath>
+
+namespace towbench::harness {
+
+bbmc::Configuration shown_configuration(const ExperimentFixture& fixture) {
+  auto shown = fixture.controller.configuration;
+  if (fixture.experiment.reference.empty()) {
+    return shown;
+  }
+  for (const auto which : core::kAxes) {
+    const auto& rig = fixture.rig.parameters.axes[which];
+    auto& axis = shown.axes[which];
+    axis.gear_ratio = rig.plant.gear_ratio;
+    axis.sprocket_radius_m = rig.plant.sprocket_radius_m;
+    axis.encoder_counts_per_rev = rig.encoder.counts_per_turn;
+    axis.ends.soft_min_count = std::llround(rig.plant.hard_ends.min_m / axis.m_per_count());
+    axis.ends.soft_max_count = std::llround(rig.plant.hard_ends.max_m / axis.m_per_count());
+  }
+  return shown;
+}
+
+}  // namespace towbench::harness
