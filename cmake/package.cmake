@@ -2,6 +2,7 @@
 # with the fixtures above them where they look for them; /usr/bin/towbench is a link to the bench.
 set(home lib/towbench)
 install(TARGETS towbench-bench towbench-panel towbench-study DESTINATION ${home})
+install(TARGETS axis_fmu DESTINATION ${home})
 install(DIRECTORY fixtures DESTINATION share/towbench)
 install(DIRECTORY docs/ DESTINATION share/doc/towbench/docs)
 install(FILES README.md DESTINATION share/doc/towbench)

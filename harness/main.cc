@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
                               add_falsify,
                               add_conform,
                               add_new_machine,
+                              add_export_fmu,
                               add_panel_elsewhere,
                               add_doctor,
                               add_completion,

@@ -28,7 +28,7 @@ help_of() { # help_of PROGRAM VERB
 
 {
   printf '# Verbs\n\n`./towbench VERB --help`, as the programs print it. Written by `tools/write_reference.sh`.\n'
-  for verb in demo run list validate emulate control replay report campaign falsify conform new-machine doctor completion; do help_of "$bench" "$verb"; done
+  for verb in demo run list validate emulate control replay report campaign falsify conform new-machine export-fmu doctor completion; do help_of "$bench" "$verb"; done
   help_of "$panel" panel
   for verb in identify tow results diagnose; do help_of "$study" "$verb"; done
   for verb in test package; do

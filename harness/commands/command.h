@@ -23,6 +23,7 @@ void add_falsify(CLI::App& app, int& exit_code);
 void add_conform(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_new_machine(CLI::App& app, int& exit_code);
+void add_export_fmu(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_completion(CLI::App& app, int& exit_code);
 // Start towbench-study and towbench-panel, which lie beside this program.

@@ -5,7 +5,7 @@
 run_packages=(
   g++ cmake ninja-build ccache git ca-certificates
   libboost-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libexpected-dev libgpiod-dev
-  libunicorn-dev libssl-dev libnlopt-cxx-dev
+  libunicorn-dev libssl-dev libnlopt-cxx-dev libpugixml-dev libzip-dev
 )
 # What the experiments that estimate need besides: `identify`, `diagnose` and their like.
 study_packages=(libeigen3-dev libceres-dev libmatio-dev liblz4-dev libzstd-dev)

@@ -25,7 +25,7 @@ Output bash(const std::string& script) {
 
 TEST(CommandLine, EveryVerbHasHelpWithAnExample) {
   for (const char* verb : {"demo", "run", "list", "validate", "emulate", "control", "replay",
-                           "report", "new-machine", "completion"}) {
+                           "report", "new-machine", "export-fmu", "completion"}) {
     const auto help = towbench(std::string(verb) + " --help");
     EXPECT_EQ(help.code, 0) << verb;
     EXPECT_THAT(help.text, HasSubstr("Example: towbench " + std::string(verb)));
