@@ -21,7 +21,7 @@ namespace {
 constexpr double kMakingLimit_s = 10;
 // Nothing that the bench emulates is larger: what is, has diverged.
 constexpr double kLargest = 1e9;
-constexpr double kSameTime_s = 1e-9;
+constexpr double kTimeTolerance_s = 1e-9;
 constexpr double kSamePlace = 1e-6;
 
 // Those of this process, for its forks.
@@ -68,7 +68,7 @@ struct Named {
   const char* name;
   double towbench_plant_output::*value;
 };
-constexpr std::array kOutputs{
+constexpr std::array kChecked{
     Named{"position_m", &towbench_plant_output::position_m},
     Named{"velocity_m_per_s", &towbench_plant_output::velocity_m_per_s},
     Named{"motor_angle_rad", &towbench_plant_output::motor_angle_rad},
@@ -226,12 +226,12 @@ bool IsolatedPlant::is_sound(double until_s) {
     fail(why.empty() ? "its step failed, and it does not say why" : why);
     return false;
   }
-  if (!(std::fabs(mailbox_->reached_s - until_s) <= kSameTime_s)) {
+  if (!(std::fabs(mailbox_->reached_s - until_s) <= kTimeTolerance_s)) {
     fail(fmt::format("it went to {} s instead of {} s", mailbox_->reached_s, until_s));
     return false;
   }
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    for (const auto& output : kOutputs) {
+    for (const auto& output : kChecked) {
       const double value = mailbox_->outputs[i].*output.value;
       if (!(std::fabs(value) <= kLargest)) {
         fail(fmt::format("axis {}: {} is {}", axes_[i].name, output.name, value));
