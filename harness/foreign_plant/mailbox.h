@@ -35,7 +35,9 @@ class TurnWord {
  private:
   alignas(64) std::atomic<std::uint32_t> word_{0};
   alignas(64) std::atomic<std::uint32_t> sleeps_{0};
-  int looks_ = 100;  // of the side that waits
+  // Of the side that waits.
+  int looks_ = 100;
+  unsigned waits_ = 0;
 };
 
 struct Mailbox {
