@@ -1,5 +1,6 @@
 #include "harness/fmi/unpacked_fmu.h"
 
+#include <cerrno>
 #include <cstdlib>
 #include <system_error>
 #include <variant>

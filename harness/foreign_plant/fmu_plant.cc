@@ -1,5 +1,6 @@
 #include "harness/foreign_plant/fmu_plant.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>

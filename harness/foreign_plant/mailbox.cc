@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <chrono>
 #include <ctime>
-#include <limits>
 #include <new>
 #include <system_error>
 
