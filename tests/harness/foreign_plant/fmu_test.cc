@@ -1,12 +1,15 @@
 // Functional Mock-up Units: an axis exported and imported again is the built-in axis, to the last
 // bit of the log; and what a unit may do wrong is one line.
 #include <array>
+#include <cstdlib>
+#include <filesystem>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "harness/fmi/axis_export.h"
 #include "harness/fmi/fmu_archive.h"
+#include "tests/harness/fixtures/temporary_fixtures.h"
 #include "tests/harness/foreign_plant/plants.h"
 
 namespace towbench::harness {
@@ -170,15 +173,9 @@ TEST(Fmu, ThatIsBrokenIsRefusedInOneLineAndLeavesNothingBehind) {
       {{good, code, {"/outside.txt", "x"}}, "a path outside the unit"},
       {{good, code, {"resources\\..\\outside.txt", "x"}}, "a path outside the unit"},
       {many, "holds 10002 files, more than 10000"}};
-  const auto temporary = [] {
-    std::size_t count = 0;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(std::filesystem::temp_directory_path())) {
-      count += entry.path().filename().string().starts_with("towbench-fmu-") ? 1U : 0U;
-    }
-    return count;
-  };
-  const auto before = temporary();
+  // A folder of its own: other tests unpack units at the same time.
+  const TemporaryFixtures own;
+  ASSERT_EQ(setenv("TMPDIR", own.folder().c_str(), 1), 0);
   for (const auto& unit : units) {
     write_fmu(imported.unit(), unit.entries);
     EXPECT_THAT(imported.refused(kTables),
@@ -192,7 +189,8 @@ TEST(Fmu, ThatIsBrokenIsRefusedInOneLineAndLeavesNothingBehind) {
   damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 0x55);
   std::ofstream(imported.unit(), std::ios::binary) << damaged;
   EXPECT_THAT(imported.refused(kTables), HasSubstr("is a broken archive at \"binaries/"));
-  EXPECT_EQ(temporary(), before);
+  EXPECT_TRUE(std::filesystem::is_empty(own.folder()));
+  ASSERT_EQ(unsetenv("TMPDIR"), 0);
 }
 
 }  // namespace

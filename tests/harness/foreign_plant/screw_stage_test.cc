@@ -83,8 +83,8 @@ TEST(ScrewStage, GoesOnFromASnapshot) {
                                     run->outcome.reason;
                            }});
   const auto expected = std::to_string(std::hash<std::string>{}(trace_of(*reference)));
-  EXPECT_EQ(snapshots.ask(middle_ns, "first"), expected);
-  EXPECT_EQ(snapshots.ask(middle_ns, "second"), expected);
+  EXPECT_EQ(snapshots.ask(middle_ns + 1, "first"), expected);
+  EXPECT_EQ(snapshots.ask(middle_ns + 1, "second"), expected);
 }
 
 class StageFault : public ::testing::TestWithParam<const char*> {};
