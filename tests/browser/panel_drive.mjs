@@ -9,7 +9,7 @@ export async function driveRuns({ checks, person, page, bench, root, runs, shots
   const replay = (folder) => execFileSync(bench, ["replay", join(runs, folder)], { cwd: root, encoding: "utf8" });
 
   await checks.run("the circle starts, the plots move", async () => {
-    await person.start("circle", "1", { hold: true });
+    await person.start("circle", "1", { hold: true, limit_s: 3000 });
     await person.until("Run", /^running/);
     await person.untilTime(4);
     const marks = await person.ink(".scope canvas");
