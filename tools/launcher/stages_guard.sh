@@ -103,7 +103,7 @@ stage_sanitize_address() {
   local targets=(test_core test_protocol test_clients test_board test_harness_report test_harness)
   local folders=(core protocol clients board harness) folder
   if [[ $everything == true ]]; then
-    targets+=(test_bbmc test_emulator)
+    targets+=(test_bbmc test_emulator towbench-study)
     folders+=(bbmc emulator)
   fi
   built sanitize "${targets[@]}" towbench-bench towbench-panel
