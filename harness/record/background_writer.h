@@ -56,7 +56,7 @@ class BackgroundWriter {
   void work();
 
   static constexpr std::size_t kMostWaiting = 64;
-  static constexpr std::chrono::microseconds kLook{500};
+  static constexpr std::chrono::milliseconds kLook{10};
 
   core::SpscQueue<WriterJob*, kMostWaiting> jobs_;
   std::size_t given_ = 0;              // giver's
