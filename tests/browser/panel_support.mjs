@@ -10,6 +10,7 @@ const seldom = { polling: 100 };
 export class Checks {
   failures = 0;
   passed = 0;
+  look = async () => ""; // what there is to see where a check fails
 
   async run(name, body) {
     const began = Date.now();
@@ -21,6 +22,7 @@ export class Checks {
       ++this.failures;
       const where = (error.stack ?? "").match(/panel_\w+\.mjs:\d+/g)?.join(" < ") ?? "";
       console.log(`FAIL ${name}\n     ${where} ${String(error.message ?? error).replace(/\n/g, "\n     ")}`);
+      console.log(`     ${await this.look().catch(String)}`);
     }
   }
 }
@@ -44,6 +46,18 @@ export function startPanel(bench, root, runs, options = []) {
   const address = () => (seen.length > 0 ? Promise.resolve(seen.shift()) : new Promise((done) => waiting.push(done)));
   return { child, address };
 }
+
+// How things stand with the page, in a line.
+export const standing = (page) =>
+  page.evaluate(async () => {
+    const drawn = await new Promise((done) => {
+      requestAnimationFrame(() => done("it draws"));
+      setTimeout(() => done("it does not draw"), 2000);
+    });
+    const { run, of } = document.getElementById("result").dataset;
+    const said = [...document.querySelectorAll("#connection, .trouble")].map((one) => one.textContent);
+    return `${drawn}; ${document.visibilityState}; run ${run}, verdict of ${of}; ${said.join("; ")}`;
+  });
 
 // A page and what a person does with it.
 export class Person {
