@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # What is tested: the project's own programs on real carriers, and the same verdicts on each.
-# usage: jobs.sh ROOT BUILD_FOLDER host|machine|table-host|table-machine
+# usage: jobs.sh ROOT BUILD_FOLDER host|machine|whole-machine|table-host|table-machine
 #   host      in one process, and over a pair of ptys: a tty is real everywhere
-#   machine   inside the test machine, after `host`: CAN
+#   machine   inside the test machine, after `host`: CAN, one experiment on each carrier and three faults
+#   whole-machine   the same with every experiment of the demo and every fault of the campaign
 #   table-host, table-machine   lines of the table in docs/measurements/carriers.md instead
 set -uo pipefail
-root=${1:?usage: jobs.sh ROOT BUILD_FOLDER host|machine} build=${2:?} where=${3:?}
+root=${1:?usage: jobs.sh ROOT BUILD_FOLDER host|machine|...} build=${2:?} where=${3:?}
 cd "$root" || exit 1
 export TOWBENCH_TEST_MACHINE=1 # where a carrier is missing a test fails instead of being skipped
 runs=$root/build/carriers/runs
@@ -52,6 +53,21 @@ demo_over() {
   if [[ $name != in-process ]]; then
     job "the same verdicts over $name as in one process" same_verdicts "$runs/in-process" "$runs/$name"
   fi
+}
+
+# one_over EXPERIMENT NAME CARRIER [LINES]: an experiment of the demo.
+one_over() {
+  local experiment=$1 name=$2 carrier=$3 lines=${4:-}
+  rm -rf "${runs:?}/$name" "$runs/in-process-$name"
+  mkdir -p "$runs/in-process-$name"
+  cp -r "$runs"/in-process/*-"$experiment"-* "$runs/in-process-$name"
+  job "$experiment over $name" bench run "$experiment" -q --no-report --carrier "$carrier" ${lines:+--lines "$lines"} --out "$runs/$name"
+  job "the same verdicts over $name as in one process" same_verdicts "$runs/in-process-$name" "$runs/$name"
+}
+
+# on_carrier EXPERIMENT NAME CARRIER [LINES]: it alone, or the demo.
+on_carrier() {
+  if [[ $where == whole-machine ]]; then demo_over "${@:2}"; else one_over "$@"; fi
 }
 
 # can-utils read what the bench logs, and play it. No more frames at once than the listener's socket
@@ -176,8 +192,9 @@ flood_of_foreign_frames() {
   return "$code"
 }
 
+# faults_over_can [CASES]: those of the campaign whose names hold this text.
 faults_over_can() {
-  bench campaign can --fresh --quiet --workers 1 --out "$runs/faults"
+  bench campaign can --fresh --quiet --workers 1 --out "$runs/faults" ${1:+--only "$1"}
 }
 
 # The example in C, over the same frames.
@@ -264,7 +281,7 @@ on_host() {
 in_machine() {
   job 'SocketCAN: filters, error frames, bus-off, queues' \
     "$build/tests/protocol/test_protocol" --gtest_brief=1 '--gtest_filter=SocketCan*'
-  demo_over vcan can:vcan0
+  on_carrier circle vcan can:vcan0
   job 'the C client over CAN: a trapezoid, judged' controller_in_c_over_can
   job 'edges over CAN FD: the log of a run in one process, bit for bit' edges_over_can_fd
   job 'GPIO lines: both sides, edges, debouncing, taken lines' \
@@ -272,7 +289,7 @@ in_machine() {
   job "GPIO lines behind BBMC's drivers" \
     "$build/tests/bbmc/test_bbmc" --gtest_brief=1 '--gtest_filter=ChipLine*'
   make_simulated_chip
-  demo_over vcan-and-gpio can:vcan0 "$chip,sim:$chip"
+  on_carrier endstop-y-max vcan-and-gpio can:vcan0 "$chip,sim:$chip"
   job 'encoder lines: order, times, a whole queue, a lost edge' \
     "$build/tests/protocol/test_protocol" --gtest_brief=1 '--gtest_filter=GpioEdges*'
   job 'a slow experiment with its encoders on lines: the same verdict' slow_experiment_with_encoders_on_lines
@@ -282,7 +299,12 @@ in_machine() {
   job 'a send queue that stays full in a run leaves both sides safe' send_queue_stays_full
   job "a node that babbles with the bench's identifiers leaves both sides safe" node_babbles
   job 'a flood of foreign frames changes no verdict' flood_of_foreign_frames
-  job 'faults over CAN: bus-off, a plant killed and restarted, a killed controller, lost and doubled frames' faults_over_can
+  if [[ $where == whole-machine ]]; then
+    job 'faults over CAN: bus-off, a plant killed and restarted, a killed controller, lost and doubled frames' faults_over_can
+  else
+    job 'faults over CAN: the bus goes off' faults_over_can bus_off
+    job 'faults over CAN: a plant is killed, and started again' faults_over_can link.to_controller.peer
+  fi
   job "can-utils play the bench's candump.log" candump_is_played
 }
 
@@ -320,7 +342,7 @@ table_in_machine() {
 
 case $where in
   host) on_host ;;
-  machine) in_machine ;;
+  machine | whole-machine) in_machine ;;
   table-host) table_on_host ;;
   table-machine) table_in_machine ;;
 esac

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # The real carriers: serial lines here, CAN in an emulated machine with a Debian kernel.
-# usage: run.sh ROOT BUILD_FOLDER
+# usage: run.sh ROOT BUILD_FOLDER machine|whole-machine
 # exit code: 0 all passed; 99 no such machine can be had here (a line says why); else failed.
 set -uo pipefail
-root=${1:?usage: run.sh ROOT BUILD_FOLDER} build=${2:?}
+root=${1:?usage: run.sh ROOT BUILD_FOLDER machine|whole-machine} build=${2:?} jobs=${3:?}
 here=$(dirname "${BASH_SOURCE[0]}")
 patience=${TOWBENCH_CARRIERS_SECONDS:-1500}
 kernel=$root/build/carriers/kernel
@@ -14,5 +14,5 @@ command -v qemu-system-x86_64 >/dev/null || {
   exit 99
 }
 "$here/fetch_kernel.sh" "$kernel" || exit
-"$here/boot.sh" "$kernel" "$patience" "$here/jobs.sh $root $build machine" | grep --line-buffered -v 'SeaBIOS\|Booting from'
+"$here/boot.sh" "$kernel" "$patience" "$here/jobs.sh $root $build $jobs" | grep --line-buffered -v 'SeaBIOS\|Booting from'
 exit "${PIPESTATUS[0]}"

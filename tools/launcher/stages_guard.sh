@@ -16,6 +16,7 @@ names_in() {
   done < <(sed -nE 's/^([^ #]+) *;.*/\1/p' "$root/tests/$1")
 }
 long_tests() { names_in long_tests.txt | paste -sd'|'; }
+slow_tests() { names_in slow_tests.txt | paste -sd'|'; }
 
 # A line that names no test any more would hide that a test has gone.
 every_long_test_exists() {
@@ -32,7 +33,7 @@ every_long_test_exists() {
 stage_tests() {
   built release
   count every_long_test_exists
-  run_ctest release . -E "$(long_tests)"
+  run_tests release . -E "$(long_tests)"
   slowest_tests release | protected_by >"$build/slowest_tests.txt"
 }
 
@@ -68,10 +69,11 @@ board_checks() {
 }
 
 stage_carriers() {
-  local status=0 log=$build/carriers.log
+  local status=0 log=$build/carriers.log jobs=machine
+  if [[ $everything == true ]]; then jobs=whole-machine; fi
   built release towbench-bench test_protocol test_bbmc c_pid
   if is_asked_for fresh_start; then start_fresh_start; fi
-  "$root/tests/carriers/run.sh" "$root" "$build/release" 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
+  "$root/tests/carriers/run.sh" "$root" "$build/release" "$jobs" 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
   passed=$((passed + $(grep -c '^@@ passed' "$log")))
   note=$(sed -n -e 's/^@@ \(real time unproven\).*/; \1/p' \
     -e 's/^@@ passed: by the wall clock over \(.*\), 10 kHz.*, valid in \(.*\)$/; real time over \1 in \2/p' "$log" | tr -d '\n')
@@ -88,7 +90,7 @@ stage_sanitize_thread() {
   built tsan test_core test_protocol test_bbmc
   local folder
   for folder in core protocol bbmc; do
-    TSAN_OPTIONS=halt_on_error=1 run_in_groups tsan "tests/$folder" -E "$(left_out)" || return 1
+    TSAN_OPTIONS=halt_on_error=1 run_tests tsan "tests/$folder" -E "$(left_out)" || return 1
   done
 }
 
@@ -110,7 +112,7 @@ stage_sanitize_address() {
   for folder in "${folders[@]}"; do
     LSAN_OPTIONS=suppressions=$root/tests/support/leaks_of_libraries.txt:print_suppressions=0 \
       ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 \
-      run_in_groups sanitize "tests/$folder" -E "$(left_out)|NOT_BUILT" -LE browser || return 1
+      run_tests sanitize "tests/$folder" -E "$(left_out)|NOT_BUILT" -LE browser || return 1
   done
 }
 

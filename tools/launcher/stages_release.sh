@@ -13,7 +13,7 @@ stage_attack() {
 
 stage_long_tests() {
   built release
-  run_ctest release . -R "$(long_tests)"
+  run_tests release . -R "$(long_tests)"
 }
 
 # Units hide a missing include; here every source stands for itself. Checked, not optimised.

@@ -57,7 +57,8 @@ with --all besides:
   mutants           controllers with one reaction removed: the fault campaign must catch each
   guard_mutations   ten slips in the sources: the tests that guard main must catch each
   slurm             the campaign as a job array on a real Slurm of one node, on loopback
-  sanitize_address takes whole runs, controller and emulator as well, fuzz a minute for each target
+  sanitize_address takes whole runs, controller and emulator as well, fuzz a minute for each target,
+  carriers every experiment of the demo and every fault of the campaign over CAN
 
 only on request (--only):
   build_times       what a newcomer waits for, measured three times: docs/measurements/build-times.md
@@ -155,26 +156,22 @@ reported() {
   count_report "$log" "$status"
 }
 
-# run_ctest PRESET FOLDER [ctest arguments...]: counts each test, shows the failed ones. Two more at a
-# time than processors, because many tests wait.
-run_ctest() {
+# run_tests PRESET FOLDER [ctest arguments that select...]: counts each test, shows the failed ones. One more at a time
+# than processors, because many tests wait. Tests share processes, and the slow ones start first.
+run_tests() {
   local preset=$1 folder=$2
   shift 2
-  counted_tests "$preset" "$folder" ctest --test-dir "$build/$preset/$folder" --output-on-failure \
-    --no-tests=error -j "$(($(nproc) + 2))" "$@"
-}
-
-# The same with many tests in one process: under a sanitizer a start costs more than most tests.
-run_in_groups() {
-  local preset=$1 folder=$2
-  shift 2
-  counted_tests "$preset" "$folder" python3 "$root/tools/run_in_groups.py" "$(($(nproc) + 1))" "$build/$preset/$folder" "$@"
+  # Memory that is given back and asked for again costs more than what is done with it.
+  MALLOC_MMAP_THRESHOLD_=1073741824 MALLOC_TRIM_THRESHOLD_=4294967296 MALLOC_TOP_PAD_=1048576 \
+    counted_tests "$preset" "$folder" \
+    python3 "$root/tools/run_in_groups.py" "$(($(nproc) + 1))" "$build/$preset/$folder" "$(slow_tests)" "$@"
 }
 
 # counted_tests PRESET FOLDER COMMAND...: a command that prints a line for each test, as ctest does.
 counted_tests() {
   local preset=$1 folder=$2 log=$build/$1.ctest.log status=0 line
   shift 2
+  rm -f "$log.running"
   watched "tests ($preset)" ctest_steps "$log.running" "$@" || status=$?
   mv "$log.running" "$log"
   line=$(grep -E 'tests? failed out of' "$log" || echo '0 tests failed out of 0')
