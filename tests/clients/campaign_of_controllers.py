@@ -80,8 +80,8 @@ if group == "guard":
     good("C", C_PID, 8, "any-trapezoid-y/kill_switch")
     good("C, the protocol's duties", C_PID, 13, "protocol/")
     bad("waits_for_ever", "protocol/stops_when_silent")
-    bad("deaf_to_kill", "any-trapezoid-y/kill_switch.pressed")
-    code, results, said, took_s = campaign("process:/nonexistent {address}")
+    bad("deaf_to_kill", "any-trapezoid-y/kill_switch.pressed/cruise")
+    code, results, said, took_s = campaign("process:/nonexistent {address}", "any-end-y-max")
     invalid = [line["verdict"] for line in results] == ["INVALID"] * len(results)
     expect(f"one that never comes: {len(results)} cases, all INVALID", code == 4 and results and invalid, (code, said[-400:]))
 else:
