@@ -16,7 +16,7 @@ WebClient::WebClient(beast::tcp_stream stream, OnMessage on_message, OnCaughtUp 
       on_caught_up_(std::move(on_caught_up)),
       on_end_(std::move(on_end)) {}
 
-void WebClient::open(const Request& request, std::string greeting) {
+void WebClient::open(const Request& request) {
   // The socket has a patience of its own.
   beast::get_lowest_layer(socket_).expires_never();
   websocket::stream_base::timeout patience{};
@@ -25,14 +25,14 @@ void WebClient::open(const Request& request, std::string greeting) {
   patience.keep_alive_pings = true;
   socket_.set_option(patience);
   socket_.read_message_max(kLongestMessage);
-  socket_.async_accept(request, [self = shared_from_this(),
-                                 text = std::move(greeting)](beast::error_code error) mutable {
+  socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
     if (error) {
       self->end();
       return;
     }
+    // As things stand now: what came while it was let in was not shown to it.
     self->open_ = true;
-    self->queue(std::make_shared<const std::string>(std::move(text)));
+    self->queue(std::make_shared<const std::string>(self->on_caught_up_()));
     self->read();
   });
 }

@@ -31,8 +31,8 @@ class WebClient : public std::enable_shared_from_this<WebClient> {
   WebClient(boost::beast::tcp_stream stream, OnMessage on_message, OnCaughtUp on_caught_up,
             OnEnd on_end);
 
-  // `greeting` is the first message.
-  void open(const Request& request, std::string greeting);
+  // The first message is what `on_caught_up` gives.
+  void open(const Request& request);
   // Shared by all pages; dropped when this one still has frames to swallow.
   void show(const std::shared_ptr<const std::string>& frame);
   void close();

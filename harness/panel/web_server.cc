@@ -137,7 +137,7 @@ class WebServer::Implementation {
           std::erase_if(pages_, [gone](const auto& one) { return one.get() == gone; });
         });
     pages_.push_back(page);
-    page->open(request, frames_.greeting());
+    page->open(request);
   }
 
   asio::io_context io_{1};
