@@ -4,6 +4,8 @@
 # A stage is a function stage_NAME that returns 0 (passed), 99 (skipped, reason in $skip_reason) or
 # anything else (failed). It adds what it counted to $passed, $failed and $skipped.
 
+# shellcheck source=tools/launcher/kept_passes.sh
+source "$root/tools/launcher/kept_passes.sh"
 # shellcheck source=tools/launcher/progress.sh
 source "$root/tools/launcher/progress.sh"
 # shellcheck source=tools/launcher/stages_guard.sh
@@ -18,11 +20,12 @@ on_request_stages=(build_times carrier_table panel_cost)
 
 test_usage() {
   cat <<'TEXT'
-usage: ./towbench test [--quick | --all] [--only STAGE]... [--list]
+usage: ./towbench test [--quick | --all] [--again] [--only STAGE]... [--list]
 
-  (nothing)     what guards main: 20 to 50 minutes on two cores, half where the compiler cache is warm
+  (nothing)     what guards main: 15 to 40 minutes on two cores, half where the compiler cache is warm
   --quick       lint, unit, integration and browser tests: before a commit
   --all         everything, for a release: some hours
+  --again       stages too that passed here with the same files, packages and kernel; else they are kept
   --only STAGE  this stage; may be repeated
   --carriers    the same as --only carriers
   --list        name the stages
@@ -72,23 +75,24 @@ TEXT
 
 run_test() {
   local stages=("${guard_stages[@]}") chosen=()
-  everything=false
+  everything=false again=false
   while (($#)); do
     case $1 in
       --quick) stages=("${quick_stages[@]}") ;;
       --all) stages=("${guard_stages[@]}" "${release_stages[@]}") everything=true ;;
-      --carriers) chosen+=(carriers) ;;
+      --again) again=true ;;
+      --carriers) chosen+=(carriers) again=true ;;
       --only)
         is_stage "${2:-}" || {
           echo "towbench: no stage '${2:-}' (allowed: ${guard_stages[*]} ${release_stages[*]} ${on_request_stages[*]})" >&2
           exit 2
         }
-        chosen+=("$2")
+        chosen+=("$2") again=true
         shift
         ;;
       --list) printf '%s\n' "${guard_stages[@]}" "${release_stages[@]}" "${on_request_stages[@]}"; return ;;
       --help | -h) test_usage; return ;;
-      *) echo "towbench: unknown argument '$1' to test (allowed: --quick --all --carriers --only --list --help)" >&2; exit 2 ;;
+      *) echo "towbench: unknown argument '$1' to test (allowed: --quick --all --again --carriers --only --list --help)" >&2; exit 2 ;;
     esac
     shift
   done
@@ -100,27 +104,44 @@ run_test() {
 is_stage() { [[ -n $1 && " ${guard_stages[*]} ${release_stages[*]} ${on_request_stages[*]} " == *" $1 "* ]]; }
 
 run_stages() {
-  passed=0 failed=0 skipped=0 summary='' fresh_start='' asked_for=("$@")
-  local stage started status verdict failed_before whole=$SECONDS
+  passed=0 failed=0 skipped=0 kept=0 summary='' fresh_start='' asked_for=("$@")
+  local stage started verdict whole=$SECONDS
   for stage in "$@"; do
     printf '\n== %s\n' "$stage"
-    started=$SECONDS skip_reason='' note='' built_s=0
-    status=0 failed_before=$failed
-    "stage_$stage" || status=$?
-    # What a stage has counted as failed fails it, whatever its last command returned.
-    ((status != 0 || failed == failed_before)) || status=1
-    case $status in
-      0) verdict=passed$note ;;
-      99) verdict="skipped: $skip_reason$note" skipped=$((skipped + 1)) ;;
-      *) verdict=FAILED failed=$((failed == 0 ? 1 : failed)) ;;
-    esac
+    started=$SECONDS built_s=0
+    run_or_keep "$stage"
     summary+=$(printf '%-18s %5d s %5d s  %s' "$stage" $((SECONDS - started)) "$built_s" "$verdict")$'\n'
   done
-  printf '\n%-18s %7s %7s\n%s%-18s %5d s\n\n%d passed, %d failed, %d skipped\n' \
+  printf '\n%-18s %7s %7s\n%s%-18s %5d s\n\n%d passed, %d failed, %d skipped' \
     stage time building "$summary" all $((SECONDS - whole)) "$passed" "$failed" "$skipped"
+  ((kept == 0)) || printf '; %d stages kept (--again runs them)' "$kept"
+  echo
   ((failed)) && exit 1
-  ((passed)) || exit 99
+  ((passed + kept)) || exit 99
   exit 0
+}
+
+# Sets $verdict.
+run_or_keep() {
+  local inputs='' status=0 failed_before=$failed
+  skip_reason='' note=''
+  if may_be_kept "$1"; then
+    inputs=$(inputs_of "$1")
+    if verdict=$(has_passed "$1" "$inputs"); then
+      verdict="kept: $verdict" kept=$((kept + 1))
+      echo "$verdict"
+      return
+    fi
+  fi
+  "stage_$1" || status=$?
+  # What a stage has counted as failed fails it, whatever its last command returned.
+  ((status != 0 || failed == failed_before)) || status=1
+  case $status in
+    0) verdict=passed$note ;;
+    99) verdict="skipped: $skip_reason$note" skipped=$((skipped + 1)) ;;
+    *) verdict=FAILED failed=$((failed == 0 ? 1 : failed)) ;;
+  esac
+  if ((status == 0)) && [[ -n $inputs ]]; then keep_pass "$1" "$inputs" "$note"; fi
 }
 
 is_asked_for() { [[ " ${asked_for[*]} " == *" $1 "* ]]; }
