@@ -19,7 +19,8 @@ pass() { keep_pass "$1" "$(inputs_of "$1")" ''; }
 
 ! kept tests || wrong 'kept without a pass'
 pass tests && pass board
-kept tests && kept board || wrong 'not kept though nothing changed'
+kept tests || wrong 'not kept though nothing changed'
+kept board || wrong 'another stage was not kept'
 ! kept sanitize_thread || wrong 'the pass of another stage was taken'
 git commit -q --allow-empty -m two
 kept tests || wrong 'a commit without a change was taken for one'
@@ -49,7 +50,8 @@ echo three >core/a.cc
 keep_pass tests "$before" ''
 ! kept tests || wrong 'a pass was kept though a file changed while it ran'
 git checkout -q core/a.cc
-pass fuzz && ! kept fuzz || wrong 'what draws new inputs was kept'
+pass fuzz
+! kept fuzz || wrong 'what draws new inputs was kept'
 again=true
 ! kept tests || wrong '--again was not heard'
 again=false everything=true

@@ -19,7 +19,7 @@ inputs_of() {
   local unseen
   mapfile -t unseen < <(unseen_by "$1")
   (
-    cd "$root"
+    cd "$root" || exit
     git ls-files -s -- . "${unseen[@]}"
     git diff --binary --no-ext-diff -- . "${unseen[@]}"
     git ls-files -oz --exclude-standard -- . "${unseen[@]}" | sort -z | xargs -0r sha256sum --
