@@ -12,7 +12,8 @@ RecordFaults::RecordFaults(const HostSchedule& host, std::filesystem::path folde
                            ControllerRecorder& recorder)
     : host_(host), folder_(std::move(folder)), recorder_(recorder) {
   if (!host_.full_disks.empty()) {
-    // Who writes is to be told by its write, as on a full disk, and not to be ended.
+    // A write beyond the limit then fails, as on a full disk. By default the signal ends the
+    // process.
     (void)std::signal(SIGXFSZ, SIG_IGN);
   }
 }
@@ -36,14 +37,14 @@ void RecordFaults::runs_to(core::Nanoseconds until_ns) noexcept {
   }
 }
 
-// As the log is now, no file of this process may become longer than it.
+// The limit is the length of the log at this moment: no file of this process may grow beyond it.
 void RecordFaults::fill_disk() noexcept {
   recorder_.catch_up();
   std::error_code error;
   const auto size = std::filesystem::file_size(folder_ / "log.csv", error);
   rlimit limit{};
   if (error || getrlimit(RLIMIT_FSIZE, &limit) != 0) {
-    return;  // then nothing is refused, and the fault has not fired
+    return;  // no write is refused, so the fault counts as not fired
   }
   before_ = limit;
   limit.rlim_cur = size;

@@ -55,7 +55,7 @@ double probe(const ProcedureContext& context, double duty_pct, double start_m, P
 }
 
 // How far alternating pulses take a body with that response, at most; and where they end.
-double reach(const Response& r, const PulseWish& wish, double duty_pct, int pulses) {
+double reach(const Response& r, const PulseLimits& limits, double duty_pct, int pulses) {
   constexpr double kStep_s = 2e-3;
   double x = 0;
   double v = 0;
@@ -71,8 +71,8 @@ double reach(const Response& r, const PulseWish& wish, double duty_pct, int puls
     }
   };
   for (int i = 0; i < pulses; ++i) {
-    drive(i % 2 == 0 ? duty_pct : -duty_pct, wish.on_s);
-    drive(0, wish.off_s);
+    drive(i % 2 == 0 ? duty_pct : -duty_pct, limits.on_s);
+    drive(0, limits.off_s);
   }
   drive(0, 3);
   return far;
@@ -80,7 +80,7 @@ double reach(const Response& r, const PulseWish& wish, double duty_pct, int puls
 
 }  // namespace
 
-PulsePlan plan_pulses(const ProcedureContext& context, const PulseWish& wish, double start_m) {
+PulsePlan plan_pulses(const ProcedureContext& context, const PulseLimits& limits, double start_m) {
   PulsePlan plan;
   const auto scale = torque_scale(context);
   const auto& belief = context.machine.configuration().axes[context.axis];
@@ -117,22 +117,22 @@ PulsePlan plan_pulses(const ProcedureContext& context, const PulseWish& wish, do
   const double saturation =
       value_or(context, "saturation_speed_m_per_s", belief.speed_limit_m_per_s);
   plan.duty_pct =
-      response.friction_duty + wish.peak_share * saturation / (response.per_duty * wish.on_s);
+      response.friction_duty + limits.peak_share * saturation / (response.per_duty * limits.on_s);
   plan.duty_pct = std::round(10 * plan.duty_pct) / 10;
   if (plan.duty_pct > 0.9 * largest_pct) {
     plan.refusal = fmt::format(
         "saturation: {:.0f} % of the saturation speed in {} s takes {:.0f} % duty, the current "
         "limit is at {:.0f} %",
-        100 * wish.peak_share, wish.on_s, plan.duty_pct, largest_pct);
+        100 * limits.peak_share, limits.on_s, plan.duty_pct, largest_pct);
     return plan;
   }
   const auto track = track_of(belief);
-  const double room = std::min(wish.longest_m, 0.7 * (track.max_m - start_m));
-  plan.pulses = wish.most_pulses;
-  while (plan.pulses > 2 && reach(response, wish, plan.duty_pct, plan.pulses) > room) {
+  const double room = std::min(limits.longest_m, 0.7 * (track.max_m - start_m));
+  plan.pulses = limits.most_pulses;
+  while (plan.pulses > 2 && reach(response, limits, plan.duty_pct, plan.pulses) > room) {
     plan.pulses -= 2;
   }
-  plan.reach_m = reach(response, wish, plan.duty_pct, plan.pulses);
+  plan.reach_m = reach(response, limits, plan.duty_pct, plan.pulses);
   if (plan.reach_m > room) {
     plan.refusal =
         fmt::format("no travel: two pulses go {:.2f} m, there are {:.2f} m", plan.reach_m, room);

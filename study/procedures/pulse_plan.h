@@ -1,5 +1,5 @@
-// How strong and how many pulses an axis takes: its response to two small ones, and a rigid body
-// that behaves like them.
+// Size and number of the pulses that fit an axis, from its response to two small pulses and a rigid
+// body fitted to them.
 #pragma once
 
 #include "study/procedures/procedure.h"
@@ -13,7 +13,8 @@ struct PulsePlan {
   std::string refusal;  // empty: can be run
 };
 
-struct PulseWish {
+// What the pulses must keep to.
+struct PulseLimits {
   double on_s = 0.3;
   double off_s = 0.3;
   double peak_share = 0.65;  // of the saturation speed
@@ -21,8 +22,8 @@ struct PulseWish {
   int most_pulses = 30;
 };
 
-// Moves the axis, a little, when it may. `start_m`: where the pulses will begin.
-[[nodiscard]] PulsePlan plan_pulses(const ProcedureContext& context, const PulseWish& wish,
+// Plays the two small pulses on the axis. `start_m`: where the planned pulses will begin.
+[[nodiscard]] PulsePlan plan_pulses(const ProcedureContext& context, const PulseLimits& limits,
                                     double start_m);
 
 }  // namespace towbench::harness::procedures

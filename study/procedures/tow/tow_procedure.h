@@ -26,7 +26,8 @@ struct TowContext {
   }
 };
 
-// Drag predicted by a position-blind model: what its bias follows from, for the judge.
+// Drag predicted by a model without friction by place: the stretches from which the judge computes
+// its bias.
 struct BlindPrediction {
   std::string quantity;
   std::vector<identify::TowStretch> identified;  // what the model rests on

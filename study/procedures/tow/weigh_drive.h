@@ -1,6 +1,7 @@
-// The drive's scale by a known weight (identify/tow/drive_scale.h): one tow in air with a weight
-// over a pulley that begins to pull on the way, and the same without. The weight's onset makes the
-// carriage swing on its chain, which gives the chain (identify/tow/chain_swing.h).
+// The drive's scale by a known weight (identify/tow/drive_scale.h): one tow in air during which a
+// weight over a pulley begins to pull, and one without it. The onset of the weight makes the
+// carriage swing on its chain, which gives the natural frequency of the
+// chain (identify/tow/chain_swing.h).
 #pragma once
 
 #include <string>
@@ -39,11 +40,11 @@ struct WeighedDrive {
   std::string trouble;  // empty: it was found
 };
 
-// Why it cannot be done, or empty.
+// The reason why the weight cannot be used on this axis, or empty.
 [[nodiscard]] std::string why_not(const Machine& machine, core::Axis axis,
                                   const WeighSettings& settings);
 
-// `machine`: with nothing in the water.
+// `machine` tows nothing in the water.
 [[nodiscard]] WeighedDrive weigh_drive(const Machine& machine, core::Axis axis,
                                        const WeighSettings& settings);
 
