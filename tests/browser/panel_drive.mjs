@@ -149,6 +149,16 @@ export async function driveRuns({ checks, person, page, bench, root, runs, shots
     execFileSync(bench, ["run", "circle", "--out", runs, "--quiet"], { cwd: root });
   });
 
+  await checks.run("a page that the browser does not draw says how the run ended", async () => {
+    await page.evaluate(() => {
+      window.drawing = window.requestAnimationFrame;
+      window.requestAnimationFrame = () => 0;
+    });
+    await person.start("endstop-y-max", "0");
+    assert.match(await person.over(), /^PASSendstop-y-max/);
+    await page.evaluate(() => (window.requestAnimationFrame = window.drawing));
+  });
+
   await checks.run("a run at full speed is drawn once a second at most, and at once when it is over", async () => {
     await page.evaluate(() => {
       window.drawn = [];

@@ -77,17 +77,18 @@ export class Person {
     await this.page.waitForFunction(
       ([lampName, source]) => new RegExp(source).test(document.querySelector(`[data-lamp="${lampName}"]`)?.textContent ?? ""),
       [name, pattern.source],
+      seldom,
     );
   }
   async untilTime(t) {
-    await this.page.waitForFunction((s) => Number.parseFloat(document.querySelector('[data-lamp="Virtual time"]').textContent) > s, t);
+    await this.page.waitForFunction((s) => Number.parseFloat(document.querySelector('[data-lamp="Virtual time"]').textContent) > s, t, seldom);
   }
   async type(line) {
     await this.page.fill("#console-line", line);
     await this.page.press("#console-line", "Enter");
   }
   async printed(words) {
-    await this.page.waitForFunction((text) => document.querySelector(".terminal").textContent.includes(text), words);
+    await this.page.waitForFunction((text) => document.querySelector(".terminal").textContent.includes(text), words, seldom);
   }
   // speed: as the page's choices have it; options: hold, clock, limit_s, faults.
   async start(experiment, speed, options = {}) {

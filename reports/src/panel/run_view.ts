@@ -17,6 +17,7 @@ import { type AxisName, type Frame, linesColumn, logColumns, rowWidth, type Stat
 
 const shown_s = 20; // harness/panel/frames.h sends no more
 const stale_s = 0.1; // truth that is older than this does not say where the carriage is now
+const patience_ms = 500; // for the browser to draw
 const y = logColumns("y");
 const x = logColumns("x");
 const trueY = truthColumns("y");
@@ -102,10 +103,15 @@ export class RunView {
     if (frame.state.trouble) this.tell(frame.state.trouble);
     if (this.drawing) return;
     this.drawing = true;
-    requestAnimationFrame(() => {
+    // A browser that shows no pictures, as of a page in the background, draws late or never.
+    const late = setTimeout(() => draw(), patience_ms);
+    const draw = () => {
+      if (!this.drawing) return;
+      clearTimeout(late);
       this.drawing = false;
       this.draw();
-    });
+    };
+    requestAnimationFrame(draw);
   }
 
   private beginRun(number: number): void {
