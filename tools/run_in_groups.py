@@ -12,8 +12,10 @@ Exit: 0 all passed, 8 some failed, 1 no tests.
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -80,15 +82,24 @@ class Slots:
 
 
 def ended(command: list[str], how: dict) -> tuple[int, str]:
+    """Status and output. What a test leaves running cannot hold up the others: its output is a file, not a pipe."""
     environment = os.environ | dict(entry.split("=", 1) for entry in how.get("ENVIRONMENT", []))
-    try:
-        process = subprocess.run(
+    seconds = float(how.get("TIMEOUT", SECONDS))
+    with tempfile.TemporaryFile() as output:
+        process = subprocess.Popen(
             command, cwd=how.get("WORKING_DIRECTORY"), env=environment, stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=float(how.get("TIMEOUT", SECONDS)),
+            stdout=output, stderr=subprocess.STDOUT, start_new_session=True,
         )  # fmt: skip
-        return process.returncode, process.stdout.decode(errors="replace")
-    except subprocess.TimeoutExpired as late:
-        return -1, (late.stdout or b"").decode(errors="replace") + f"\ntook more than {late.timeout} s\n"
+        late = ""
+        try:
+            status = process.wait(seconds)
+        except subprocess.TimeoutExpired:
+            status, late = -1, f"\ntook more than {seconds:.0f} s\n"
+        if late:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+        output.seek(0)
+        return status, output.read().decode(errors="replace") + late
 
 
 def run(group: list[dict], slots: Slots) -> tuple[list[tuple[str, str, float]], str]:

@@ -11,6 +11,7 @@ export class Checks {
   failures = 0;
   passed = 0;
   look = async () => ""; // what there is to see where a check fails
+  mend = async () => {}; // so that the next check finds an idle panel
 
   async run(name, body) {
     const began = Date.now();
@@ -23,6 +24,7 @@ export class Checks {
       const where = (error.stack ?? "").match(/panel_\w+\.mjs:\d+/g)?.join(" < ") ?? "";
       console.log(`FAIL ${name}\n     ${where} ${String(error.message ?? error).replace(/\n/g, "\n     ")}`);
       console.log(`     ${await this.look().catch(String)}`);
+      await this.mend().catch(() => {});
     }
   }
 }
@@ -58,6 +60,12 @@ export const standing = (page) =>
     const said = [...document.querySelectorAll("#connection, .trouble")].map((one) => one.textContent);
     return `${drawn}; ${document.visibilityState}; run ${run}, verdict of ${of}; ${said.join("; ")}`;
   });
+
+// Ends the run under way, if there is one.
+export async function endRun(page) {
+  await page.evaluate(() => document.getElementById("finish").click());
+  await page.waitForFunction(() => /PASS|FAIL|INVALID|no verdict/.test(document.getElementById("result").textContent), null, { ...seldom, timeout: 60_000 });
+}
 
 // A page and what a person does with it.
 export class Person {
