@@ -9,6 +9,7 @@ process does not report as passed or skipped has failed: a crash fails what come
 Exit: 0 all passed, 8 some failed, 1 no tests.
 """
 
+import contextlib
 import json
 import os
 import re
@@ -23,6 +24,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 IN_A_GROUP = 24
 SLOW_IN_A_GROUP = 3
 SECONDS = 900
+RUNNING: set[int] = set()  # sessions of the tests under way
 REPORTED = re.compile(r"^\[ +(OK|FAILED|SKIPPED) +\] (\S+?)(?:, where .*)? \((\d+) ms\)$", re.MULTILINE)
 
 
@@ -90,16 +92,25 @@ def ended(command: list[str], how: dict) -> tuple[int, str]:
             command, cwd=how.get("WORKING_DIRECTORY"), env=environment, stdin=subprocess.DEVNULL,
             stdout=output, stderr=subprocess.STDOUT, start_new_session=True,
         )  # fmt: skip
+        RUNNING.add(process.pid)
         late = ""
         try:
             status = process.wait(seconds)
         except subprocess.TimeoutExpired:
-            status, late = -1, f"\ntook more than {seconds:.0f} s\n"
-        if late:
             os.killpg(process.pid, signal.SIGKILL)
             process.wait()
+            status, late = -1, f"\ntook more than {seconds:.0f} s\n"
+        RUNNING.discard(process.pid)
         output.seek(0)
         return status, output.read().decode(errors="replace") + late
+
+
+def end_all(*_: object) -> None:
+    """Each test has a session of its own, which Ctrl-C at the terminal does not reach."""
+    for session in list(RUNNING):
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(session, signal.SIGKILL)
+    os._exit(130)
 
 
 def run(group: list[dict], slots: Slots) -> tuple[list[tuple[str, str, float]], str]:
@@ -143,6 +154,8 @@ class Report:
 
 def main() -> int:
     jobs, folder, slow, *selection = sys.argv[1:]
+    signal.signal(signal.SIGTERM, end_all)
+    signal.signal(signal.SIGINT, end_all)
     tests = listed(folder, selection)
     if not tests:
         print("No tests were found!!!")

@@ -30,7 +30,7 @@ void WebClient::open(const Request& request) {
       self->end();
       return;
     }
-    // As things stand now: what came while it was let in was not shown to it.
+    // The state of this moment: frames between request and acceptance were not sent to this client.
     self->open_ = true;
     self->queue(std::make_shared<const std::string>(self->on_caught_up_()));
     self->read();

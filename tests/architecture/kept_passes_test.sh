@@ -10,12 +10,14 @@ mkdir -p "$root/docs" "$root/core"
 cd "$root"
 git init -q . && git config user.email a@b && git config user.name a
 echo one >core/a.cc && echo page >docs/a.md && echo '*.log' >.gitignore && git add . && git commit -qm one
-# shellcheck source=tools/launcher/kept_passes.sh
-source "$source_root/tools/launcher/kept_passes.sh"
+root=$source_root
+# shellcheck source=tools/launcher/test.sh
+source "$source_root/tools/launcher/test.sh"
+root=$scratch/clone
 
 wrong() { echo "kept_passes: $1"; exit 1; }
-kept() { may_be_kept "$1" && has_passed "$1" "$(inputs_of "$1")" >/dev/null; }
-pass() { keep_pass "$1" "$(inputs_of "$1")" ''; }
+kept() { may_be_kept "$1" && has_passed "$1" "$(inputs)" >/dev/null; }
+pass() { keep_pass "$1" "$(inputs)" ''; }
 
 ! kept tests || wrong 'kept without a pass'
 pass tests && pass board
@@ -40,12 +42,11 @@ rm core/b.cc && rm core/a.cc
 git checkout -q core/a.cc && chmod +x core/a.cc
 ! kept tests || wrong 'a changed mode was not seen'
 chmod -x core/a.cc && echo other >docs/a.md
-! kept tests || wrong 'a page was not seen by a stage that reads pages'
-kept board || wrong 'a page was seen by a stage that reads none'
+! kept board || wrong 'a changed page was not seen'
 git checkout -q docs/a.md
 ! TOWBENCH_FUZZ_SECONDS=3 kept tests || wrong 'a variable was not seen'
 
-before=$(inputs_of sanitize_address)
+before=$(inputs)
 echo three >core/a.cc
 keep_pass sanitize_address "$before" ''
 git checkout -q core/a.cc
@@ -56,4 +57,16 @@ again=true
 ! kept tests || wrong '--again was not heard'
 again=false everything=true
 ! kept tests || wrong '--all was not heard'
+
+# The runner of stages.
+everything=false
+rm -r "$build/passed"
+stage_tests() { passed=$((passed + 1)); }
+stage_board() { failed=$((failed + 1)); }
+ran() { (run_stages "$@") 2>&1 || echo "exit code $?"; }
+ran tests board | grep -q 'exit code 1' || wrong 'a failed stage did not fail the run'
+second=$(ran tests board)
+grep -q '^tests .*kept: passed' <<<"$second" || wrong 'the runner did not keep a pass'
+grep -q '^board .*FAILED' <<<"$second" || wrong 'the runner kept a failure'
+! ran tests | grep -q 'exit code' || wrong 'a run of kept stages alone did not pass'
 echo 'kept while the inputs are the same, and run again when one differs'

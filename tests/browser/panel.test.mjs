@@ -35,7 +35,7 @@ await withBrowser(async (context) => {
   // Generous: a test that only fails on a busy machine says nothing about the page.
   page.setDefaultTimeout(Number(process.env.TOWBENCH_PATIENCE_MS ?? 180_000));
   checks.look = () => standing(page);
-  checks.mend = () => endRun(page);
+  checks.recover = () => endRun(page);
   const noise = listen(page, origin);
   await page.setViewportSize({ width: 1440, height: 1100 });
 

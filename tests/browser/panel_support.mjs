@@ -11,7 +11,7 @@ export class Checks {
   failures = 0;
   passed = 0;
   look = async () => ""; // what there is to see where a check fails
-  mend = async () => {}; // so that the next check finds an idle panel
+  recover = async () => {}; // so that the next check finds an idle panel
 
   async run(name, body) {
     const began = Date.now();
@@ -24,7 +24,7 @@ export class Checks {
       const where = (error.stack ?? "").match(/panel_\w+\.mjs:\d+/g)?.join(" < ") ?? "";
       console.log(`FAIL ${name}\n     ${where} ${String(error.message ?? error).replace(/\n/g, "\n     ")}`);
       console.log(`     ${await this.look().catch(String)}`);
-      await this.mend().catch(() => {});
+      await this.recover().catch(() => {});
     }
   }
 }

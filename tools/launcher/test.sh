@@ -126,7 +126,7 @@ run_or_keep() {
   local inputs='' status=0 failed_before=$failed
   skip_reason='' note=''
   if may_be_kept "$1"; then
-    inputs=$(inputs_of "$1")
+    inputs=$(inputs)
     if verdict=$(has_passed "$1" "$inputs"); then
       verdict="kept: $verdict" kept=$((kept + 1))
       echo "$verdict"
@@ -182,7 +182,7 @@ reported() {
 run_tests() {
   local preset=$1 folder=$2
   shift 2
-  # Memory that is given back and asked for again costs more than what is done with it.
+  # The allocator keeps freed memory: on some hosts a page fault costs more than the work on the page.
   MALLOC_MMAP_THRESHOLD_=1073741824 MALLOC_TRIM_THRESHOLD_=4294967296 MALLOC_TOP_PAD_=1048576 \
     counted_tests "$preset" "$folder" \
     python3 "$root/tools/run_in_groups.py" "$(($(nproc) + 1))" "$build/$preset/$folder" "$(slow_tests)" "$@"

@@ -103,7 +103,7 @@ export class RunView {
     if (frame.state.trouble) this.tell(frame.state.trouble);
     if (this.drawing) return;
     this.drawing = true;
-    // A browser that shows no pictures, as of a page in the background, draws late or never.
+    // A browser does not draw a page in the background: it is updated without an animation frame then.
     const late = setTimeout(() => draw(), patience_ms);
     const draw = () => {
       if (!this.drawing) return;
