@@ -32,8 +32,8 @@ if(TOWBENCH_FUZZ)
 endif()
 
 # A build is mostly the parsing of headers, so sources of one library are compiled a few at a time.
-# TOWBENCH_UNITY=OFF compiles each alone: for clang-tidy, for the mutants, and so that a missing
-# include is still an error (`./towbench test --only alone`).
+# TOWBENCH_UNITY=OFF compiles each alone: for clang-tidy, and so that a missing include is still an
+# error (`./towbench test --only alone`).
 set(CMAKE_UNITY_BUILD ${TOWBENCH_UNITY})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)
 
