@@ -109,6 +109,16 @@ Check script_went_on(const CaseEvidence& evidence) {
   constexpr auto kMeaning = "the console took every line and came to rest";
   const auto& outcome = evidence.run.outcome;
   const bool plant_killed = plant_may_end(evidence);
+  const auto& stalls = evidence.prepared.injection.host.stalls;
+  const bool held = std::any_of(stalls.begin(), stalls.end(), [&](const auto& stall) {
+    return stall.from_ns <= outcome.end_ns && stall.until_ns >= outcome.end_ns;
+  });
+  if ((!outcome.complete || !outcome.script_failure.empty()) && held) {
+    auto check = passed(kName, kMeaning);
+    check.verdict = Verdict::kInvalid;
+    check.reason = "the controller's host is still held when the record ends";
+    return check;
+  }
   if (!outcome.complete && !plant_killed) {
     return failed(kName, kMeaning, outcome.reason);
   }
