@@ -5,15 +5,17 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "harness/commands/command.h"
 #include "harness/commands/falsify_options.h"
+#include "harness/commands/falsify_parts.h"
 #include "harness/commands/falsify_worst.h"
 #include "harness/commands/option_checks.h"
-#include "harness/commands/progress_line.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/falsify/falsify_report.h"
 #include "harness/fixtures/canonical_hash.h"
@@ -23,8 +25,8 @@
 namespace towbench::harness {
 namespace {
 
-std::vector<FaultSpace> spaces_of(const FalsifyOptions& options, const ExperimentFixture& fixture,
-                                  double end_s) {
+std::vector<FaultSpace> fault_spaces(const FalsifyOptions& options,
+                                     const ExperimentFixture& fixture, double end_s) {
   core::PerAxis<bool> exists;
   for (const auto axis : core::kAxes) {
     exists[axis] = fixture.rig.parameters.axes[axis].exists;
@@ -37,8 +39,20 @@ std::vector<FaultSpace> spaces_of(const FalsifyOptions& options, const Experimen
   if (!options.second.empty()) {
     second = fault_choices({options.second}, exists);
   }
+  auto choices = fault_choices(options.faults, exists);
+  if (!options.except.empty()) {
+    const auto left_out = fault_choices(options.except, exists);
+    std::erase_if(choices, [&](const FaultChoice& one) {
+      return std::find(left_out.begin(), left_out.end(), one) != left_out.end();
+    });
+  }
+  if (choices.empty()) {
+    throw FixtureError({.file = "command line", .key = "--except"},
+                       fmt::format("{}", fmt::join(options.except, ",")),
+                       "fewer than --faults names: no fault is left");
+  }
   std::vector<FaultSpace> spaces;
-  for (const auto& choice : fault_choices(options.faults, exists)) {
+  for (const auto& choice : choices) {
     if (second.empty()) {
       spaces.emplace_back(std::vector{choice}, end_s, setup);
     }
@@ -49,23 +63,25 @@ std::vector<FaultSpace> spaces_of(const FalsifyOptions& options, const Experimen
   return spaces;
 }
 
-std::string fingerprint_of(const FalsifyOptions& options, const ExperimentFixture& fixture,
-                           const Asked& asked, const CandidateController& controller,
-                           const std::vector<FaultSpace>& spaces, std::size_t runs_a_round) {
+std::string fingerprint_of(const FalsifyOptions& options,
+                           const std::vector<ExperimentFixture>& fixtures, const Asked& asked,
+                           const CandidateController& controller, const Search& search) {
   CanonicalHash hash;
   std::ifstream program("/proc/self/exe", std::ios::binary);
   std::ostringstream bytes;
   bytes << program.rdbuf();
   hash.add(bytes.str());
-  for (const auto& source : fixture.sources) {
-    hash.add(source.text);
+  for (const auto& fixture : fixtures) {
+    for (const auto& source : fixture.sources) {
+      hash.add(source.text);
+    }
   }
   hash.add(asked.name() + '\n' + asked.text() + '\n' + options.optimiser + '\n' +
-           fmt::format("{} {} {} {}", options.seed, runs_a_round, options.until_broken,
-                       options.setup.typed));
-  for (const auto& space : spaces) {
+           fmt::format("{} {} {} {}", options.seed, search.settings.runs_a_round,
+                       options.until_broken, options.setup.typed));
+  for (const auto& space : search.spaces) {
     hash.add(space.name());
-    for (const auto& variable : space.variables()) {
+    for (const auto& variable : space.faults.variables()) {
       hash.add(fmt::format("{} {} {}", variable.name, variable.from, variable.to));
     }
   }
@@ -73,84 +89,103 @@ std::string fingerprint_of(const FalsifyOptions& options, const ExperimentFixtur
   return hash_text(hash.value());
 }
 
-std::string how_far(const FalsifySession& session, const SearchBudget& budget, double elapsed_s,
-                    const std::string& unit) {
-  const auto* worst = session.worst();
-  const auto best = worst == nullptr
-                        ? std::string("no fault took effect yet")
-                        : fmt::format("smallest margin {:.4g} {} ({})", *worst->outcome.margin,
-                                      unit, session.spaces()[worst->space].name());
-  const auto of = budget.time_s > 0 ? fmt::format(", {:.0f} of {:.0f} s", elapsed_s, budget.time_s)
-                                    : fmt::format(" of {} runs", budget.runs);
-  return fmt::format("{}{}, {}", session.trials().size(), of, best);
+std::vector<ExperimentFixture> searched_experiments(const FalsifyOptions& options) {
+  std::vector<ExperimentFixture> fixtures;
+  for (const auto& name : options.experiments) {
+    fixtures.push_back(load_experiment(find_experiment(name)));
+    if (!fixtures.back().experiment.faults.empty()) {
+      throw FixtureError({.file = fixtures.back().file.string()}, "an experiment with faults",
+                         "one without: the search brings its own");
+    }
+  }
+  return fixtures;
+}
+
+// One margin is compared with another's: it is of the same requirement.
+Asked asked_of_all(const FalsifyOptions& options, const std::vector<ExperimentFixture>& fixtures) {
+  const auto asked = asked_of(options, fixtures.front().experiment);
+  for (const auto& fixture : fixtures) {
+    const auto other = asked_of(options, fixture.experiment);
+    if (other.name() != asked.name() || other.text() != asked.text()) {
+      throw FixtureError({.file = fixture.file.string()}, other.name() + ": " + other.text(),
+                         asked.name() + ": " + asked.text() + ", as of the first experiment");
+    }
+  }
+  return asked;
+}
+
+Search prepare_search(FalsifyOptions& options, const std::vector<ExperimentFixture>& fixtures,
+                      const Asked& asked, const CandidateController& controller) {
+  Search search{.budget = parse_budget(options.budget), .unit = asked.unit()};
+  for (const auto& fixture : fixtures) {
+    check_setup(options, fixture, asked, controller);
+    search.objectives.push_back(controller.is_bbmc()
+                                    ? in_process_objective(fixture, asked, options.snapshots)
+                                    : candidate_objective(fixture, asked, controller));
+    for (auto& faults : fault_spaces(options, fixture, search.objectives.back()->end_s())) {
+      search.spaces.push_back({.experiment = search.objectives.size() - 1,
+                               .motion = fixtures.size() > 1 ? fixture.experiment.name : "",
+                               .faults = std::move(faults)});
+    }
+  }
+  const auto runs = search.budget.runs;
+  constexpr std::size_t kFewest = 20;
+  constexpr std::size_t kMost = 200;
+  search.settings = {.runs = runs,
+                     .runs_a_round = std::clamp(runs / search.spaces.size(),
+                                                std::min(kFewest, runs), std::max(kMost, kFewest)),
+                     .seed = options.seed,
+                     .optimiser = optimiser_named(options.optimiser),
+                     .until_broken = options.until_broken};
+  search.settings.fingerprint = fingerprint_of(options, fixtures, asked, controller, search);
+  return search;
+}
+
+std::string name_of(const std::vector<ExperimentFixture>& fixtures) {
+  return fixtures.size() == 1 ? fixtures.front().experiment.name
+                              : fmt::format("{} experiments", fixtures.size());
 }
 
 int execute_falsify(FalsifyOptions& options) {
-  const auto budget = parse_budget(options.budget);
-  const auto fixture = load_experiment(find_experiment(options.experiment));
-  const auto asked = asked_of(options, fixture.experiment);
+  const auto shard = parse_shard(options.shard);
+  const auto fixtures = searched_experiments(options);
+  const auto asked = asked_of_all(options, fixtures);
   const auto controller = candidate_of(options.controller);
-  if (!fixture.experiment.faults.empty()) {
-    throw FixtureError({.file = fixture.file.string()}, "an experiment with faults",
-                       "one without: the search brings its own");
-  }
-  check_setup(options, fixture, asked, controller);
+  const auto search = prepare_search(options, fixtures, asked, controller);
   if (options.out.empty()) {
-    options.out = "runs/falsify-" + fixture.experiment.name;
+    options.out = "runs/falsify" +
+                  (fixtures.size() == 1 ? '-' + fixtures.front().experiment.name : std::string());
   }
-  const auto objective = controller.is_bbmc()
-                             ? in_process_objective(fixture, asked, options.snapshots)
-                             : candidate_objective(fixture, asked, controller);
-  const auto spaces = spaces_of(options, fixture, objective->end_s());
-  const auto runs_a_round = std::clamp<std::size_t>(budget.runs / spaces.size(),
-                                                    std::min<std::size_t>(20, budget.runs), 200);
   const std::filesystem::path folder = options.out;
   std::filesystem::create_directories(folder);
   if (options.fresh) {
-    std::filesystem::remove(folder / "trials.jsonl");
+    remove_trials(folder, shard);
   }
-  FalsifySettings settings{.runs = budget.runs,
-                           .runs_a_round = runs_a_round,
-                           .seed = options.seed,
-                           .optimiser = optimiser_named(options.optimiser),
-                           .until_broken = options.until_broken};
-  settings.fingerprint = fingerprint_of(options, fixture, asked, controller, spaces, runs_a_round);
-  FalsifySession session(settings, spaces, folder / "trials.jsonl");
-  bool whole = false;
-  {
-    ProgressLine progress(!options.quiet);
-    const auto time_is_left = [&] {
-      return budget.time_s == 0 || progress.elapsed_s() < budget.time_s;
-    };
-    whole = session.run(
-        *objective, [&] { return !stop_requested() && time_is_left(); },
-        [&](const FalsifySession& now) {
-          progress.show_sometimes(
-              [&] { return how_far(now, budget, progress.elapsed_s(), asked.unit()); });
-        });
-  }
+  const auto result = run_search(options, search);
+  const auto& session = result.session;
   const auto* worst = session.worst();
-  const bool interrupted = !whole && stop_requested();
   std::optional<ShrunkCase> needed;
-  if (worst != nullptr && !interrupted) {
-    needed = shrink(worst->tried, worst->outcome, *objective);
+  const auto place = worst == nullptr ? 0 : session.spaces()[worst->space].experiment;
+  if (worst != nullptr && result.whole) {
+    needed = shrink(worst->tried, worst->outcome, *search.objectives[place]);
   }
-  const auto text =
-      falsify_report(session, asked, fixture.experiment.name, needed ? &*needed : nullptr);
+  const auto text = falsify_report(session, asked, name_of(fixtures), needed ? &*needed : nullptr);
   write_atomically(folder / "falsify.md", text);
   if (!options.quiet) {
     std::fputs(text.c_str(), stdout);
   }
-  if (interrupted) {
-    std::printf("interrupted after %zu runs; the same command goes on\n", session.trials().size());
+  if (!result.whole) {
+    std::printf("%s after %zu runs; the same command goes on\n",
+                stop_requested() ? "interrupted" : "other parts are not complete",
+                session.trials().size());
     return kExitRuntime;
   }
   if (!needed) {
     std::printf("INVALID  %s: no fault took effect, so nothing was tried\n",
-                fixture.experiment.name.c_str());
+                name_of(fixtures).c_str());
     return kExitInvalid;
   }
-  return report_worst(options, fixture, asked, controller, *needed);
+  return report_worst(options, fixtures[place], asked, controller, *needed);
 }
 
 }  // namespace
@@ -159,8 +194,8 @@ void add_falsify(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<FalsifyOptions>();
   auto* verb =
       app.add_subcommand("falsify", "search the faults and setups that break a requirement");
-  verb->add_option("experiment", options->experiment,
-                   "name of an experiment of fixtures/experiments, or a path")
+  verb->add_option("experiment", options->experiments,
+                   "names of experiments of fixtures/experiments, or paths; several are one search")
       ->required();
   verb->add_option("--requirement", options->requirement,
                    "id of a [[requirement]], or rules: what holds whatever fails [the one with "
@@ -168,6 +203,9 @@ void add_falsify(CLI::App& app, int& exit_code) {
   verb->add_option(
           "--faults", options->faults,
           "kinds, places or \"PLACE KIND\", separated by commas; none: the setup alone [all]")
+      ->delimiter(',');
+  verb->add_option("--except", options->except,
+                   "of these, what is left out: known already, and the search is for others")
       ->delimiter(',');
   verb->add_option("--second", options->second, "a second fault in every run: \"PLACE KIND\"");
   verb->add_option("--machine", options->setup.machine,
@@ -193,6 +231,20 @@ void add_falsify(CLI::App& app, int& exit_code) {
                    "moments from which runs in this process go on; 0: each begins anew")
       ->check(CLI::Range(0, 200))
       ->capture_default_str();
+  auto* workers =
+      verb->add_option("--workers", options->workers,
+                       "parts side by side, each with its own seed and an equal share of the runs");
+  workers->check(CLI::Range(1, 1000))->capture_default_str();
+  auto* part = verb->add_option("--shard", options->shard,
+                                "i/n: the i-th of n parts alone; --workers n then puts together");
+  auto* slurm = verb->add_option("--slurm", options->slurm,
+                                 "parts as a Slurm job array; --out is seen by all nodes");
+  slurm->check(CLI::Range(1, 10000));
+  part->capture_default_str()->excludes(workers)->excludes(slurm);
+  workers->excludes(slurm);
+  verb->add_option("--slurm-option", options->slurm_options,
+                   "one more #SBATCH line, such as --partition=main")
+      ->needs(slurm);
   verb->add_option("--out", options->out,
                    "folder of trials, falsify.md and the worst run; trials that are there are not "
                    "run again [runs/falsify-EXPERIMENT]")

@@ -115,6 +115,9 @@ void check_setup(FalsifyOptions& options, const ExperimentFixture& fixture, cons
   }
   const bool varies =
       setup.machine > 0 || setup.start_m > 0 || !options.speed.empty() || !setup.typed.empty();
+  if (options.snapshots > 0 && options.workers > 1) {
+    refuse("--snapshots", fmt::format("{}", options.snapshots), "0 with --workers");
+  }
   if (options.snapshots > 0 && varies) {
     refuse("--snapshots", fmt::format("{}", options.snapshots),
            "0 where the setup varies: each run begins anew");

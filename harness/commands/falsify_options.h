@@ -13,9 +13,10 @@
 namespace towbench::harness {
 
 struct FalsifyOptions {
-  std::string experiment;
+  std::vector<std::string> experiments;
   std::string requirement;
   std::vector<std::string> faults;
+  std::vector<std::string> except;
   std::string second;
   SetupRanges setup;
   std::vector<double> speed;
@@ -26,6 +27,10 @@ struct FalsifyOptions {
   std::string keep;
   std::uint64_t seed = 1;
   std::size_t snapshots = 0;
+  std::string shard = "1/1";
+  std::size_t workers = 1;
+  std::size_t slurm = 0;
+  std::vector<std::string> slurm_options;
   bool until_broken = false;
   bool fresh = false;
   bool quiet = false;

@@ -7,8 +7,6 @@
 
 #include <nlopt.hpp>
 
-#include "core/random.h"
-
 namespace towbench::harness {
 namespace {
 
@@ -28,9 +26,7 @@ class Search {
         static_cast<std::size_t>(std::ceil(share * static_cast<double>(settings_.runs)));
     core::Random random(settings_.seed);
     for (std::size_t i = 0; i < samples && !over(); ++i) {
-      BoxPoint point(settings_.variables);
-      std::generate(point.begin(), point.end(), [&] { return random.uniform(); });
-      (void)take(point, true);
+      (void)take(uniform_point(random, settings_.variables), true);
     }
     if (!samples_alone) {
       optimise();
@@ -121,9 +117,11 @@ class Search {
   // The best samples, none close to a better one.
   [[nodiscard]] std::vector<BoxPoint> best_samples() const {
     std::vector<const BoxTrial*> defined;
-    for (const auto& trial : found_.trials) {
-      if (trial.value) {
-        defined.push_back(&trial);
+    for (const auto* trials : {&settings_.known, &found_.trials}) {
+      for (const auto& trial : *trials) {
+        if (trial.value) {
+          defined.push_back(&trial);
+        }
       }
     }
     std::stable_sort(defined.begin(), defined.end(),
@@ -163,6 +161,12 @@ class Search {
 };
 
 }  // namespace
+
+BoxPoint uniform_point(core::Random& random, std::size_t variables) {
+  BoxPoint point(variables);
+  std::generate(point.begin(), point.end(), [&] { return random.uniform(); });
+  return point;
+}
 
 BoxSearchResult search_box(
     const BoxSearchSettings& settings,

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/random.h"
+
 namespace towbench::harness {
 
 using BoxPoint = std::vector<double>;  // each 0 .. 1
@@ -26,6 +28,12 @@ enum class Optimiser : std::uint8_t {
 inline constexpr std::string_view kOptimiserNames[] = {"uniform", "sbplx", "crs2", "direct",
                                                        "esch"};
 
+struct BoxTrial {
+  BoxPoint point{};
+  std::optional<double> value{};  // none: undefined there
+  bool uniform = false;           // sampled, not chosen
+};
+
 struct BoxSearchSettings {
   std::size_t variables = 1;
   std::size_t runs = 100;
@@ -33,18 +41,15 @@ struct BoxSearchSettings {
   Optimiser optimiser = Optimiser::kSubplex;
   double uniform_share = 0.5;          // of the runs; not of kUniform
   std::optional<double> stop_below{};  // the search is over at a smaller value
-};
-
-struct BoxTrial {
-  BoxPoint point{};
-  std::optional<double> value{};  // none: undefined there
-  bool uniform = false;           // sampled, not chosen
+  std::vector<BoxTrial> known{};       // made before: the optimiser begins at the best of them too
 };
 
 struct BoxSearchResult {
   std::vector<BoxTrial> trials{};     // in the order in which they were made
   std::optional<std::size_t> best{};  // of the smallest value, the first
 };
+
+[[nodiscard]] BoxPoint uniform_point(core::Random& random, std::size_t variables);
 
 // `measure` is called once a trial; it returns the value there, or none.
 [[nodiscard]] BoxSearchResult search_box(

@@ -41,13 +41,16 @@ std::string covered_text(const std::vector<SearchVariable>& variables,
 std::string row_of(const FalsifySession& session, std::size_t space, const std::string& unit) {
   const auto found = coverage_of(session, space);
   const auto& of = session.spaces()[space];
+  if (found.runs == 0) {
+    return {};
+  }
   const auto bound = found.uniform_broken > 0
                          ? fmt::format("{} of {} broke it", found.uniform_broken, found.uniform)
                          : fmt::format("{:.3g} %", 100 * rule_of_three(found.uniform));
   const bool one_of_few = found.worst != nullptr && !found.worst->tried.faults.empty();
   return fmt::format(
       "| {} | {} | {} | {} | {} | {} | {} | {} |\n", of.name(), found.runs, found.fired,
-      found.uniform, covered_text(of.variables(), found.covered),
+      found.uniform, covered_text(of.faults.variables(), found.covered),
       found.worst == nullptr ? "none" : margin_text(*found.worst->outcome.margin, unit), bound,
       one_of_few ? words_of({.faults = found.worst->tried.faults}) : "");
 }
@@ -56,7 +59,7 @@ std::string row_of(const FalsifySession& session, std::size_t space, const std::
 
 SpaceCoverage coverage_of(const FalsifySession& session, std::size_t space) {
   SpaceCoverage found;
-  const auto variables = session.spaces()[space].variables().size();
+  const auto variables = session.spaces()[space].faults.variables().size();
   std::vector<std::vector<bool>> parts(variables, std::vector<bool>(kParts));
   for (const auto& trial : session.trials()) {
     if (trial.space != space) {
@@ -108,8 +111,15 @@ std::string falsify_report(const FalsifySession& session, const Asked& asked,
   text +=
       "\n| faults | runs | took effect | uniform samples | covered of the range | smallest margin "
       "| may still break it | where |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  std::size_t untried = 0;
   for (std::size_t space = 0; space < session.spaces().size(); ++space) {
-    text += row_of(session, space, asked.unit());
+    const auto row = row_of(session, space, asked.unit());
+    untried += row.empty() ? 1U : 0U;
+    text += row;
+  }
+  if (untried > 0) {
+    text += fmt::format("\n{} of {} rows are left out: the runs did not suffice for one each.\n",
+                        untried, session.spaces().size());
   }
   return text +
          "\nNothing found is no proof. The last column but one is what uniform sampling gives: "

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <fstream>
+#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -58,9 +60,27 @@ std::vector<std::string> lines_of(const std::filesystem::path& file,
   return lines;
 }
 
+std::optional<double> value_of(const FalsifyTrial& trial) {
+  return trial.outcome.fired ? trial.outcome.margin : std::nullopt;
+}
+
+// 0 .. n - 1 in a drawn order.
+std::vector<std::size_t> drawn_order(std::size_t n, core::Random& random) {
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (auto i = n; i > 1; --i) {
+    std::swap(order[i - 1], order[random.bits() % i]);
+  }
+  return order;
+}
+
+// The optimiser's runs of a round go to one space in so many, each no fewer than it can use.
+constexpr std::size_t kNearest = 4;
+constexpr std::size_t kLeastRuns = 20;
+
 }  // namespace
 
-FalsifySession::FalsifySession(FalsifySettings settings, std::vector<FaultSpace> spaces,
+FalsifySession::FalsifySession(FalsifySettings settings, std::vector<SearchSpace> spaces,
                                const std::filesystem::path& file)
     : settings_(std::move(settings)),
       spaces_(std::move(spaces)),
@@ -81,7 +101,7 @@ FalsifyTrial FalsifySession::measured(std::size_t space, const BoxTrial& asked,
   FalsifyTrial trial{.space = space,
                      .point = asked.point,
                      .uniform = asked.uniform,
-                     .tried = spaces_[space].case_at(asked.point)};
+                     .tried = spaces_[space].faults.case_at(asked.point)};
   if (trials_.size() < known_.size()) {
     if (auto known = known_outcome(known_[trials_.size()], trial)) {
       trial.outcome = std::move(*known);
@@ -93,34 +113,94 @@ FalsifyTrial FalsifySession::measured(std::size_t space, const BoxTrial& asked,
   return trial;
 }
 
-bool FalsifySession::run(Objective& objective, const std::function<bool()>& goes_on,
-                         const std::function<void(const FalsifySession&)>& told) {
-  for (std::uint64_t round = 0; !over(); ++round) {
-    for (std::size_t space = 0; space < spaces_.size() && !over(); ++space) {
-      const BoxSearchSettings settings{
-          .variables = spaces_[space].variables().size(),
-          .runs = std::min(settings_.runs_a_round, settings_.runs - trials_.size()),
-          .seed = settings_.seed + 1'000'003 * round + space,
-          .optimiser = settings_.optimiser,
-          .stop_below = settings_.until_broken ? std::optional(0.0) : std::nullopt};
-      try {
-        (void)search_box(settings, [&](const BoxTrial& asked) {
-          if (trials_.size() >= known_.size() && !goes_on()) {
-            throw Interrupted();
-          }
-          trials_.push_back(measured(space, asked, objective));
-          const auto& outcome = trials_.back().outcome;
-          const auto value = outcome.fired ? outcome.margin : std::nullopt;
-          if (value && (!worst_ || *value < *trials_[*worst_].outcome.margin)) {
-            worst_ = trials_.size() - 1;
-          }
-          told(*this);
-          return value;
-        });
-      } catch (const Interrupted&) {
-        return false;
-      }
+void FalsifySession::take(FalsifyTrial trial) {
+  trials_.push_back(std::move(trial));
+  const auto value = value_of(trials_.back());
+  if (value && (!worst_ || *value < *trials_[*worst_].outcome.margin)) {
+    worst_ = trials_.size() - 1;
+  }
+}
+
+void FalsifySession::add(const FalsifySession& part) {
+  for (const auto& trial : part.trials_) {
+    take(trial);
+  }
+}
+
+// Spaces sampled since then, that of the smallest margin first.
+std::vector<std::size_t> FalsifySession::nearest(std::size_t from_trial) const {
+  std::vector<std::optional<double>> best(spaces_.size());
+  std::vector<std::size_t> order;
+  for (auto i = from_trial; i < trials_.size(); ++i) {
+    auto& of = best[trials_[i].space];
+    const auto value = value_of(trials_[i]);
+    if (value && !of) {
+      order.push_back(trials_[i].space);
     }
+    of = value && of ? std::min(*of, *value) : value ? value : of;
+  }
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return *best[a] < *best[b]; });
+  return order;
+}
+
+std::vector<BoxTrial> FalsifySession::samples_of(std::size_t space, std::size_t from_trial) const {
+  std::vector<BoxTrial> samples;
+  for (auto i = from_trial; i < trials_.size(); ++i) {
+    const auto& trial = trials_[i];
+    if (trial.space == space && trial.uniform) {
+      samples.push_back({.point = trial.point, .value = value_of(trial), .uniform = true});
+    }
+  }
+  return samples;
+}
+
+void FalsifySession::search(std::uint64_t round, const Measure& measure) {
+  const auto first = trials_.size();
+  const auto last = std::min(settings_.runs, first + settings_.runs_a_round * spaces_.size());
+  const bool samples_alone = settings_.optimiser == Optimiser::kUniform;
+  const auto sampled = samples_alone ? last : first + (last - first + 1) / 2;
+  const std::uint64_t seed = settings_.seed + 1'000'003 * round;
+  core::Random random(seed);
+  const auto order = drawn_order(spaces_.size(), random);
+  for (std::size_t i = 0; trials_.size() < sampled && !over(); ++i) {
+    const auto space = order[i % order.size()];
+    const auto point = uniform_point(random, spaces_[space].faults.variables().size());
+    (void)measure(space, {.point = point, .uniform = true});
+  }
+  const auto runs_of_one =
+      std::max(kLeastRuns, (last - sampled) / ((spaces_.size() + kNearest - 1) / kNearest));
+  for (const auto space : nearest(first)) {
+    if (trials_.size() >= last || over()) {
+      break;
+    }
+    (void)search_box({.variables = spaces_[space].faults.variables().size(),
+                      .runs = std::min(runs_of_one, last - trials_.size()),
+                      .seed = seed + space,
+                      .optimiser = settings_.optimiser,
+                      .uniform_share = 0,
+                      .stop_below = settings_.until_broken ? std::optional(0.0) : std::nullopt,
+                      .known = samples_of(space, first)},
+                     [&](const BoxTrial& asked) { return measure(space, asked); });
+  }
+}
+
+bool FalsifySession::run(const std::vector<Objective*>& objectives,
+                         const std::function<bool()>& goes_on,
+                         const std::function<void(const FalsifySession&)>& told) {
+  const Measure measure = [&](std::size_t space, const BoxTrial& asked) {
+    if (trials_.size() >= known_.size() && !goes_on()) {
+      throw Interrupted();
+    }
+    take(measured(space, asked, *objectives.at(spaces_[space].experiment)));
+    told(*this);
+    return value_of(trials_.back());
+  };
+  try {
+    for (std::uint64_t round = 0; !over(); ++round) {
+      search(round, measure);
+    }
+  } catch (const Interrupted&) {
+    return false;
   }
   return true;
 }

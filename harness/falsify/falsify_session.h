@@ -1,5 +1,9 @@
-// One search over several spaces of faults in turn, round by round, kept in a file as it goes: what
-// was interrupted is continued, with the same trials.
+// One search over several spaces, kept in a file as it goes: what was interrupted is continued,
+// with the same trials.
+//
+// In rounds: half of a round's runs are uniform samples, one of each space in turn, in an order
+// that is drawn; the others go to the spaces with the smallest margins, where the optimiser begins
+// at the samples of the round.
 #pragma once
 
 #include <atomic>
@@ -12,8 +16,8 @@
 #include <vector>
 
 #include "harness/falsify/box_search.h"
-#include "harness/falsify/fault_space.h"
 #include "harness/falsify/objective.h"
+#include "harness/falsify/search_space.h"
 
 namespace towbench::harness {
 
@@ -27,7 +31,7 @@ struct FalsifyTrial {
 
 struct FalsifySettings {
   std::size_t runs = 2000;        // of all spaces together
-  std::size_t runs_a_round = 40;  // of each space in one round
+  std::size_t runs_a_round = 40;  // times the number of spaces
   std::uint64_t seed = 1;
   Optimiser optimiser = Optimiser::kSubplex;
   bool until_broken = false;  // no further than the first that breaks what is asked
@@ -38,25 +42,33 @@ class FalsifySession {
  public:
   // Trials of `file` that bear the fingerprint are taken instead of running them again. Throws
   // std::system_error when the file cannot be written.
-  FalsifySession(FalsifySettings settings, std::vector<FaultSpace> spaces,
+  FalsifySession(FalsifySettings settings, std::vector<SearchSpace> spaces,
                  const std::filesystem::path& file);
 
-  // False when `stop` ended it. `told` after each trial; `goes_on` is asked before each that is not
-  // known yet.
-  bool run(Objective& objective, const std::function<bool()>& goes_on,
+  // `objectives`: of each experiment. False when `goes_on`, which is asked before each trial that
+  // is not known yet, ended it. `told` after each trial.
+  bool run(const std::vector<Objective*>& objectives, const std::function<bool()>& goes_on,
            const std::function<void(const FalsifySession&)>& told);
+  // Takes the trials of another part of the same search.
+  void add(const FalsifySession& part);
 
-  [[nodiscard]] const std::vector<FaultSpace>& spaces() const noexcept { return spaces_; }
+  [[nodiscard]] const std::vector<SearchSpace>& spaces() const noexcept { return spaces_; }
   [[nodiscard]] const std::vector<FalsifyTrial>& trials() const noexcept { return trials_; }
   // Of the smallest margin.
   [[nodiscard]] const FalsifyTrial* worst() const noexcept;
 
  private:
+  using Measure = std::function<std::optional<double>(std::size_t space, const BoxTrial&)>;
+
   [[nodiscard]] bool over() const noexcept;
+  void search(std::uint64_t round, const Measure& measure);
+  [[nodiscard]] std::vector<std::size_t> nearest(std::size_t from_trial) const;
+  [[nodiscard]] std::vector<BoxTrial> samples_of(std::size_t space, std::size_t from_trial) const;
   FalsifyTrial measured(std::size_t space, const BoxTrial& trial, Objective& objective);
+  void take(FalsifyTrial trial);
 
   FalsifySettings settings_;
-  std::vector<FaultSpace> spaces_;
+  std::vector<SearchSpace> spaces_;
   std::filesystem::path file_;
   std::vector<std::string> known_;  // lines of the file, in order
   std::vector<FalsifyTrial> trials_;

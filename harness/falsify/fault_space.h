@@ -16,6 +16,7 @@ namespace towbench::harness {
 struct FaultChoice {
   FaultPlace place{};
   FaultKind kind = FaultKind::kPressed;
+  bool operator==(const FaultChoice&) const = default;
   [[nodiscard]] std::string name() const;  // "encoder.y frozen"
 };
 

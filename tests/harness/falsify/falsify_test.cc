@@ -56,8 +56,8 @@ class KnownObjective final : public Objective {
 
 FalsifySession session(const std::filesystem::path& file, std::size_t runs) {
   return {{.runs = runs, .runs_a_round = 40, .fingerprint = "f"},
-          {FaultSpace(fault_choices({"encoder.y frozen"}, kBoth), 10),
-           FaultSpace(fault_choices({"supply sag"}, kBoth), 10)},
+          {{.faults = FaultSpace(fault_choices({"encoder.y frozen"}, kBoth), 10)},
+           {.faults = FaultSpace(fault_choices({"supply sag"}, kBoth), 10)}},
           file};
 }
 
@@ -66,14 +66,14 @@ TEST(Falsify, ThatWasInterruptedGoesOnWithTheSameTrials) {
   KnownObjective whole;
   auto at_once = session(files.folder() / "once.jsonl", 200);
   EXPECT_TRUE(at_once.run(
-      whole, [] { return true; }, [](const auto&) {}));
+      {&whole}, [] { return true; }, [](const auto&) {}));
   KnownObjective parts;
   auto first = session(files.folder() / "parts.jsonl", 200);
   EXPECT_FALSE(first.run(
-      parts, [&] { return parts.runs < 77; }, [](const auto&) {}));
+      {&parts}, [&] { return parts.runs < 77; }, [](const auto&) {}));
   auto second = session(files.folder() / "parts.jsonl", 200);
   EXPECT_TRUE(second.run(
-      parts, [] { return true; }, [](const auto&) {}));
+      {&parts}, [] { return true; }, [](const auto&) {}));
   EXPECT_EQ(parts.runs, whole.runs);
   ASSERT_EQ(second.trials().size(), at_once.trials().size());
   for (std::size_t i = 0; i < 200; ++i) {
@@ -89,9 +89,9 @@ TEST(Falsify, CountsWhatDidNotFireAsNotTried) {
   KnownObjective objective;
   auto search = session(files.folder() / "t.jsonl", 400);
   EXPECT_TRUE(search.run(
-      objective, [] { return true; }, [](const auto&) {}));
+      {&objective}, [] { return true; }, [](const auto&) {}));
   const auto found = coverage_of(search, 0);
-  EXPECT_EQ(found.runs, 200U);
+  EXPECT_EQ(found.runs + coverage_of(search, 1).runs, 400U);
   EXPECT_LT(found.fired, found.runs);
   EXPECT_LT(found.uniform, 100U);
   // Onsets behind 8 s were sampled, and acted never.
@@ -100,6 +100,52 @@ TEST(Falsify, CountsWhatDidNotFireAsNotTried) {
   ASSERT_NE(search.worst(), nullptr);
   EXPECT_NEAR(parse_fault(search.worst()->tried.words().front()).trigger.value, 3.0, 0.01);
   EXPECT_TRUE(search.worst()->outcome.broken);
+}
+
+// A sag is far from breaking anything, whenever it begins.
+class OneIsNear final : public Objective {
+ public:
+  Outcome measure(const SearchCase& one) override {
+    return {.fired = true,
+            .margin = one.faults.front().kind == FaultKind::kSag
+                          ? 5
+                          : std::fabs(one.faults.front().trigger.value - 3)};
+  }
+  double end_s() const override { return 10; }
+};
+
+TEST(Falsify, SamplesSpacesAlikeAndGivesTheOptimiserTheNearest) {
+  TemporaryFixtures files;
+  OneIsNear objective;
+  std::vector<SearchSpace> spaces;
+  for (const char* words :
+       {"supply sag", "encoder.y frozen", "supply sag", "supply sag", "supply sag"}) {
+    spaces.push_back({.faults = FaultSpace(fault_choices({words}, kBoth), 10)});
+  }
+  FalsifySession search({.runs = 400, .runs_a_round = 40}, spaces, files.folder() / "t.jsonl");
+  EXPECT_TRUE(search.run(
+      {&objective}, [] { return true; }, [](const auto&) {}));
+  for (std::size_t space = 0; space < spaces.size(); ++space) {
+    EXPECT_EQ(coverage_of(search, space).uniform, 40U);
+  }
+  EXPECT_EQ(coverage_of(search, 1).runs, 40U + 2 * 50U);
+}
+
+TEST(Falsify, OfSeveralExperimentsAsksEachForItsOwn) {
+  TemporaryFixtures files;
+  KnownObjective first;
+  OneIsNear second;
+  const FaultSpace frozen(fault_choices({"encoder.y frozen"}, kBoth), 10);
+  FalsifySession search({.runs = 100, .runs_a_round = 40},
+                        {{.experiment = 0, .motion = "a", .faults = frozen},
+                         {.experiment = 1, .motion = "b", .faults = frozen}},
+                        files.folder() / "t.jsonl");
+  EXPECT_TRUE(search.run(
+      {&first, &second}, [] { return true; }, [](const auto&) {}));
+  EXPECT_EQ(first.runs, coverage_of(search, 0).runs);
+  EXPECT_EQ(search.spaces()[1].name(), "b: encoder.y frozen");
+  ASSERT_NE(search.worst(), nullptr);
+  EXPECT_EQ(search.worst()->space, 0U);  // below 0, where the other is not
 }
 
 TEST(Falsify, BoundsWhatSamplesMayHaveMissed) {
@@ -135,6 +181,17 @@ TEST(Objective, GivesTheMarginOfTheRunFolder) {
   EXPECT_FALSE(late.fired);
 }
 
+// 135 s without a tick in a record of 8 s: who is not run cannot answer.
+TEST(Objective, DoesNotJudgeTheConsoleOfAHostThatIsHeldToTheEnd) {
+  const auto slow = load_experiment("fixtures/motions/open-loop-y-10hz.toml");
+  const auto objective = in_process_objective(slow, {}, 0);
+  const auto held = objective->measure({{parse_fault("host missed_ticks at_s=2.8183 ticks=1351")}});
+  EXPECT_FALSE(held.margin);
+  EXPECT_THAT(held.reason, HasSubstr("still held"));
+  const auto briefly = objective->measure({{parse_fault("host missed_ticks at_s=2.8183 ticks=3")}});
+  EXPECT_TRUE(briefly.margin);
+}
+
 tests::ProgramOutput falsify(const std::string& arguments) {
   return tests::output_of(std::string(TOWBENCH_PROGRAM) + " falsify " + arguments);
 }
@@ -146,11 +203,36 @@ TEST(FalsifyVerb, RefusesInOneLine) {
         "kill-1khz --controller external:/tmp/x", "kill-1khz --faults none",
         "kill-1khz --faults none --machine 0.1 --requirement rules", "pulses --speed 0.5 1",
         "circle --speed 2 1", "circle --snapshots 3 --start 0.01",
+        "circle --snapshots 3 --workers 2", "circle --shard 3/2",
+        "kill-1khz --faults frozen --except encoder.y,encoder.x", "kill-1khz --except melted",
+        "kill-1khz trapezoid-400 --requirement KILL",
         "fixtures/any-controller/circle.toml --typed stop --controller process:true"}) {
     const auto output = falsify(arguments);
     EXPECT_EQ(output.code, kExitBadInput) << arguments << output.text;
     EXPECT_EQ(std::count(output.text.begin(), output.text.end(), '\n'), 1) << output.text;
   }
+}
+
+// Parts side by side, one after the other, or begun and taken up: the same trials.
+TEST(FalsifyVerb, PutsItsPartsTogether) {
+  TemporaryFixtures files;
+  const auto out = files.folder().string();
+  const std::string search =
+      "fixtures/motions/goto-both.toml fixtures/motions/trapezoid-x.toml --requirement rules "
+      "--faults \"encoder.x frozen\" --budget \"21 runs\" -q --out " +
+      out;
+  const auto first = falsify(search + "/a --shard 2/2");
+  EXPECT_EQ(first.code, kExitRuntime) << first.text;
+  EXPECT_THAT(first.text, HasSubstr("other parts are not complete"));
+  const auto together = falsify(search + "/a --workers 2");
+  const auto at_once = falsify(search + "/b --workers 2");
+  EXPECT_EQ(together.code, at_once.code);
+  for (const char* name : {"/trials-1-of-2.jsonl", "/trials-2-of-2.jsonl", "/falsify.md"}) {
+    EXPECT_EQ(contents_of(out + "/a" + name), contents_of(out + "/b" + name)) << name;
+  }
+  const auto page = contents_of(out + "/b/falsify.md");
+  EXPECT_THAT(page, HasSubstr("goto-both: encoder.x frozen"));
+  EXPECT_THAT(page, HasSubstr("Worst case of 2 experiments"));
 }
 
 TEST(FalsifyVerb, LeavesTheWorstRunAReportAndTheExperiment) {
