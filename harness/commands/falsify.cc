@@ -25,6 +25,28 @@
 namespace towbench::harness {
 namespace {
 
+// On the axes of this rig; another experiment's may have more.
+std::vector<FaultChoice> searched_faults(const FalsifyOptions& options,
+                                         const core::PerAxis<bool>& exists) {
+  constexpr core::PerAxis<bool> kAll{{true, true}};
+  const bool alone = options.experiments.size() == 1;
+  auto choices = fault_choices(options.faults, alone ? exists : kAll);
+  const auto here = fault_choices({}, exists);
+  const auto left_out =
+      options.except.empty() ? std::vector<FaultChoice>{} : fault_choices(options.except, kAll);
+  const auto holds = [](const std::vector<FaultChoice>& all, const FaultChoice& one) {
+    return std::find(all.begin(), all.end(), one) != all.end();
+  };
+  std::erase_if(choices,
+                [&](const FaultChoice& one) { return holds(left_out, one) || !holds(here, one); });
+  if (choices.empty() && alone) {
+    throw FixtureError({.file = "command line", .key = "--except"},
+                       fmt::format("{}", fmt::join(options.except, ",")),
+                       "fewer than --faults names: no fault is left");
+  }
+  return choices;
+}
+
 std::vector<FaultSpace> fault_spaces(const FalsifyOptions& options,
                                      const ExperimentFixture& fixture, double end_s) {
   core::PerAxis<bool> exists;
@@ -39,20 +61,8 @@ std::vector<FaultSpace> fault_spaces(const FalsifyOptions& options,
   if (!options.second.empty()) {
     second = fault_choices({options.second}, exists);
   }
-  auto choices = fault_choices(options.faults, exists);
-  if (!options.except.empty()) {
-    const auto left_out = fault_choices(options.except, exists);
-    std::erase_if(choices, [&](const FaultChoice& one) {
-      return std::find(left_out.begin(), left_out.end(), one) != left_out.end();
-    });
-  }
-  if (choices.empty()) {
-    throw FixtureError({.file = "command line", .key = "--except"},
-                       fmt::format("{}", fmt::join(options.except, ",")),
-                       "fewer than --faults names: no fault is left");
-  }
   std::vector<FaultSpace> spaces;
-  for (const auto& choice : choices) {
+  for (const auto& choice : searched_faults(options, exists)) {
     if (second.empty()) {
       spaces.emplace_back(std::vector{choice}, end_s, setup);
     }
@@ -127,6 +137,11 @@ Search prepare_search(FalsifyOptions& options, const std::vector<ExperimentFixtu
                                .motion = fixtures.size() > 1 ? fixture.experiment.name : "",
                                .faults = std::move(faults)});
     }
+  }
+  if (search.spaces.empty()) {
+    throw FixtureError({.file = "command line", .key = "--faults"},
+                       fmt::format("{}", fmt::join(options.faults, ",")),
+                       "a fault that is left by --except, on an axis of one of the rigs");
   }
   const auto runs = search.budget.runs;
   constexpr std::size_t kFewest = 20;

@@ -69,6 +69,16 @@ expect 'and the campaign passes' [ "$status" -eq 0 ]
 "$program" campaign standard --only kill_switch --quiet --out "$folder/whole" >/dev/null
 expect 'with the results of a run without a kill' same_results "$folder/whole" "$folder/killed"
 
+# A search in three parts: as an array, and side by side here.
+same_search() { diff -r -x slurm -x '*-worst-*' "$1" "$2" >/dev/null; }
+search=(falsify fixtures/motions/goto-both.toml fixtures/motions/trapezoid-x.toml --requirement rules
+  --faults 'encoder.y frozen,supply sag' --budget '31 runs' --quiet)
+"$program" "${search[@]}" --workers 3 --out "$folder/search-here" >/dev/null
+here=$?
+"$program" "${search[@]}" --slurm 3 --out "$folder/search-array" >/dev/null
+expect 'a search as an array ends as it does in workers' [ $? -eq "$here" ]
+expect 'with the same trials and the same page' same_search "$folder/search-here" "$folder/search-array"
+
 stop_slurm "$folder/slurm"
 expect 'no daemon is left' daemons_gone
 echo "$failures failed"

@@ -205,6 +205,7 @@ TEST(FalsifyVerb, RefusesInOneLine) {
         "circle --speed 2 1", "circle --snapshots 3 --start 0.01",
         "circle --snapshots 3 --workers 2", "circle --shard 3/2",
         "kill-1khz --faults frozen --except encoder.y,encoder.x", "kill-1khz --except melted",
+        "kill-1khz one-axis --faults frozen --except frozen",
         "kill-1khz trapezoid-400 --requirement KILL",
         "fixtures/any-controller/circle.toml --typed stop --controller process:true"}) {
     const auto output = falsify(arguments);
