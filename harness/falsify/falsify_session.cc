@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
-#include <numeric>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -64,12 +64,34 @@ std::optional<double> value_of(const FalsifyTrial& trial) {
   return trial.outcome.fired ? trial.outcome.margin : std::nullopt;
 }
 
-// 0 .. n - 1 in a drawn order.
-std::vector<std::size_t> drawn_order(std::size_t n, core::Random& random) {
-  std::vector<std::size_t> order(n);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  for (auto i = n; i > 1; --i) {
-    std::swap(order[i - 1], order[random.bits() % i]);
+template <typename Element>
+void shuffle(std::vector<Element>& all, core::Random& random) {
+  for (auto i = all.size(); i > 1; --i) {
+    std::swap(all[i - 1], all[random.bits() % i]);
+  }
+}
+
+// Every space once, in a drawn order in which all faults come on one experiment before any comes on
+// a second.
+std::vector<std::size_t> drawn_order(const std::vector<SearchSpace>& spaces, core::Random& random) {
+  std::map<std::string, std::vector<std::size_t>> by_fault;
+  for (std::size_t i = 0; i < spaces.size(); ++i) {
+    by_fault[spaces[i].faults.name()].push_back(i);
+  }
+  std::vector<std::vector<std::size_t>> left;
+  for (auto& [name, of_fault] : by_fault) {
+    shuffle(of_fault, random);
+    left.push_back(std::move(of_fault));
+  }
+  std::vector<std::size_t> order;
+  while (order.size() < spaces.size()) {
+    shuffle(left, random);
+    for (auto& of_fault : left) {
+      if (!of_fault.empty()) {
+        order.push_back(of_fault.back());
+        of_fault.pop_back();
+      }
+    }
   }
   return order;
 }
@@ -161,7 +183,7 @@ void FalsifySession::search(std::uint64_t round, const Measure& measure) {
   const auto sampled = samples_alone ? last : first + (last - first + 1) / 2;
   const std::uint64_t seed = settings_.seed + 1'000'003 * round;
   core::Random random(seed);
-  const auto order = drawn_order(spaces_.size(), random);
+  const auto order = drawn_order(spaces_, random);
   for (std::size_t i = 0; trials_.size() < sampled && !over(); ++i) {
     const auto space = order[i % order.size()];
     const auto point = uniform_point(random, spaces_[space].faults.variables().size());

@@ -1,6 +1,7 @@
 // Faults as points of a box, what a search of them covered, and that one which was interrupted goes
 // on; BBMC's margins beside those of run folders.
 #include <cmath>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -146,6 +147,29 @@ TEST(Falsify, OfSeveralExperimentsAsksEachForItsOwn) {
   EXPECT_EQ(search.spaces()[1].name(), "b: encoder.y frozen");
   ASSERT_NE(search.worst(), nullptr);
   EXPECT_EQ(search.worst()->space, 0U);  // below 0, where the other is not
+}
+
+TEST(Falsify, ComesToEveryFaultBeforeItComesToOneOnASecondExperiment) {
+  TemporaryFixtures files;
+  OneIsNear objective;
+  std::vector<SearchSpace> spaces;
+  for (const char* motion : {"a", "b", "c"}) {
+    for (const auto& choice : fault_choices({"supply sag", "frozen", "jump"}, kBoth)) {
+      spaces.push_back({.motion = motion, .faults = FaultSpace({choice}, 10)});
+    }
+  }
+  ASSERT_EQ(spaces.size(), 15U);
+  FalsifySession search({.runs = 15, .runs_a_round = 20, .optimiser = Optimiser::kUniform}, spaces,
+                        files.folder() / "t.jsonl");
+  EXPECT_TRUE(search.run(
+      {&objective}, [] { return true; }, [](const auto&) {}));
+  for (std::size_t pass = 0; pass < 3; ++pass) {
+    std::set<std::string> faults;
+    for (std::size_t i = 5 * pass; i < 5 * pass + 5; ++i) {
+      faults.insert(search.spaces()[search.trials()[i].space].faults.name());
+    }
+    EXPECT_EQ(faults.size(), 5U);
+  }
 }
 
 TEST(Falsify, BoundsWhatSamplesMayHaveMissed) {
