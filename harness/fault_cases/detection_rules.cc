@@ -41,8 +41,10 @@ MaybeCheck amplifier_fault_is_found(const CaseEvidence& evidence) {
                                                           : protocol::InputLine::kAmplifierReadyX);
     Nanoseconds bad_since_ns = -1;
     for (const auto& row : run.truth) {
-      const bool bad =
-          (row.input_lines & ready) == 0 && is_driven_mode(mode_at(run, axis, row.time_ns));
+      // At a slow control rate the log still shows a mode that a fault has ended.
+      const bool bad = (row.input_lines & ready) == 0 &&
+                       is_driven_mode(mode_at(run, axis, row.time_ns)) &&
+                       !latched_by(run, row.time_ns);
       bad_since_ns = bad ? (bad_since_ns < 0 ? row.time_ns : bad_since_ns) : -1;
       if (bad && row.time_ns - bad_since_ns > limit_ns) {
         return failed(kName, kMeaning,
@@ -79,6 +81,9 @@ MaybeCheck link_or_host_fault_is_found(const CaseEvidence& evidence) {
   const auto seen_ns = served_ns(evidence, cause_ns);
   const bool driven = is_driven_mode(mode_at(run, Axis::kY, cause_ns - 1)) ||
                       is_driven_mode(mode_at(run, Axis::kX, cause_ns - 1));
+  if (seen_ns + kLongest_ns > run.outcome.end_ns) {
+    return std::nullopt;  // the record ends before it had to be found
+  }
   if (driven && latched_ns(run) > seen_ns + kLongest_ns) {
     return failed(
         kName, kMeaning,

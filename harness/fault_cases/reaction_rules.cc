@@ -50,18 +50,6 @@ bool any_driven_mode(const CaseRecord& run, Nanoseconds time_ns) {
          is_driven_mode(mode_at(run, Axis::kX, time_ns));
 }
 
-// Whether a fault is latched at a time: since then no reset, asked for or not.
-bool latched_by(const CaseRecord& run, Nanoseconds time_ns) {
-  bool latched = false;
-  for (const auto& event : run.controller_events) {
-    if (event.time_ns > time_ns) {
-      break;
-    }
-    latched = event.kind == Kind::kFaultLatched || (latched && event.kind != Kind::kReset);
-  }
-  return latched;
-}
-
 // First driving message after `from_ns` and before a reset; -1 when there is none.
 Nanoseconds drive_after(const CaseRecord& run, Nanoseconds from_ns) {
   const auto reset_ns = run.next_reset_ns(from_ns);
@@ -221,8 +209,12 @@ MaybeCheck stop_ends_in_time(const CaseEvidence& evidence) {
   }
   longest_s += 2 * core::seconds(run.outcome.exchange_ns);
   const auto* fault = run.first_fault();
-  const auto limit_ns =
-      fault == nullptr ? 0 : served_ns(evidence, fault->time_ns) + core::nanoseconds(longest_s);
+  auto limit_ns = fault == nullptr ? 0 : fault->time_ns + core::nanoseconds(longest_s);
+  for (const auto& stall : evidence.prepared.injection.host.stalls) {
+    if (fault != nullptr && stall.from_ns <= limit_ns && stall.until_ns >= fault->time_ns) {
+      limit_ns = std::max(limit_ns, stall.until_ns + core::nanoseconds(longest_s));
+    }
+  }
   if (fault == nullptr || limit_ns > run.outcome.end_ns) {
     return std::nullopt;
   }

@@ -75,6 +75,18 @@ bbmc::AxisMode mode_at(const CaseRecord& run, core::Axis axis, core::Nanoseconds
   return after == run.log.begin() ? bbmc::AxisMode::kIdle : (after - 1)->axes[axis].mode;
 }
 
+bool latched_by(const CaseRecord& run, core::Nanoseconds time_ns) {
+  bool latched = false;
+  for (const auto& event : run.controller_events) {
+    if (event.time_ns > time_ns) {
+      break;
+    }
+    latched = event.kind == bbmc::ControllerEvent::Kind::kFaultLatched ||
+              (latched && event.kind != bbmc::ControllerEvent::Kind::kReset);
+  }
+  return latched;
+}
+
 bool has(const CaseEvidence& evidence, FaultPart part) noexcept {
   return std::any_of(evidence.prepared.plan.begin(), evidence.prepared.plan.end(),
                      [&](const Fault& fault) { return fault.place.part == part; });
