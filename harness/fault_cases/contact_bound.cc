@@ -51,21 +51,26 @@ const Contact* first_contact(const CaseEvidence& evidence, Contact& contact) {
 
 // When the controller was in a position to know that the axis had to stop: a switch of that axis
 // told it, it latched a fault itself, a wrong encoder reading had to be found, or its own (true)
-// position said so. What came before the cause belongs to the experiment: an end that it runs into
-// and leaves. Never: nothing could have told.
+// position said so. What came before the cause belongs to the experiment, an end that it runs into
+// and leaves; what came before the operator's last reset is the operator's. Never: nothing could
+// have told.
 Nanoseconds could_know_ns(const CaseEvidence& evidence, const Contact& contact) {
   const auto& run = evidence.run;
+  auto since_ns = evidence.cause_ns;
+  for (auto reset_ns = run.next_reset_ns(since_ns); reset_ns < contact.time_ns;
+       reset_ns = run.next_reset_ns(since_ns)) {
+    since_ns = reset_ns + 1;
+  }
   Nanoseconds known_ns = kNever;
   const unsigned halls = contact.axis == Axis::kY ? 0x3U : 0xCU;
   for (const auto& arrival : run.lines) {
-    if (arrival.served_ns >= evidence.cause_ns && (arrival.lines & halls) != 0) {
+    if (arrival.served_ns >= since_ns && (arrival.lines & halls) != 0) {
       known_ns = std::min(known_ns, served_ns(evidence, arrival.served_ns));
       break;
     }
   }
   for (const auto& event : run.controller_events) {
-    if (event.kind == bbmc::ControllerEvent::Kind::kFaultLatched &&
-        event.time_ns >= evidence.cause_ns) {
+    if (event.kind == bbmc::ControllerEvent::Kind::kFaultLatched && event.time_ns >= since_ns) {
       known_ns = std::min(known_ns, event.time_ns);
     }
   }
@@ -73,7 +78,7 @@ Nanoseconds could_know_ns(const CaseEvidence& evidence, const Contact& contact) 
   const bool encoder_is_wrong = std::any_of(plan.begin(), plan.end(), [](const Fault& fault) {
     return fault.place.part == FaultPart::kEncoder && fault.row().duty == FaultDuty::kStop;
   });
-  return encoder_is_wrong ? std::min(known_ns, evidence.cause_ns + kDetection_ns) : known_ns;
+  return encoder_is_wrong ? std::min(known_ns, since_ns + kDetection_ns) : known_ns;
 }
 
 // When the drive is taken away, braking included: a kill demands it, and over a link that is lost

@@ -38,10 +38,11 @@ bool plant_may_end(const CaseEvidence& evidence) {
                      [](const Fault& fault) { return may_end_run(fault.kind); });
 }
 
-// For longer than a step of the script waits, or to the end of the record: who is not run cannot
-// answer.
+// For longer than a step of the script waits or the experiment has to spare, or to the end of the
+// record: who is not run cannot answer.
 bool host_held_too_long(const CaseEvidence& evidence) {
-  double shortest_s = core::seconds(kNever);
+  double shortest_s = evidence.fixture.experiment.duration_limit_s -
+                      core::seconds(evidence.reference.outcome.end_ns);
   for (const auto& step : evidence.fixture.experiment.console) {
     shortest_s = std::min(shortest_s, step.timeout_s);
   }
