@@ -149,10 +149,18 @@ void AxisControl::end_is_ahead(End end) noexcept {
   brake_.end_is_ahead(end == End::kMin ? -1.0 : 1.0, static_cast<double>(room_count));
 }
 
+bool AxisControl::encoder_turned_over() const noexcept {
+  // Beyond what the motor swings on its chain.
+  constexpr double kFar_m_per_s = 0.25;
+  const double told = observer_.speed_count_per_s();
+  const double rigid = reckoning_.rigid_count_per_s();
+  return told * rigid < 0 && std::fabs(told - rigid) > kFar_m_per_s * settings_.counts_per_m();
+}
+
 bool AxisControl::encoder_keeps_up() const noexcept {
   constexpr double kLeastRatio = 0.25;
-  return std::fabs(observer_.speed_count_per_s()) >=
-         kLeastRatio * std::fabs(reckoning_.speed_count_per_s());
+  return !encoder_turned_over() && std::fabs(observer_.speed_count_per_s()) >=
+                                       kLeastRatio * std::fabs(reckoning_.speed_count_per_s());
 }
 
 bool AxisControl::begin_blind_braking(core::Nanoseconds now_ns, Suspect suspect) noexcept {

@@ -43,7 +43,9 @@ class AxisControl {
   TOWBENCH_REALTIME [[nodiscard]] bool breaks_limits() noexcept;
   TOWBENCH_REALTIME [[nodiscard]] bool amplifier_failed(core::Nanoseconds now_ns,
                                                         bool ready) const noexcept;
-  // Whether the encoder tells at least a quarter of the speed that the axis must have.
+  // Whether the encoder tells a motion against the one that the axis must have, and by far.
+  TOWBENCH_REALTIME [[nodiscard]] bool encoder_turned_over() const noexcept;
+  // Whether it tells at least a quarter of the speed that the axis must have, that way.
   TOWBENCH_REALTIME [[nodiscard]] bool encoder_keeps_up() const noexcept;
   // Goes on braking; the mode stays kBraking until the caller acts on the state returned.
   TOWBENCH_REALTIME [[nodiscard]] BrakeState serve_brake(core::Nanoseconds now_ns) noexcept;

@@ -56,6 +56,12 @@ class DeadReckoning {
     return unless_turned(trusted, since(then));
   }
 
+  // Of the rigid axis, however slow it was.
+  TOWBENCH_REALTIME [[nodiscard]] double rigid_count_per_s() const noexcept {
+    const Entry& then = history_[(newest_ + kSteps - kTrustedSteps) % kSteps];
+    return then.speed_count_per_s + since(then);
+  }
+
   // With an encoder that is believed; 0 where the axis (nearly) stands.
   TOWBENCH_REALTIME [[nodiscard]] double momentum_count_per_s() const noexcept {
     double told = 0;

@@ -170,11 +170,18 @@ void MotionControl::brake_all(ErrorCode code, Axis which) noexcept {
   for (Axis each : core::kAxes) {
     AxisControl& axis = axes_[each];
     if (is_driven(axis.mode())) {
-      // A frozen encoder that nothing has noticed yet would say that there is nothing to brake.
-      if (axis.encoder_keeps_up() || !axis.begin_blind_braking(now_ns_, Suspect::kEncoder)) {
-        axis.begin_braking(now_ns_);
+      // A frozen encoder that nothing has noticed yet would say that there is nothing to brake, and
+      // one that is turned over would have the brake push.
+      const bool blind =
+          !axis.encoder_keeps_up() && axis.begin_blind_braking(now_ns_, Suspect::kEncoder);
+      if (!blind && axis.encoder_turned_over()) {
+        power_off(each, AxisMode::kFaulted, code);
+      } else {
+        if (!blind) {
+          axis.begin_braking(now_ns_);
+        }
+        set_mode_event(each);
       }
-      set_mode_event(each);
     }
   }
   for (End end : {End::kMin, End::kMax}) {

@@ -124,6 +124,19 @@ Asked asked_of_all(const FalsifyOptions& options, const std::vector<ExperimentFi
   return asked;
 }
 
+// Times the number of spaces. With a time for a budget nobody knows how many rounds there will be:
+// over many spaces they are short.
+std::size_t runs_a_round(const SearchBudget& budget, std::size_t spaces) {
+  constexpr std::size_t kMost = 200;
+  if (budget.time_s > 0) {
+    constexpr std::size_t kRound = 2000;
+    constexpr std::size_t kFewest = 4;
+    return std::clamp(kRound / spaces, kFewest, kMost);
+  }
+  constexpr std::size_t kFewest = 20;
+  return std::clamp(budget.runs / spaces, std::min(kFewest, budget.runs), kMost);
+}
+
 Search prepare_search(FalsifyOptions& options, const std::vector<ExperimentFixture>& fixtures,
                       const Asked& asked, const CandidateController& controller) {
   Search search{.budget = parse_budget(options.budget), .unit = asked.unit()};
@@ -143,12 +156,8 @@ Search prepare_search(FalsifyOptions& options, const std::vector<ExperimentFixtu
                        fmt::format("{}", fmt::join(options.faults, ",")),
                        "a fault that is left by --except, on an axis of one of the rigs");
   }
-  const auto runs = search.budget.runs;
-  constexpr std::size_t kFewest = 20;
-  constexpr std::size_t kMost = 200;
-  search.settings = {.runs = runs,
-                     .runs_a_round = std::clamp(runs / search.spaces.size(),
-                                                std::min(kFewest, runs), std::max(kMost, kFewest)),
+  search.settings = {.runs = search.budget.runs,
+                     .runs_a_round = runs_a_round(search.budget, search.spaces.size()),
                      .seed = options.seed,
                      .optimiser = optimiser_named(options.optimiser),
                      .until_broken = options.until_broken};

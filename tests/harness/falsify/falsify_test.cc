@@ -232,6 +232,17 @@ TEST(Objective, AsksNothingImpossible) {
   }
 }
 
+// Found by a search and mended: swapped channels that first show as a displaced index turn the
+// speed over, and the brake pushed for 0.23 s, up to 0.57 m/s.
+TEST(Objective, KeepsTheRulesWhereASearchOnceBrokeThem) {
+  const auto circle = load_experiment("fixtures/experiments/circle.toml");
+  const auto outcome =
+      in_process_objective(circle, {}, 0)
+          ->measure({{parse_fault("encoder.y swapped at_s=14.654418 duration_s=0.281811")}});
+  EXPECT_TRUE(outcome.fired);
+  EXPECT_FALSE(outcome.broken) << outcome.reason;
+}
+
 tests::ProgramOutput falsify(const std::string& arguments) {
   return tests::output_of(std::string(TOWBENCH_PROGRAM) + " falsify " + arguments);
 }
