@@ -1,12 +1,22 @@
 // The search beside the truth: for pairs of motion and fault every onset and size on a grid is run,
 // so that the worst case is known; then the searches look for it, over many seeds, in that table.
 //
-// usage: falsify_truth STEP_MS PAGE.md        writes the page; run from the root of the repository
+// From the root of the repository:
+//   falsify_truth sweep STEP_MS FOLDER [PAIR...]
+//       runs the pairs, numbered from 1 (all), each into a file of margins; several processes may
+//       run side by side, and what was interrupted goes on
+//   falsify_truth page STEP_MS FOLDER PAGE.md
+//       searches in those files and writes the table
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,6 +25,7 @@
 #include "harness/falsify/box_search.h"
 #include "harness/falsify/objective.h"
 #include "harness/fault_plan/fault_text.h"
+#include "harness/record/line_writer.h"
 #include "harness/requirements/run_signals.h"
 
 namespace {
@@ -56,27 +67,71 @@ struct Truth {
   std::size_t onsets = 0;
   std::vector<std::optional<double>> margins{};  // sizes of an onset side by side
   std::size_t fired = 0;
-  std::size_t worst = 0;
+  std::optional<std::size_t> worst{};
+
+  void add(std::optional<double> margin) {
+    margins.push_back(margin);
+    fired += margin ? 1U : 0U;
+    if (margin && (!worst || *margin < *margins[*worst])) {
+      worst = margins.size() - 1;
+    }
+    onsets = margins.size() / kSizes;
+  }
 };
 
-Truth exhaust(const Pair& pair, double step_s) {
+std::string file_of(const std::string& folder, const Pair& pair) {
+  return fmt::format("{}/pair-{}.csv", folder, &pair - std::begin(kPairs) + 1);
+}
+
+std::unique_ptr<Objective> objective_of(const Pair& pair) {
   const auto fixture = load_experiment("fixtures/" + std::string(pair.motion) + ".toml");
   Requirement requirement{.id = "R", .text = pair.formula};
   std::vector<std::string> windows;
   requirement.parsed = *parse_formula(pair.formula, run_vocabulary(windows));
-  const auto objective = in_process_objective(fixture, {requirement}, 0);
-  Truth truth{.onsets = static_cast<std::size_t>(objective->end_s() / step_s)};
-  for (std::size_t i = 0; i < truth.onsets * kSizes; ++i) {
-    const auto words = fmt::format("{} at_s={:.6f}",
-                                   fmt::format(fmt::runtime(pair.fault), size_of(pair, i % kSizes)),
-                                   static_cast<double>(i / kSizes) * step_s);
+  return in_process_objective(fixture, {requirement}, 0);
+}
+
+std::size_t runs_of(const Objective& objective, double step_s) {
+  return kSizes * static_cast<std::size_t>(objective.end_s() / step_s);
+}
+
+std::vector<std::string> lines_of(const std::string& file) {
+  std::vector<std::string> lines;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+// Each line: onset, size, margin; no margin where the fault took no effect. Goes on behind the
+// lines that are there.
+void sweep(const Pair& pair, double step_s, const std::string& folder) {
+  const auto objective = objective_of(pair);
+  const auto file = file_of(folder, pair);
+  auto i = lines_of(file).size();
+  std::ofstream lines(file, std::ios::app);
+  for (; i < runs_of(*objective, step_s); ++i) {
+    const double onset_s = static_cast<double>(i / kSizes) * step_s;
+    const double size = size_of(pair, i % kSizes);
+    const auto words =
+        fmt::format("{} at_s={:.6f}", fmt::format(fmt::runtime(pair.fault), size), onset_s);
     const auto outcome = objective->measure({.faults = {parse_fault(words)}});
-    truth.margins.push_back(outcome.fired ? outcome.margin : std::nullopt);
-    truth.fired += outcome.fired ? 1U : 0U;
-    const auto& best = truth.margins[truth.worst];
-    if (truth.margins.back() && (!best || *truth.margins.back() < *best)) {
-      truth.worst = i;
-    }
+    const auto margin =
+        outcome.fired && outcome.margin ? fmt::format("{}", *outcome.margin) : std::string();
+    lines << fmt::format("{:.6f},{},{}\n", onset_s, size, margin) << std::flush;
+  }
+}
+
+Truth read_truth(const Pair& pair, double step_s, const std::string& folder) {
+  const auto file = file_of(folder, pair);
+  Truth truth;
+  for (const auto& line : lines_of(file)) {
+    const auto margin = line.substr(line.rfind(',') + 1);
+    truth.add(margin.empty() ? std::nullopt : std::optional(std::stod(margin)));
+  }
+  if (!truth.worst || truth.margins.size() != runs_of(*objective_of(pair), step_s)) {
+    throw std::runtime_error(file + " is not complete: sweep it first");
   }
   return truth;
 }
@@ -92,10 +147,10 @@ std::string masked(const std::string& text) {
 
 // Within kNear_s of the worst onset at its size, or within kNearMargin of its margin.
 bool is_found(const Truth& truth, std::size_t at, double step_s) {
-  const double worst = *truth.margins[truth.worst];
+  const double worst = *truth.margins[*truth.worst];
   const auto apart =
-      std::fabs(static_cast<double>(at / kSizes) - static_cast<double>(truth.worst / kSizes));
-  const bool near = at % kSizes == truth.worst % kSizes && apart * step_s <= kNear_s;
+      std::fabs(static_cast<double>(at / kSizes) - static_cast<double>(*truth.worst / kSizes));
+  const bool near = at % kSizes == *truth.worst % kSizes && apart * step_s <= kNear_s;
   return near || std::fabs(*truth.margins[at] - worst) <= kNearMargin * std::fabs(worst);
 }
 
@@ -141,36 +196,54 @@ std::string page_head(double step_s) {
   return text + rule + '\n';
 }
 
+std::string row_of(const Pair& pair, const Truth& truth, double step_s) {
+  const auto runs = static_cast<std::size_t>(
+      std::ceil(kShare * static_cast<double>(truth.margins.size()) * step_s / kFine_s));
+  auto row = fmt::format("| {} | `{}` | {} to {} | `{}` | {} | {} | {:.3f} s | {} | {:.4g} | {} |",
+                         pair.motion, fmt::format(fmt::runtime(pair.fault), "N"), pair.smallest,
+                         pair.largest, masked(pair.formula), truth.margins.size(), truth.fired,
+                         static_cast<double>(*truth.worst / kSizes) * step_s,
+                         size_of(pair, *truth.worst % kSizes), *truth.margins[*truth.worst], runs);
+  for (const auto optimiser : kAll) {
+    row += fmt::format(" {} |", seeds_that_find(truth, optimiser, runs, step_s));
+  }
+  return row + '\n';
+}
+
+int execute(const std::vector<std::string>& words) {
+  const double step_s = words.size() >= 3 ? std::atof(words[1].c_str()) * 1e-3 : 0;
+  if (step_s > 0 && words[0] == "sweep") {
+    std::set<std::string> chosen(words.begin() + 3, words.end());
+    std::size_t number = 0;
+    for (const auto& pair : kPairs) {
+      if (chosen.empty() || chosen.count(std::to_string(++number)) > 0) {
+        sweep(pair, step_s, words[2]);
+      }
+    }
+    return 0;
+  }
+  if (step_s > 0 && words[0] == "page" && words.size() == 4) {
+    auto page = page_head(step_s);
+    for (const auto& pair : kPairs) {
+      const auto row = row_of(pair, read_truth(pair, step_s, words[2]), step_s);
+      std::fputs(row.c_str(), stdout);
+      page += row;
+    }
+    write_atomically(words[3], page);
+    return 0;
+  }
+  std::fputs(
+      "usage: falsify_truth sweep STEP_MS FOLDER [PAIR...]\n"
+      "       falsify_truth page STEP_MS FOLDER PAGE.md\n",
+      stderr);
+  return 2;
+}
+
 }  // namespace
 
-int main(int argc, char** argv) {
-  const double step_s = argc == 3 ? std::atof(argv[1]) * 1e-3 : 0;
-  if (!(step_s > 0)) {
-    std::fprintf(stderr, "usage: falsify_truth STEP_MS PAGE.md\n");
-    return 2;
-  }
-  auto page = page_head(step_s);
-  for (const auto& pair : kPairs) {
-    const auto truth = exhaust(pair, step_s);
-    if (!truth.margins[truth.worst]) {
-      std::fprintf(stderr, "%s: %s took no effect\n", pair.motion, pair.fault);
-      return 4;
-    }
-    const auto runs = static_cast<std::size_t>(
-        std::ceil(kShare * static_cast<double>(truth.margins.size()) * step_s / kFine_s));
-    auto row =
-        fmt::format("| {} | `{}` | {} to {} | `{}` | {} | {} | {:.3f} s | {} | {:.4g} | {} |",
-                    pair.motion, fmt::format(fmt::runtime(pair.fault), "N"), pair.smallest,
-                    pair.largest, masked(pair.formula), truth.margins.size(), truth.fired,
-                    static_cast<double>(truth.worst / kSizes) * step_s,
-                    size_of(pair, truth.worst % kSizes), *truth.margins[truth.worst], runs);
-    for (const auto optimiser : kAll) {
-      row += fmt::format(" {} |", seeds_that_find(truth, optimiser, runs, step_s));
-    }
-    std::printf("%s\n", row.c_str());
-    std::fflush(stdout);
-    page += row + '\n';
-    std::ofstream(argv[2]) << page;  // what is done is kept
-  }
-  return 0;
+int main(int argc, char** argv) try {
+  return execute({argv + 1, argv + argc});
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "falsify_truth: %s\n", error.what());
+  return 4;
 }
