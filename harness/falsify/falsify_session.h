@@ -1,9 +1,9 @@
 // One search over several spaces, kept in a file as it goes: what was interrupted is continued,
 // with the same trials.
 //
-// In rounds: half of a round's runs are uniform samples, one of each space in turn, in an order that
-// is drawn and comes to every fault soon; the others go to the spaces with the smallest margins,
-// where the optimiser begins at the samples of the round.
+// In rounds: half of a round's runs are uniform samples, one of each space in turn, in an order
+// that is drawn and comes to every fault soon; the others go to the spaces with the smallest
+// margins, where the optimiser begins at the samples of the round.
 #pragma once
 
 #include <atomic>

@@ -232,7 +232,7 @@ TEST(Objective, AsksNothingImpossible) {
   }
 }
 
-// Found by a search and mended: swapped channels that first show as a displaced index turn the
+// Found by a search and corrected: swapped channels that first show as a displaced index turn the
 // speed over, and the brake pushed for 0.23 s, up to 0.57 m/s.
 TEST(Objective, KeepsTheRulesWhereASearchOnceBrokeThem) {
   const auto circle = load_experiment("fixtures/experiments/circle.toml");
