@@ -2,6 +2,7 @@
 // the console answered to the end.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -39,7 +40,8 @@ bool plant_may_end(const CaseEvidence& evidence) {
 }
 
 // For longer than a step of the script waits or the experiment has to spare, or to the end of the
-// record: who is not run cannot answer.
+// record: who is not run cannot answer. A clock that is set back holds it too, until it is as late
+// again.
 bool host_held_too_long(const CaseEvidence& evidence) {
   double shortest_s = evidence.fixture.experiment.duration_limit_s -
                       core::seconds(evidence.reference.outcome.end_ns);
@@ -47,11 +49,17 @@ bool host_held_too_long(const CaseEvidence& evidence) {
     shortest_s = std::min(shortest_s, step.timeout_s);
   }
   const auto end_ns = evidence.run.outcome.end_ns;
-  const auto& stalls = evidence.prepared.injection.host.stalls;
-  return std::any_of(stalls.begin(), stalls.end(), [&](const HostStall& stall) {
-    return stall.from_ns <= end_ns &&
-           (stall.until_ns >= end_ns || core::seconds(stall.until_ns - stall.from_ns) > shortest_s);
-  });
+  const auto& host = evidence.prepared.injection.host;
+  const bool clock_holds =
+      std::any_of(host.steps.begin(), host.steps.end(), [&](const ClockStep& step) {
+        return step.from_ns <= end_ns && core::seconds(std::abs(step.step_ns)) > shortest_s;
+      });
+  return clock_holds ||
+         std::any_of(host.stalls.begin(), host.stalls.end(), [&](const HostStall& stall) {
+           return stall.from_ns <= end_ns &&
+                  (stall.until_ns >= end_ns ||
+                   core::seconds(stall.until_ns - stall.from_ns) > shortest_s);
+         });
 }
 
 std::string why_incomplete(const CaseEvidence& evidence) {

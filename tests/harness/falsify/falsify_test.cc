@@ -212,13 +212,15 @@ TEST(Objective, AsksNothingImpossible) {
     const char* fault;
     bool judged;
   };
-  // Ticks that miss for 135 s or 6.3 s, and a host that sleeps while it brakes; a command that is
-  // on its way for seconds; fewer illegal transitions than the settings allow; a fault that is
-  // latched between two rows of a slow log.
+  // Ticks that miss for 135 s or 6.3 s, a host that sleeps while it brakes, a clock that is set
+  // back by 9 s; a command that is on its way for seconds; fewer illegal transitions than the
+  // settings allow; a fault that is latched between two rows of a slow log.
   constexpr Case kCases[] = {
       {"open-loop-y-10hz", "host missed_ticks at_s=2.8183 ticks=1351", false},
       {"end-x-max", "host missed_ticks at_s=1.315369 ticks=6319", false},
       {"end-y-max-and-back", "host stopped_process at_s=2.04 length_s=7.95", false},
+      {"end-y-max-and-back", "host clock_step at_s=0.519821 duration_s=0.042052 step_s=8.908524",
+       false},
       {"end-y-max", "link.to_plant delay at_s=0.591486 delay_s=1.684250", true},
       {"circle-short",
        "encoder.y illegal_transitions at_s=1.733346 duration_s=1.702026 rate_Hz=20.7556", true},
