@@ -195,6 +195,7 @@ int execute_falsify(FalsifyOptions& options) {
   }
   const auto text = falsify_report(session, asked, name_of(fixtures), needed ? &*needed : nullptr);
   write_atomically(folder / "falsify.md", text);
+  write_atomically(folder / "spaces.csv", spaces_csv(session));
   if (!options.quiet) {
     std::fputs(text.c_str(), stdout);
   }

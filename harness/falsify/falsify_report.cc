@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -38,21 +40,59 @@ std::string covered_text(const std::vector<SearchVariable>& variables,
   return text;
 }
 
-std::string row_of(const FalsifySession& session, std::size_t space, const std::string& unit) {
-  const auto found = coverage_of(session, space);
-  const auto& of = session.spaces()[space];
-  if (found.runs == 0) {
-    return {};
-  }
+std::string row_of(const SearchSpace& space, const SpaceCoverage& found, const std::string& unit) {
   const auto bound = found.uniform_broken > 0
                          ? fmt::format("{} of {} broke it", found.uniform_broken, found.uniform)
                          : fmt::format("{:.3g} %", 100 * rule_of_three(found.uniform));
   const bool one_of_few = found.worst != nullptr && !found.worst->tried.faults.empty();
   return fmt::format(
-      "| {} | {} | {} | {} | {} | {} | {} | {} |\n", of.name(), found.runs, found.fired,
-      found.uniform, covered_text(of.faults.variables(), found.covered),
+      "| {} | {} | {} | {} | {} | {} | {} | {} |\n", space.name(), found.runs, found.fired,
+      found.uniform, covered_text(space.faults.variables(), found.covered),
       found.worst == nullptr ? "none" : margin_text(*found.worst->outcome.margin, unit), bound,
       one_of_few ? words_of({.faults = found.worst->tried.faults}) : "");
+}
+
+// Those that were tried; where they are many, that of the smallest margin first.
+constexpr std::size_t kFew = 40;
+std::vector<std::pair<std::size_t, SpaceCoverage>> tried_spaces(const FalsifySession& session) {
+  std::vector<std::pair<std::size_t, SpaceCoverage>> all;
+  for (std::size_t space = 0; space < session.spaces().size(); ++space) {
+    if (auto found = coverage_of(session, space); found.runs > 0) {
+      all.emplace_back(space, std::move(found));
+    }
+  }
+  if (all.size() > kFew) {
+    const auto margin = [](const SpaceCoverage& found) {
+      return found.worst != nullptr ? *found.worst->outcome.margin
+                                    : std::numeric_limits<double>::infinity();
+    };
+    std::stable_sort(all.begin(), all.end(), [&](const auto& a, const auto& b) {
+      return margin(a.second) < margin(b.second);
+    });
+  }
+  return all;
+}
+
+std::string table_of(const FalsifySession& session, const std::string& unit) {
+  std::string text =
+      "\n| faults | runs | took effect | uniform samples | covered of the range | smallest margin "
+      "| may still break it | where |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  const auto tried = tried_spaces(session);
+  std::size_t shown = 0;
+  for (const auto& [space, found] : tried) {
+    const bool broken = found.worst != nullptr && found.worst->outcome.broken;
+    if (shown < kFew || broken) {
+      text += row_of(session.spaces()[space], found, unit);
+      ++shown;
+    }
+  }
+  if (shown < session.spaces().size()) {
+    text += fmt::format(
+        "\n{} rows more came no nearer (`spaces.csv`), and for {} the runs did not "
+        "suffice.\n",
+        tried.size() - shown, session.spaces().size() - tried.size());
+  }
+  return text;
 }
 
 }  // namespace
@@ -108,24 +148,26 @@ std::string falsify_report(const FalsifySession& session, const Asked& asked,
         fmt::format("Needed of it, by {} further runs: {}, margin {}.\n", needed->runs,
                     words_of(needed->needed), margin_text(*needed->outcome.margin, asked.unit()));
   }
-  text +=
-      "\n| faults | runs | took effect | uniform samples | covered of the range | smallest margin "
-      "| may still break it | where |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n";
-  std::size_t untried = 0;
-  for (std::size_t space = 0; space < session.spaces().size(); ++space) {
-    const auto row = row_of(session, space, asked.unit());
-    untried += row.empty() ? 1U : 0U;
-    text += row;
-  }
-  if (untried > 0) {
-    text += fmt::format("\n{} of {} rows are left out: the runs did not suffice for one each.\n",
-                        untried, session.spaces().size());
-  }
+  text += table_of(session, asked.unit());
   return text +
          "\nNothing found is no proof. The last column but one is what uniform sampling gives: "
          "with 95 % confidence no larger share of that space breaks what is asked (1 - "
          "0.05^(1/n), the rule of three). A run whose fault took no effect, or that gave no "
          "occasion, counts as not tried.\n";
+}
+
+std::string spaces_csv(const FalsifySession& session) {
+  std::string text = "space,runs,took_effect,uniform,uniform_broken,smallest_margin,broken,where\n";
+  for (const auto& [space, found] : tried_spaces(session)) {
+    const auto* worst = found.worst;
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{}\n", session.spaces()[space].name(), found.runs, found.fired,
+        found.uniform, found.uniform_broken,
+        worst == nullptr ? "" : fmt::format("{}", *worst->outcome.margin),
+        worst != nullptr && worst->outcome.broken ? 1 : 0,
+        worst == nullptr ? "" : fmt::format("{}", fmt::join(worst->tried.words(), "; ")));
+  }
+  return text;
 }
 
 }  // namespace towbench::harness

@@ -27,4 +27,7 @@ struct SpaceCoverage {
 [[nodiscard]] std::string falsify_report(const FalsifySession& session, const Asked& asked,
                                          const std::string& experiment, const ShrunkCase* needed);
 
+// Every space that was tried, as comma-separated values.
+[[nodiscard]] std::string spaces_csv(const FalsifySession& session);
+
 }  // namespace towbench::harness

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kShortest_s = 1e-3;
 constexpr double kLastingShare = 0.2;
-constexpr double kStep_s = 1e-6;  // in which times are told
+constexpr double kSteps_a_second = 1e6;  // in which times are told
 
 // What happens once, or says itself how long it takes.
 bool has_duration(FaultKind kind) noexcept {
@@ -35,7 +35,7 @@ bool has_axis(FaultPart part) noexcept {
 }
 
 double told(double time_s) {
-  return std::round(time_s / kStep_s) * kStep_s;
+  return std::round(time_s * kSteps_a_second) / kSteps_a_second;
 }
 
 }  // namespace

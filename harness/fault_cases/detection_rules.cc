@@ -81,8 +81,8 @@ MaybeCheck link_or_host_fault_is_found(const CaseEvidence& evidence) {
   const auto seen_ns = served_ns(evidence, cause_ns);
   const bool driven = is_driven_mode(mode_at(run, Axis::kY, cause_ns - 1)) ||
                       is_driven_mode(mode_at(run, Axis::kX, cause_ns - 1));
-  if (seen_ns + kLongest_ns > run.outcome.end_ns) {
-    return std::nullopt;  // the record ends before it had to be found
+  if (fault == host && seen_ns + kLongest_ns > run.outcome.end_ns) {
+    return std::nullopt;  // the record ends before the host has run again for so long
   }
   if (driven && latched_ns(run) > seen_ns + kLongest_ns) {
     return failed(

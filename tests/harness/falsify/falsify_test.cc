@@ -172,6 +172,25 @@ TEST(Falsify, ComesToEveryFaultBeforeItComesToOneOnASecondExperiment) {
   }
 }
 
+TEST(Falsify, ShowsTheNearestOfManySpacesAndKeepsAll) {
+  TemporaryFixtures files;
+  OneIsNear objective;
+  std::vector<SearchSpace> spaces(60,
+                                  {.faults = FaultSpace(fault_choices({"supply sag"}, kBoth), 10)});
+  spaces[57] = {.motion = "near",
+                .faults = FaultSpace(fault_choices({"encoder.y frozen"}, kBoth), 10)};
+  FalsifySession search({.runs = 59, .runs_a_round = 2, .optimiser = Optimiser::kUniform}, spaces,
+                        files.folder() / "t.jsonl");
+  EXPECT_TRUE(search.run(
+      {&objective}, [] { return true; }, [](const auto&) {}));
+  const auto page = falsify_report(search, {}, "x", nullptr);
+  EXPECT_THAT(page, HasSubstr("| --- |\n| near: encoder.y frozen | 1 | 1 | 1 |"));
+  EXPECT_THAT(page, HasSubstr("\n19 rows more came no nearer"));
+  EXPECT_THAT(page, HasSubstr("and for 1 the runs did not suffice"));
+  const auto all = spaces_csv(search);
+  EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 60);
+}
+
 TEST(Falsify, BoundsWhatSamplesMayHaveMissed) {
   EXPECT_EQ(rule_of_three(0), 1.0);
   EXPECT_DOUBLE_EQ(rule_of_three(1), 0.95);
