@@ -34,8 +34,8 @@ ExperimentFixture worst_experiment(const ExperimentFixture& fixture, const Asked
   experiment.name = experiment.name.substr(0, kLongestName) + "-worst";
   experiment.title = "Worst case found of " + asked.name();
   experiment.description =
-      fmt::format("Found by towbench falsify in {}: margin {:.6g} {}.", fixture.experiment.name,
-                  *worst.outcome.margin, asked.unit());
+      fmt::format("Found by towbench falsify in {}: margin {:.6g}{}{}.", fixture.experiment.name,
+                  *worst.outcome.margin, asked.unit().empty() ? "" : " ", asked.unit());
   made.sources.front().text = to_toml(made);
   add_faults(made, worst.needed.faults);
   return made;
