@@ -51,12 +51,11 @@ const Contact* first_contact(const CaseEvidence& evidence, Contact& contact) {
 
 // When the controller was in a position to know that the axis had to stop: a switch of that axis
 // told it, it latched a fault itself, a wrong encoder reading had to be found, or its own (true)
-// position said so. What came before the cause belongs to the experiment, an end that it runs into
-// and leaves; what came before the operator's last reset is the operator's. Never: nothing could
-// have told.
+// position said so. What came before the operator's last reset does not count: the operator has
+// allowed to move on. Never: nothing could have told.
 Nanoseconds could_know_ns(const CaseEvidence& evidence, const Contact& contact) {
   const auto& run = evidence.run;
-  auto since_ns = evidence.cause_ns;
+  Nanoseconds since_ns = 0;
   for (auto reset_ns = run.next_reset_ns(since_ns); reset_ns < contact.time_ns;
        reset_ns = run.next_reset_ns(since_ns)) {
     since_ns = reset_ns + 1;
@@ -78,7 +77,9 @@ Nanoseconds could_know_ns(const CaseEvidence& evidence, const Contact& contact) 
   const bool encoder_is_wrong = std::any_of(plan.begin(), plan.end(), [](const Fault& fault) {
     return fault.place.part == FaultPart::kEncoder && fault.row().duty == FaultDuty::kStop;
   });
-  return encoder_is_wrong ? std::min(known_ns, since_ns + kDetection_ns) : known_ns;
+  return encoder_is_wrong
+             ? std::min(known_ns, std::max(since_ns, evidence.cause_ns) + kDetection_ns)
+             : known_ns;
 }
 
 // When the drive is taken away, braking included: a kill demands it, and over a link that is lost

@@ -52,7 +52,9 @@ bool host_held_too_long(const CaseEvidence& evidence) {
   const auto& host = evidence.prepared.injection.host;
   const bool clock_holds =
       std::any_of(host.steps.begin(), host.steps.end(), [&](const ClockStep& step) {
-        return step.from_ns <= end_ns && core::seconds(std::abs(step.step_ns)) > shortest_s;
+        const bool is_set_back =
+            step.step_ns < 0 ? step.from_ns <= end_ns : step.until_ns <= end_ns;
+        return is_set_back && core::seconds(std::abs(step.step_ns)) > shortest_s;
       });
   return clock_holds ||
          std::any_of(host.stalls.begin(), host.stalls.end(), [&](const HostStall& stall) {

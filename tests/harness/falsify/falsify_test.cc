@@ -253,6 +253,15 @@ TEST(Objective, AsksNothingImpossible) {
   }
 }
 
+// The switch told it 10 ms before the chain skipped: that is not forgotten when the fault begins.
+TEST(Objective, KnowsWhatWasToldBeforeTheFault) {
+  const auto end = load_experiment("fixtures/experiments/endstop-y-max.toml");
+  const auto outcome = in_process_objective(end, {}, 0)
+                           ->measure({{parse_fault("drive.y chain_skip at_s=3.02636 by_m=-0.03")}});
+  EXPECT_TRUE(outcome.broken);
+  EXPECT_THAT(outcome.reason, HasSubstr("would have prevented it"));
+}
+
 // Found by a search and corrected: swapped channels that first show as a displaced index turn the
 // speed over, and the brake pushed for 0.23 s, up to 0.57 m/s.
 TEST(Objective, KeepsTheRulesWhereASearchOnceBrokeThem) {
