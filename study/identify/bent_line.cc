@@ -1,8 +1,10 @@
 #include "study/identify/bent_line.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "study/identify/linear_algebra.h"
 
 namespace towbench::harness::identify {
 namespace {
@@ -31,10 +33,10 @@ Solved solve(const std::vector<LinePoint>& points, const std::vector<double>& kn
   }
   Solved solved;
   // The least-norm solution where a piece has no point of its own.
-  solved.values = hats.completeOrthogonalDecomposition().solve(y);
+  solved.values = least_norm_solution(hats, y);
   solved.square = (y - hats * solved.values).squaredNorm();
   if (with_covariance) {
-    solved.covariance = (hats.transpose() * hats).completeOrthogonalDecomposition().pseudoInverse();
+    solved.covariance = pseudo_inverse(hats.transpose() * hats);
   }
   return solved;
 }

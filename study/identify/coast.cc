@@ -1,11 +1,13 @@
 #include "study/identify/coast.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <ceres/ceres.h>
+
+#include "study/identify/linear_algebra.h"
 
 namespace towbench::harness::identify {
 namespace {
@@ -41,7 +43,7 @@ class Coasts {
             swing * std::sin(w * t);
         counts[i] = static_cast<double>(axis.count[k] - axis.count[span.from]);
       }
-      const Eigen::VectorXd left = counts - shapes * shapes.colPivHouseholderQr().solve(counts);
+      const Eigen::VectorXd left = counts - shapes * least_squares(shapes, counts).x;
       Eigen::Map<Eigen::VectorXd>(residuals, n) = left;
       residuals += n;
     }

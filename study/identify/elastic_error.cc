@@ -1,12 +1,13 @@
 #include "study/identify/elastic_error.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "study/identify/linear_algebra.h"
 #include "study/statistics/statistics.h"
 
 namespace towbench::harness::identify {
@@ -75,7 +76,7 @@ double mean_square(const ElasticInput& input, double delay_s) {
   if (n < static_cast<Eigen::Index>(kFewestFrames)) {
     return INFINITY;
   }
-  const Eigen::Vector3d found = problem.regressors.colPivHouseholderQr().solve(problem.apart);
+  const Eigen::Vector3d found = least_squares(problem.regressors, problem.apart).x;
   return (problem.apart - problem.regressors * found).squaredNorm() / static_cast<double>(n);
 }
 
@@ -116,15 +117,13 @@ ElasticError elastic_error(const ElasticInput& input) {
   const double delay = best_delay_s(input);
   const auto problem = problem_at(input, delay);
   const auto n = problem.apart.size();
-  const Eigen::Vector3d found = problem.regressors.colPivHouseholderQr().solve(problem.apart);
+  const Eigen::Vector3d found = least_squares(problem.regressors, problem.apart).x;
   const Eigen::VectorXd residual = problem.apart - problem.regressors * found;
   const double variance = residual.squaredNorm() / static_cast<double>(n - 4);
   // m(t - d) falls by v dd: the delay's column of the Jacobian.
   Eigen::MatrixXd jacobian(n, 4);
   jacobian << problem.regressors, problem.speed;
-  const Eigen::MatrixXd covariance =
-      variance *
-      (jacobian.transpose() * jacobian).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd covariance = variance * pseudo_inverse(jacobian.transpose() * jacobian);
   const auto within = [&](double value, int i) {
     return Within95{value, statistics::kNormal95 * std::sqrt(covariance(i, i))};
   };

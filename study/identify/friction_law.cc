@@ -1,8 +1,10 @@
 #include "study/identify/friction_law.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
+
+#include "study/identify/linear_algebra.h"
 
 namespace towbench::harness::identify {
 namespace {
@@ -32,12 +34,12 @@ Linear fit_at(const std::vector<SteadyRun>& runs, double stribeck, bool lorentz,
   if (excess_Nm) {
     y -= *excess_Nm * x.col(1);
     x.col(1).setZero();
-    const Eigen::Vector3d rest = x.completeOrthogonalDecomposition().solve(y);
+    const Eigen::Vector3d rest = least_norm_solution(x, y);
     fit.theta << rest[0], *excess_Nm, rest[2];
     fit.sum = (y - x * rest).squaredNorm();
     return fit;
   }
-  fit.theta = x.colPivHouseholderQr().solve(y);
+  fit.theta = least_squares(x, y).x;
   fit.sum = (y - x * fit.theta).squaredNorm();
   return fit;
 }
@@ -79,9 +81,7 @@ void add_deviations(const std::vector<SteadyRun>& runs, bool excess_is_known, Fr
   if (excess_is_known) {
     jacobian.col(1).setZero();
   }
-  const Eigen::Matrix4d covariance = Eigen::MatrixXd(jacobian.transpose() * jacobian)
-                                         .completeOrthogonalDecomposition()
-                                         .pseudoInverse() *
+  const Eigen::Matrix4d covariance = pseudo_inverse(jacobian.transpose() * jacobian) *
                                      std::max(1.0, sum / static_cast<double>(n - 4));
   law.coulomb_deviation_Nm = std::sqrt(covariance(0, 0));
   law.excess_deviation_Nm = std::sqrt(covariance(1, 1));

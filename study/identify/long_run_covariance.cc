@@ -1,7 +1,9 @@
 #include "study/identify/long_run_covariance.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
+
+#include "study/identify/linear_algebra.h"
 
 namespace towbench::harness::identify {
 
@@ -22,9 +24,8 @@ Eigen::MatrixXd sandwich(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd&
   const Eigen::MatrixXd scores = jacobian.array().colwise() * residual.array();
   // A prior speaks as loudly as it would if it were data.
   const Eigen::MatrixXd meat = long_run_covariance(scores, lags) + prior;
-  const auto solver = information.ldlt();
-  const Eigen::MatrixXd left = solver.solve(meat);
-  return solver.solve(left.transpose());
+  const Eigen::MatrixXd left = solve_symmetric(information, meat);
+  return solve_symmetric(information, left.transpose());
 }
 
 }  // namespace towbench::harness::identify

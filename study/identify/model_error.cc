@@ -1,8 +1,10 @@
 #include "study/identify/model_error.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "study/identify/linear_algebra.h"
 
 namespace towbench::harness::identify {
 
@@ -16,7 +18,7 @@ Eigen::VectorXd most_bent(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd
   const Eigen::MatrixXd information = jacobian.transpose() * jacobian + prior;
   const Eigen::Index n = information.rows();
   const Eigen::VectorXd variance =
-      information.ldlt().solve(Eigen::MatrixXd::Identity(n, n)).diagonal();
+      solve_symmetric(information, Eigen::MatrixXd::Identity(n, n)).diagonal();
   return structure_error(residual, right_rms) * variance.cwiseMax(0.0).cwiseSqrt();
 }
 

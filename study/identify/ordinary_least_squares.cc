@@ -1,12 +1,13 @@
 #include "study/identify/ordinary_least_squares.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "study/identify/linear_algebra.h"
 #include "study/identify/zero_phase_filter.h"
 
 namespace towbench::harness::identify {
@@ -109,7 +110,7 @@ OlsFit fit_ordinary_least_squares(const Recording& data, core::Axis axis, const 
     regressors.row(i) << s.acceleration[k], s.speed[k], std::copysign(1.0, s.speed[k]);
     torque[i] = s.torque[k];
   }
-  const Eigen::Vector3d theta = regressors.colPivHouseholderQr().solve(torque);  // (4.9)
+  const Eigen::Vector3d theta = least_squares(regressors, torque).x;  // (4.9)
   fit.inertia_kg_m2 = theta[0];
   fit.viscous_Nm_s_per_rad = theta[1];
   fit.coulomb_Nm = theta[2];

@@ -1,11 +1,12 @@
 #include "study/identify/paired_law.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include <boost/math/distributions/students_t.hpp>
 
+#include "study/identify/linear_algebra.h"
 #include "study/statistics/statistics.h"
 
 namespace towbench::harness::identify {
@@ -78,19 +79,19 @@ LawShift find_law_shift(const FrictionLaw& of_reference, double excess_deviation
   if (n < kFewest) {
     return shift;
   }
-  const auto solver = pairs.slopes.colPivHouseholderQr();
-  if (solver.rank() < kUnknown) {
+  const auto solved = least_squares(pairs.slopes, pairs.differences);
+  if (solved.rank < kUnknown) {
     return shift;
   }
-  const Eigen::Vector3d found = solver.solve(pairs.differences);
-  const Eigen::Vector3d by_excess = excess_deviation_Nm * solver.solve(pairs.by_excess);
+  const Eigen::Vector3d found = solved.x;
+  const Eigen::Vector3d by_excess =
+      excess_deviation_Nm * least_squares(pairs.slopes, pairs.by_excess).x;
   const auto freedom = static_cast<double>(n - kUnknown);
   const double wider =
       boost::math::quantile(boost::math::students_t(freedom), 0.975) / statistics::kNormal95;
   const double noise =
       wider * wider * (pairs.differences - pairs.slopes * found).squaredNorm() / freedom;
-  const Eigen::Matrix3d covariance =
-      noise * Eigen::Matrix3d(pairs.slopes.transpose() * pairs.slopes).inverse();
+  const Eigen::Matrix3d covariance = noise * inverse(pairs.slopes.transpose() * pairs.slopes);
   const auto deviation = [&](Eigen::Index i) {
     return std::hypot(std::sqrt(covariance(i, i)), by_excess[i], kAnswer * found[i]);
   };

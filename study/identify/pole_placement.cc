@@ -1,10 +1,11 @@
 #include "study/identify/pole_placement.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <unsupported/Eigen/MatrixFunctions>
+
+#include "study/identify/linear_algebra.h"
 
 namespace towbench::harness::identify {
 namespace {
@@ -78,7 +79,7 @@ std::optional<LoopGains> place_poles(const TwoMassAxis& axis, const SampledLoop&
   row(0, pair, false);
   row(1, pair, true);
   row(2, real, false);
-  const Eigen::Vector3d found = equations.fullPivLu().solve(wanted);
+  const Eigen::Vector3d found = solve_square(equations, wanted);
   if (!found.allFinite() || found(0) <= 0 || found.minCoeff() < 0) {
     return std::nullopt;
   }
@@ -89,7 +90,7 @@ std::vector<Complex> sampled_poles(const TwoMassAxis& axis, const SampledLoop& l
                                    const LoopGains& gains) {
   Eigen::Matrix<double, 6, 6> held = Eigen::Matrix<double, 6, 6>::Zero();
   held.topLeftCorner<4, 5>() = with_torque(axis).topRows<4>();
-  const Eigen::Matrix<double, 6, 6> step = (held * loop.period_s).exp();
+  const Eigen::Matrix<double, 6, 6> step = exponential(held * loop.period_s);
   // The two masses, the angle before, the integral, the torque under way.
   using Closed = Eigen::Matrix<double, 7, 7>;
   Closed closed = Closed::Zero();
@@ -103,7 +104,7 @@ std::vector<Complex> sampled_poles(const TwoMassAxis& axis, const SampledLoop& l
   closed(6, 4) = gains.derivative_Nm_s_per_rad / loop.period_s;
   closed(6, 5) = 1;
   std::vector<Complex> poles;
-  for (const Complex z : Eigen::EigenSolver<Closed>(closed, false).eigenvalues()) {
+  for (const Complex z : eigenvalues(closed)) {
     if (std::abs(z) > 1e-9) {
       poles.push_back(std::log(z) / loop.period_s);
     }

@@ -1,8 +1,10 @@
 #include "study/identify/tow/carriage_turn.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <numbers>
+
+#include "study/identify/linear_algebra.h"
 
 namespace towbench::harness::identify {
 namespace {
@@ -94,7 +96,7 @@ Harmonic harmonic_of(std::span<const double> period) {
     normal += row * row.transpose();
     right += row * period[i];
   }
-  const Eigen::Vector3d solution = normal.ldlt().solve(right);
+  const Eigen::Vector3d solution = solve_symmetric(normal, right);
   return {solution(0), {solution(1), solution(2)}};
 }
 

@@ -1,10 +1,11 @@
 #include "study/identify/tow/chain_swing.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "study/identify/linear_algebra.h"
 #include "study/identify/secant_cost.h"
 
 namespace towbench::harness::identify {
@@ -23,8 +24,7 @@ void take_line_off(Eigen::VectorXd& column) {
   Eigen::MatrixX2d line(n, 2);
   line.col(0).setOnes();
   line.col(1) = Eigen::VectorXd::LinSpaced(n, -1.0, 1.0);
-  const Eigen::Vector2d fit =
-      (line.transpose() * line).ldlt().solve(Eigen::Vector2d(line.transpose() * column));
+  const Eigen::Vector2d fit = solve_symmetric(line.transpose() * line, line.transpose() * column);
   column -= line * fit;
 }
 
@@ -82,9 +82,8 @@ Eigen::MatrixX4d basis(const Window& window, double w, double d) {
 
 Eigen::VectorXd rest_of(const Window& window, double w, double d) {
   const auto columns = basis(window, w, d);
-  const Eigen::Vector4d fit = (columns.transpose() * columns)
-                                  .ldlt()
-                                  .solve(Eigen::Vector4d(columns.transpose() * window.force_N));
+  const Eigen::Vector4d fit =
+      solve_symmetric(columns.transpose() * columns, columns.transpose() * window.force_N);
   return window.force_N - columns * fit;
 }
 
@@ -138,7 +137,7 @@ std::optional<ChainSwing> chain_swing(const Recording& run, core::Axis axis, dou
     return std::nullopt;
   }
   const Eigen::Matrix2d covariance =
-      variance * (cost.jacobian().transpose() * cost.jacobian()).inverse();
+      variance * inverse(cost.jacobian().transpose() * cost.jacobian());
   return ChainSwing{p(0), std::sqrt(covariance(0, 0)), p(1)};
 }
 

@@ -1,11 +1,13 @@
 #include "study/identify/tow/curved_tow.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
+
+#include "study/identify/linear_algebra.h"
 
 namespace towbench::harness::identify {
 namespace {
@@ -109,7 +111,7 @@ Eigen::Vector4d fit(std::span<const Row> turn, double slow_share) {
       right += a * row.force_N[axis];
     }
   }
-  return normal.ldlt().solve(right);
+  return solve_symmetric(normal, right);
 }
 
 struct Repeats {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/identify/linear_algebra.h"
 #include "study/identify/tow/paired_difference.h"
 #include "study/identify/tow/steady_span.h"
 
@@ -101,14 +102,14 @@ std::optional<ExtendedModel> ExtendedModel::fit(std::span<const Recording> tows,
     a.row(i) = model.row(bin.place_m, bin.speed_m_per_s).transpose();
     y(i) = bin.force_N;
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
-  if (qr.rank() < unknowns) {
+  auto solved = least_squares(a, y);
+  if (solved.rank < unknowns) {
     return std::nullopt;
   }
-  model.solution_ = qr.solve(y);
+  model.solution_ = std::move(solved.x);
   const double variance =
       (y - a * model.solution_).squaredNorm() / static_cast<double>(rows - unknowns);
-  model.covariance_ = variance * (a.transpose() * a).inverse();
+  model.covariance_ = variance * inverse(a.transpose() * a);
   return model;
 }
 

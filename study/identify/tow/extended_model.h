@@ -8,7 +8,7 @@
 // averaged, so a force that does not reverse with the motion (tilt, cable) stays out of it.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <optional>
 #include <span>
 #include <vector>

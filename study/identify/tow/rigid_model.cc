@@ -1,8 +1,9 @@
 #include "study/identify/tow/rigid_model.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 
+#include "study/identify/linear_algebra.h"
 #include "study/identify/tow/paired_difference.h"
 #include "study/identify/tow/steady_span.h"
 
@@ -86,7 +87,7 @@ std::optional<RigidModel> rigid_model(std::span<const Recording> tows, core::Axi
   if (normal.determinant() < kSameSpeed * normal(0, 0) * normal(1, 1)) {
     return std::nullopt;
   }
-  const Eigen::Vector2d solution = normal.ldlt().solve(a.transpose() * y);
+  const Eigen::Vector2d solution = solve_symmetric(normal, a.transpose() * y);
   // What the measured means are unsure by, carried through the fit. Their scatter about the line is
   // no noise here: it is the friction by place that the model leaves out.
   Eigen::VectorXd variance(rows);

@@ -1,10 +1,12 @@
 #include "study/identify/tow/sinusoidal_tow.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
+
+#include "study/identify/linear_algebra.h"
 
 namespace towbench::harness::identify {
 namespace {
@@ -96,7 +98,7 @@ std::optional<SinusoidalDrag> sinusoidal_tow(const Recording& with,
       normal += row * row.transpose();
       right += row * (settings.scale * (column_with[i] - column_without[reference]));
     }
-    const Eigen::Vector3d solution = normal.ldlt().solve(right);
+    const Eigen::Vector3d solution = solve_symmetric(normal, right);
     masses.push_back(solution(0));
     drags.push_back(solution(1));
   }

@@ -1,9 +1,11 @@
 #include "study/identify/tow/yaw_drag.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "study/identify/linear_algebra.h"
 
 namespace towbench::harness::identify {
 namespace {
@@ -51,7 +53,7 @@ std::optional<YawDrag> yaw_drag(std::span<const YawPoint> points, const CommonDo
       normal(1, 1) < kToldApart * normal(0, 0)) {
     return std::nullopt;
   }
-  const Eigen::Vector2d solution = normal.ldlt().solve(right);
+  const Eigen::Vector2d solution = solve_symmetric(normal, right);
   Eigen::Matrix2d covariance = normal.inverse();
   // Birge: points that scatter by more than they should make the law less sure.
   const double free = 2.0 * static_cast<double>(points.size()) - 2.0;

@@ -2,9 +2,8 @@
 // Riccati equation's symplectic matrix, and the emulated machine's truth.
 #include "bbmc/system/state_observer.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
-#include <complex>
 
 #include <gtest/gtest.h>
 
@@ -59,10 +58,22 @@ AxisConfiguration enabled(Axis axis) {
   return settings;
 }
 
-// P = A P A' - A P c (c' P c + r)^-1 c' P A' + Q from the eigenvectors inside the unit circle of
-// [F + G F^-T Q, -G F^-T; -F^-T Q, F^-T], F = A', G = c c' / r (Vaughan 1970), states scaled to
-// their own size.
-Eigen::VectorXd gain_by_eigenvectors(const StateObserver& observer) {
+// The sign of a matrix: eigenvalues of the left half plane become -1, the others 1. Newton's
+// iteration (Roberts 1980), each step scaled by the determinant.
+Eigen::MatrixXd sign_of(Eigen::MatrixXd z) {
+  for (int i = 0; i < 60; ++i) {
+    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(z);
+    const double scale = std::pow(std::abs(lu.determinant()), -1.0 / static_cast<double>(z.rows()));
+    z = 0.5 * (scale * z + lu.inverse() / scale);
+  }
+  return z;
+}
+
+// P = A P A' - A P c (c' P c + r)^-1 c' P A' + Q: [1; P] spans the eigenvectors inside the unit
+// circle of H = [F + G F^-T Q, -G F^-T; -F^-T Q, F^-T], F = A', G = c c' / r (Vaughan 1970).
+// (H + 1)^-1 (H - 1) has them in the left half plane, so that its sign S has (S + 1) [1; P] = 0.
+// States are scaled to their own size.
+Eigen::VectorXd gain_by_stable_subspace(const StateObserver& observer) {
   constexpr int kN = static_cast<int>(StateObserver::kStates);
   const double scale[kN] = {1e-3, 1e-1, 1e-3, 1e-1, 1e-4};
   Eigen::MatrixXd a(kN, kN);
@@ -79,19 +90,16 @@ Eigen::VectorXd gain_by_eigenvectors(const StateObserver& observer) {
   c(0) = scale[0];
   const Eigen::MatrixXd f = a.transpose();
   const Eigen::MatrixXd g = c * c.transpose() / observer.measurement_variance();
-  const Eigen::MatrixXd back = f.transpose().inverse();
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(2 * kN, 2 * kN);
+  const Eigen::MatrixXd back = a.partialPivLu().inverse();
   Eigen::MatrixXd symplectic(2 * kN, 2 * kN);
   symplectic << f + g * back * q, -g * back, -back * q, back;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(symplectic);
-  Eigen::MatrixXcd stable(2 * kN, kN);
-  int found = 0;
-  for (int i = 0; i < 2 * kN && found < kN; ++i) {
-    if (std::abs(solver.eigenvalues()(i)) < 1) {
-      stable.col(found++) = solver.eigenvectors().col(i);
-    }
-  }
-  EXPECT_EQ(found, kN);
-  const Eigen::MatrixXd p = (stable.bottomRows(kN) * stable.topRows(kN).inverse()).real();
+  const Eigen::MatrixXd cayley = (symplectic + one).partialPivLu().inverse() * (symplectic - one);
+  const Eigen::MatrixXd stable = sign_of(cayley) + one;
+  EXPECT_NEAR(stable.trace(), 2 * kN, 1e-6);  // half of all 2 kN are inside
+  const Eigen::MatrixXd right = stable.rightCols(kN);
+  const Eigen::MatrixXd p = -(right.transpose() * right).partialPivLu().inverse() *
+                            right.transpose() * stable.leftCols(kN);
   Eigen::VectorXd gain = p * c / (c.dot(p * c) + observer.measurement_variance());
   for (int i = 0; i < kN; ++i) {
     gain(i) *= scale[i];
@@ -104,7 +112,7 @@ TEST(StateObserver, HasTheGainOfTheRiccatiEquationsStableSubspace) {
     for (const double rate_Hz : {100.0, 1000.0, 5000.0}) {
       const StateObserver observer(enabled(axis), rate_Hz);
       ASSERT_TRUE(observer.works());
-      const Eigen::VectorXd expected = gain_by_eigenvectors(observer);
+      const Eigen::VectorXd expected = gain_by_stable_subspace(observer);
       for (std::size_t i = 0; i < StateObserver::kStates; ++i) {
         EXPECT_NEAR(observer.gain()[i] / expected(static_cast<int>(i)), 1, 1e-4)
             << core::name_of(axis) << " at " << rate_Hz << " Hz, state " << i;
