@@ -1,6 +1,6 @@
 #!/bin/sh
 # Length and form of the pages: README.md at most 90 lines, a folder's README at most 40, no table cell that holds a
-# paragraph, no link and no named page that is not there.
+# paragraph, no link and no named page that is not there, each library of dependencies.md in README's table.
 # usage: check_pages.sh ROOT
 set -eu
 cd "${1:?usage: check_pages.sh ROOT}"
@@ -49,4 +49,16 @@ for named in $( (git grep -IhoE 'docs/[a-z0-9/-]+\.md' -- ':!tests/architecture'
   grep -rhoE 'docs/[a-z0-9/-]+\.md' .) | sort -u); do
   [ -e "$named" ] || complain "$named is named and not there: $(git grep -Il "$named" 2>/dev/null | head -n 3 | tr '\n' ' ')"
 done
+
+# A library by the last part of its name: Boost.Asio is Asio in README.md's table.
+libraries=docs/reference/dependencies.md
+if [ -f "$libraries" ]; then
+  named=$(sed -n '/^## Dependencies/,/^## [^D]/s/^| \([^|]*\)|.*/\1/p' README.md | tr -cs 'A-Za-z0-9+:-' '\n')
+  # shellcheck disable=SC2013  # spaces have become _
+  for library in $(sed -nE 's/^\| ([^|(]*[^|( ]) *(\([^)]*\) )?\| [0-9].*/\1/p' "$libraries" | sed 's/, /\n/g; s/ /_/g'); do
+    for word in $(echo "${library##*.}" | tr '_' ' '); do
+      echo "$named" | grep -qxF "$word" || complain "README.md: its table of dependencies has no $word"
+    done
+  done
+fi
 exit $status

@@ -1,5 +1,6 @@
 #!/bin/sh
-# A README that is too long, a cell that holds a paragraph, a dead link and a long commit subject must be found.
+# A README that is too long, a cell that holds a paragraph, a dead link, a library that README.md does not name
+# and a long commit subject must be found.
 # shellcheck disable=SC2016  # the backticks are Markdown
 set -u
 root=${1:?usage: planted_pages_test.sh ROOT}
@@ -30,6 +31,13 @@ fresh && lines 41 >"$scratch/tree/folder/README.md" && expect fail "a folder's R
 fresh && printf '| a | %s |\n' "$(long 330)" >"$scratch/tree/docs/there.md" && expect fail "a paragraph in a cell"
 fresh && printf '[gone](gone.md)\n' >"$scratch/tree/docs/there.md" && expect fail "a dead link"
 fresh && printf 'see docs/guide/gone.md\n' >"$scratch/tree/docs/there.md" && expect fail "a page that is not there"
+
+library() { # library TABLE: README.md has Asio, and the page of dependencies TABLE
+  fresh && mkdir "$scratch/tree/docs/reference" && printf '%s\n' "$1" >"$scratch/tree/docs/reference/dependencies.md" &&
+    printf '## Dependencies\n| library | version |\n| --- | --- |\n| Boost: Asio | 1.74 |\n## Reading\n' >"$scratch/tree/README.md"
+}
+library '| Boost.Asio | 1.74 | why |' && expect pass "a library that README.md names"
+library '| zlib | 1.2 | why |' && expect fail "a library that README.md does not name"
 
 commit() { # commit TEXT: on top of a fresh base; true when the check passes
   rm -rf "$scratch/tree" && mkdir "$scratch/tree" && cd "$scratch/tree" || exit 1
