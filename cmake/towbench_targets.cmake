@@ -35,7 +35,7 @@ endif()
 # TOWBENCH_UNITY=OFF compiles each alone: for clang-tidy, and so that a missing include is still an
 # error (`./towbench test --only alone`).
 set(CMAKE_UNITY_BUILD ${TOWBENCH_UNITY})
-set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 20)
 
 # towbench_library(NAME [DEPENDS targets...] [FOLDERS names...] [EXCLUDE regex...] [ALONE files...]):
 # every .cc below the calling folder, or below those of its folders. ALONE: files that no other may

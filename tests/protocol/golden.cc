@@ -6,20 +6,20 @@ namespace {
 constexpr core::Nanoseconds kTime_ns = 0x0102030405060708;
 constexpr std::uint32_t kSequence = 0x11223344;
 
-const Hello kController{.version = 1,
-                        .role = Role::kController,
-                        .axes_mask = 3,
-                        .tick_ns = 100'000,
-                        .exchange_ns = 1'000'000,
-                        .capabilities = kCapabilityEdges | kCapabilityDigest,
-                        .fixture_hash = 0x8877665544332211};
-const Hello kPlant{.version = 1,
-                   .role = Role::kPlant,
-                   .axes_mask = 1,
-                   .tick_ns = 50'000,
-                   .exchange_ns = 0,
-                   .capabilities = kCapabilityEdges,
-                   .fixture_hash = 0};
+const Hello kControllerHello{.version = 1,
+                             .role = Role::kController,
+                             .axes_mask = 3,
+                             .tick_ns = 100'000,
+                             .exchange_ns = 1'000'000,
+                             .capabilities = kCapabilityEdges | kCapabilityDigest,
+                             .fixture_hash = 0x8877665544332211};
+const Hello kPlantHello{.version = 1,
+                        .role = Role::kPlant,
+                        .axes_mask = 1,
+                        .tick_ns = 50'000,
+                        .exchange_ns = 0,
+                        .capabilities = kCapabilityEdges,
+                        .fixture_hash = 0};
 
 void send_edges(MessageSink& sink) {
   EncoderEdges m;
@@ -38,10 +38,10 @@ void send_edges(MessageSink& sink) {
 const std::vector<Golden>& golden_messages() {
   static const std::vector<Golden> messages{
       {"Hello", "01 0100 00 03 a0860100 40420f00 03000000 1122334455667788",
-       [](MessageSink& s) { s.on(kController); }},
+       [](MessageSink& s) { s.on(kControllerHello); }},
       {"HelloReply", "02 0100 01 01 50c30000 00000000 01000000 0000000000000000 9401",
        [](MessageSink& s) {
-         s.on(HelloReply{kPlant, core::ErrorCode::kProtocolTick});
+         s.on(HelloReply{kPlantHello, core::ErrorCode::kProtocolTick});
        }},
       {"PwmDuty", "03 01 01 d204 0000 8813 44332211",
        [](MessageSink& s) {
