@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "registers.h"
+#include "servo.h"
 
 void enable_caches(void);
 void entry(void);
@@ -36,83 +37,6 @@ enum planted {
 #ifndef PLANTED
 #define PLANTED NOTHING
 #endif
-
-/* ---- console ---- */
-
-static void put(char c) {
-  u32 line_control = W(UART + 0x0C);
-  W(UART + 0x0C) = line_control & 0x7F;
-  while ((W(UART + 0x14) & 0x60) != 0x60) {
-  }
-  W(UART) = (u32)(u8)c;
-  W(UART + 0x0C) = line_control;
-}
-static void text(const char* s) {
-  while (*s) put(*s++);
-}
-static void number(int v) {
-  char digits[12];
-  int n = 0;
-  if (v < 0) {
-    put('-');
-    v = -v;
-  }
-  do {
-    digits[n++] = (char)('0' + v % 10);
-    v /= 10;
-  } while (v);
-  while (n) put(digits[--n]);
-}
-static char get(void) {
-  while (!(W(UART + 0x14) & 1)) {
-  }
-  return (char)W(UART);
-}
-static void line(char* into, int size) {
-  int n = 0;
-  for (;;) {
-    char c = get();
-    if (c == '\r') break;
-    put(c);
-    into[n++] = c;
-    if (n == size) return;
-  }
-  into[n] = 0;
-}
-
-static void console_setup(void) {
-  W(CM_WKUP + 0xB4) |= 2;
-  while ((W(CM_WKUP + 0xB4) & 3) != 2) {
-  }
-  while ((W(CM_WKUP + 0xB4) >> 16 & 3) != 0) {
-  }
-  while (!(W(CM_WKUP + 0x00) & 1u << 12)) {
-  }
-  while (!(W(CM_WKUP + 0xCC) & 1u << 2)) {
-  }
-  W(CONTROL + 0x970) = 0x30;
-  W(CONTROL + 0x974) = 0x10;
-  W(UART + 0x54) |= 2;
-  while (!(W(UART + 0x58) & 1)) {
-  }
-  W(UART + 0x0C) = 0xBF; /* mode B: enhanced functions, so that FCR can be written */
-  W(UART + 0x08) |= 0x10;
-  W(UART + 0x0C) = 0x80;
-  W(UART + 0x10) |= 0x40;
-  W(UART + 0x1C) = 0x00;
-  W(UART + 0x08) = 0x07 | 1u << 4 | 1u << 6;
-  W(UART + 0x40) |= 0xC0;
-  W(UART + 0x10) &= ~0x40u;
-  W(UART + 0x20) = (W(UART + 0x20) & ~7u) | 7;
-  W(UART + 0x0C) = 0xBF;
-  W(UART + 0x00) = 26;
-  W(UART + 0x04) = 0;
-  W(UART + 0x08) &= ~0x10u;
-  W(UART + 0x0C) = (W(UART + 0x0C) & ~0x3Fu) | 3;
-  W(UART + 0x0C) &= ~0x80u;
-  W(UART + 0x0C) &= ~0x40u;
-  W(UART + 0x20) &= ~7u;
-}
 
 /* ---- interrupts ---- */
 
@@ -215,70 +139,6 @@ static void kill_switch(void) {
       killed = 1;
     }
     W(GPIO1 + 0x30) = 1u << 14;
-  }
-}
-
-/* ---- devices ---- */
-
-static void enable(u32 clock) {
-  W(clock) |= 2;
-  while ((W(clock) & 3) != 2) {
-  }
-  while (W(clock) & 0x30000) {
-  }
-}
-static void timer_setup(u32 timer, u32 clock, u32 select) {
-  W(select) = (W(select) & ~3u) | 1;
-  while ((W(select) & 3) != 1) {
-  }
-  enable(clock);
-  W(timer + 0x38) &= ~1u;
-  W(timer + 0x38) |= 2;
-  W(timer + 0x3C) = 0xFFFFA23Fu;
-  W(timer + 0x40) = 0xFFFFA23Fu;
-}
-static void device_setup(void) {
-  const u32 domains[4] = {CM_PER + 0x04, CM_PER + 0x0C, CM_PER + 0x12C, CM_PER + 0x00};
-  for (int i = 0; i < 4; ++i) {
-    W(domains[i]) |= 2;
-    while ((W(domains[i]) & 3) != 2) {
-    }
-  }
-  enable(CM_PER + 0xDC);
-  enable(CM_PER + 0xE0);
-  enable(CM_PER + 0x60);
-  timer_setup(TIMER2, CM_PER + 0x80, CM_DPLL + 0x08);
-  timer_setup(TIMER5, CM_PER + 0xEC, CM_DPLL + 0x18);
-  enable(CM_PER + 0xAC);
-  W(CM_PER + 0xAC) |= 1u << 18;
-  while (!(W(CM_PER + 0xAC) & 1u << 18)) {
-  }
-  W(GPIO1 + 0x130) &= ~1u;
-  W(GPIO1 + 0x10) |= 2;
-  while (!(W(GPIO1 + 0x114) & 1)) {
-  }
-  W(CONTROL + 0x81C) = 7;
-  W(GPIO1 + 0x134) &= ~(1u << 7 | 1u << 3);
-  W(CONTROL + 0x838) = 0x27;
-  W(GPIO1 + 0x150) |= 1u << 14;
-  W(GPIO1 + 0x154) = 10;
-  W(GPIO1 + 0x148) |= 1u << 14;
-  W(GPIO1 + 0x14C) &= ~(1u << 14);
-  W(GPIO1 + 0x30) = 1u << 14;
-  W(GPIO1 + 0x38) = 1u << 14;
-  for (u32 base = PWMSS1; base <= PWMSS2; base += PWMSS2 - PWMSS1) {
-    enable(base == PWMSS1 ? CM_PER + 0xCC : CM_PER + 0xD8);
-    W(base + 0x08) |= 0x10;
-    const u16 set[][2] = {{0x00, 0x0033}, {0x08, 15},     {0x0A, 1000}, {0x0E, 0x0050},
-                          {0x12, 0},      {0x14, 0},      {0x16, 0x12}, {0x18, 0x0102},
-                          {0x1E, 0},      {0x28, 0x000F}, {0x32, 0},    {0x40, 0}};
-    for (u32 i = 0; i < sizeof set / sizeof set[0]; ++i) H(base + EPWM + set[i][0]) = set[i][1];
-    W(base + EQEP + 0x08) = 2500000;
-    W(base + EQEP + 0x04) = 10;
-    H(base + EQEP + 0x28) = 0;
-    H(base + EQEP + 0x2A) = 0x108C;
-    H(base + EQEP + 0x2C) = 0x8060;
-    H(base + EQEP + 0x34) = 0xFFFF;
   }
 }
 
