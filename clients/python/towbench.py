@@ -6,7 +6,7 @@
         y = bench.axes["y"]
         bench.drive("y", 4.0 * (y.reference.position_m - METRES_PER_COUNT * y.count))
 
-Bytes and rules: docs/reference/protocol.md. CAN is not spoken here; a local socket and a serial line are.
+Bytes and rules: docs/reference/protocol.md.
 """
 
 from __future__ import annotations
@@ -306,6 +306,182 @@ class CobsFraming:
             self._held.clear()
 
 
+_CAN_FRAME = struct.Struct("<IB3x8s")  # identifier, length, data, as the kernel has them
+# Identifiers to the plant, or of an axis; those to the controller are one higher.
+_CAN_FAULT, _CAN_BYE, _CAN_LINES, _CAN_DUTY, _CAN_INDEX, _CAN_DIGEST = 0x40, 0x50, 0x80, 0x100, 0x180, 0x190
+_CAN_TIME, _CAN_LONG, _CAN_HEARTBEAT = 0x200, 0x600, 0x700
+_SEGMENT, _FIRST_SEGMENT = 7, 0x80
+
+
+@dataclass
+class _CanReport:
+    """What a packed report of an axis is relative to: the one before."""
+
+    time_ns: int = 0
+    interval_ns: int = 0
+    edge_ns: int = 0
+    period_ns: int = 0
+    index_count: int = 0
+    sequence: int = 0
+    noted: int = 0  # in a row, up to two: then the interval is known
+    index: int | None = None  # the frame of an index pulse that came before
+
+
+class _Segments:
+    """Puts together what took several frames."""
+
+    def __init__(self, counts: Counts, longest: int) -> None:
+        self.counts, self.longest = counts, longest
+        self._held, self._following = b"", 0
+
+    def take(self, data: bytes) -> bytes | None:
+        is_first, behind = data[0] & _FIRST_SEGMENT, data[0] & (_FIRST_SEGMENT - 1)
+        if is_first:
+            self.counts.truncated += self._following > 0
+            self._held = b""
+        elif self._following == 0 or behind + 1 != self._following:
+            self.counts.truncated += 1
+            return self._drop()
+        if len(self._held) + (behind + 1) * _SEGMENT > self.longest:
+            self.counts.too_long += 1
+            return self._drop()
+        self._held += data[1:]
+        self._following = behind
+        if behind:
+            return None
+        covered = 1 + self._held[0]
+        if len(self._held) != -(-(covered + 4) // _SEGMENT) * _SEGMENT:
+            self.counts.truncated += 1
+        elif crc32c(self._held[: covered + 4]) != _CRC_OF_CHECKED:
+            self.counts.bad_checksum += 1
+        else:
+            return self._held[1:covered]
+        return None
+
+    def _drop(self) -> None:
+        self.counts.discarded_bytes += 1 + _SEGMENT
+        self._following = 0
+
+
+class CanFraming:
+    """Classic CAN: a frame for what every turn sends, segments with a checksum for the rest."""
+
+    def __init__(self, counts: Counts) -> None:
+        self.counts = counts
+        self._reports = [_CanReport(), _CanReport()]
+        self._last_sequence = {DIGITAL_INPUTS: -1, HEARTBEAT: -1}
+        self._long, self._fault = _Segments(counts, 266), _Segments(counts, 21)
+
+    @staticmethod
+    def frame(payload: bytes) -> bytes:
+        kind = payload[0]
+        if kind == PWM_DUTY:
+            axis, enable, channel_a, channel_b, period, sequence = LAYOUTS[kind].fields.unpack_from(payload, 1)
+            word = channel_a | channel_b << 16 | period << 32 | enable << 48 | (sequence & 0x7FFF) << 49
+            return _can_frame(_CAN_DUTY + axis, word)
+        if kind == DIGITAL_OUTPUTS:
+            lines, change_ns, sequence = LAYOUTS[kind].fields.unpack_from(payload, 1)
+            if 0 <= change_ns < 1 << 48:
+                return _can_frame(_CAN_LINES, lines | (sequence & 0xFF) << 8 | change_ns << 16)
+        if kind in (ADVANCE, BYE):
+            return _CAN_FRAME.pack(_CAN_TIME if kind == ADVANCE else _CAN_BYE, 8, payload[1:])
+        covered = bytes((len(payload),)) + payload
+        covered += crc32c(covered).to_bytes(4, "little")
+        parts = [covered[at : at + _SEGMENT] for at in range(0, len(covered), _SEGMENT)]
+        heads = [len(parts) - 1 - i | (0 if i else _FIRST_SEGMENT) for i in range(len(parts))]
+        return b"".join(_CAN_FRAME.pack(_CAN_LONG, 8, bytes((head,)) + part) for head, part in zip(heads, parts))
+
+    def feed(self, data: bytes) -> Iterator[bytes]:
+        for identifier, size, body in _CAN_FRAME.iter_unpack(data):
+            if identifier not in _CAN_TO_CONTROLLER:
+                continue
+            if size != 8:
+                self.counts.truncated += 1
+                self.counts.discarded_bytes += size
+                continue
+            payload = self._payload(identifier, body)
+            if payload is not None:
+                self._note(payload)
+                yield payload
+
+    def _payload(self, identifier: int, body: bytes) -> bytes | None:
+        word = int.from_bytes(body, "little")
+        if identifier in (_CAN_INDEX, _CAN_INDEX + 1):
+            self._reports[identifier & 1].index = word
+            return None
+        if identifier in (_CAN_DIGEST, _CAN_DIGEST + 1):
+            return self._report(identifier & 1, word)
+        if identifier == _CAN_LINES + 1:
+            return encode(DIGITAL_INPUTS, word & 0xFF, word >> 16, self._sequence(DIGITAL_INPUTS, word >> 8, 0xFF))
+        if identifier == _CAN_HEARTBEAT + 1:
+            return encode(HEARTBEAT, word >> 16, self._sequence(HEARTBEAT, word, 0xFFFF))
+        if identifier in (_CAN_TIME + 1, _CAN_BYE + 1):
+            return _ID[ADVANCED if identifier == _CAN_TIME + 1 else BYE] + body
+        return (self._fault if identifier == _CAN_FAULT + 1 else self._long).take(body)
+
+    def _sequence(self, kind: int, low: int, mask: int) -> int:
+        """The first number after the last one whose low bits are these."""
+        following = self._last_sequence[kind] + 1
+        return following + (low - following & mask) & 0xFFFFFFFF
+
+    def _report(self, axis: int, word: int) -> bytes | None:
+        """The report that the frame stands for; None where one before it is missing."""
+        last = self._reports[axis]
+        index, last.index = last.index, None
+        sequence = last.sequence + 1 & 0xFFFFFFFF
+        edges = word >> 15 & 3  # none, one, several
+        time_ns, edge_ns, period_ns = last.time_ns + last.interval_ns, last.edge_ns, last.period_ns
+        known = last.noted == 2 and word >> 18 & 63 == sequence & 63 and edges < 3 and 0 <= time_ns < 1 << 63
+        known = known and (word >> 17 & 1) == (index is not None)
+        known = known and (index is None or index >> 48 == sequence & 0xFFFF)
+        if known and edges:
+            edge_ns = time_ns - (word >> 24 & 0xFFFFF)
+            known = edge_ns >= last.edge_ns
+            to_edge_ns = min(edge_ns - last.edge_ns, 0xFFFFFFFF) if last.edge_ns else period_ns
+            period_ns = to_edge_ns if edges == 1 else word >> 44
+        if not known:
+            last.noted = 0
+            self.counts.sequence_gaps += 1
+            return None
+        change = (word & 0xFFF ^ 0x800) - 0x800
+        count = last.index_count if index is None else (index & 0xFFFFFFFF ^ 1 << 31) - (1 << 31)
+        pulses = 0 if index is None else index >> 32 & 0xFFFF
+        # One with illegal transitions goes whole.
+        return encode(
+            ENCODER_REPORT, axis, word >> 12 & 7, time_ns, change, edge_ns, period_ns, count, pulses, 0, sequence
+        )  # fmt: skip
+
+    def _note(self, payload: bytes) -> None:
+        """Whatever way it came: the next packed one is read relative to it."""
+        kind = payload[0]
+        if kind not in (ENCODER_REPORT, DIGITAL_INPUTS, HEARTBEAT):
+            return
+        try:
+            _, fields, _ = decode(payload)
+        except (EOFError, ValueError):
+            return
+        if kind != ENCODER_REPORT:
+            self._last_sequence[kind] = fields[-1]
+            return
+        axis, _, time_ns, _, edge_ns, period_ns, index_count, _, _, sequence = fields
+        last = self._reports[axis]
+        follows = last.noted > 0 and sequence == last.sequence + 1 & 0xFFFFFFFF
+        interval_ns = time_ns - last.time_ns if follows else 0
+        self._reports[axis] = _CanReport(
+            time_ns, interval_ns, edge_ns, period_ns, index_count, sequence, 1 + follows, last.index
+        )  # fmt: skip
+
+
+def _can_frame(identifier: int, word: int) -> bytes:
+    return _CAN_FRAME.pack(identifier, 8, word.to_bytes(8, "little"))
+
+
+_CAN_TO_CONTROLLER = frozenset(
+    [_CAN_INDEX, _CAN_INDEX + 1, _CAN_DIGEST, _CAN_DIGEST + 1]
+    + [base + 1 for base in (_CAN_FAULT, _CAN_BYE, _CAN_LINES, _CAN_TIME, _CAN_LONG, _CAN_HEARTBEAT)]
+)
+
+
 # --- where the bytes go -------------------------------------------------------------------------------------------
 
 
@@ -383,6 +559,23 @@ class SerialPort:
         return os.read(self._line, 65536) if ready else b""
 
 
+class CanPort:
+    def __init__(self, interface: str) -> None:
+        try:
+            self._socket = socket.socket(socket.AF_CAN, socket.SOCK_RAW, socket.CAN_RAW)
+            self._socket.bind((interface,))
+        except (AttributeError, OSError) as error:
+            raise BenchError(f"can:{interface}: {error}") from error
+
+    def send(self, data: bytes) -> None:
+        for at in range(0, len(data), _CAN_FRAME.size):
+            self._socket.send(data[at : at + _CAN_FRAME.size])
+
+    def receive(self, timeout_s: float) -> bytes:
+        ready, _, _ = select.select([self._socket], [], [], timeout_s)
+        return self._socket.recv(_CAN_FRAME.size) if ready else b""
+
+
 # --- the controller's end -----------------------------------------------------------------------------------------
 
 
@@ -414,8 +607,8 @@ _STEP = {0b0010: 1, 0b1011: 1, 0b1101: 1, 0b0100: 1, 0b0001: -1, 0b0111: -1, 0b1
 class Bench:
     """One run: greet() once, then turn() until it says False."""
 
-    port: SocketPort | SerialPort
-    framing: LengthFraming | CobsFraming
+    port: SocketPort | SerialPort | CanPort
+    framing: LengthFraming | CobsFraming | CanFraming
     counts: Counts
     silence_s: float = 1.0
     period_ticks: int = 1000
@@ -449,6 +642,7 @@ class Bench:
         """Agrees with the bench and hears the first inputs. BenchError says why it was refused."""
         self.exchange_ns = exchange_ns
         mask = sum(1 << AXES.index(name) for name in axes)
+        edges = edges and not isinstance(self.framing, CanFraming)
         wanted = (EDGES if edges else DIGEST) | REFERENCE * reference | RESETS * resets
         self.send(HELLO, version, CONTROLLER, mask, tick_ns, exchange_ns, wanted, 0)
         self._wait(HELLO_REPLY)
@@ -572,8 +766,11 @@ class Bench:
         axis._levels = levels
 
 
+_LONGEST_START_S = 60.0  # of a bench on a bus; it waits for a controller as long
+
+
 def connect(address: str, patience_s: float = 10.0) -> Bench:
-    """local:PATH or serial:DEVICE[@BAUD]. Waits for a bench that is still starting."""
+    """local:PATH, serial:DEVICE[@BAUD] or can:INTERFACE. Waits for a bench that is still starting."""
     counts = Counts()
     scheme, _, place = address.partition(":")
     if scheme == "local":
@@ -581,4 +778,9 @@ def connect(address: str, patience_s: float = 10.0) -> Bench:
     if scheme == "serial":
         device, _, baud = place.partition("@")
         return Bench(SerialPort(device, int(baud or 921600)), CobsFraming(counts), counts, silence_s=patience_s)
-    raise BenchError(f"{address!r}: local:PATH or serial:DEVICE[@BAUD]")
+    if scheme == "can":
+        bench = Bench(CanPort(place), CanFraming(counts), counts, silence_s=max(patience_s, _LONGEST_START_S))
+        bench._wait(HEARTBEAT)  # a bus has no connection: the bench says that it waits
+        bench.silence_s = 1.0
+        return bench
+    raise BenchError(f"{address!r}: local:PATH, serial:DEVICE[@BAUD] or can:INTERFACE")

@@ -197,13 +197,13 @@ faults_over_can() {
   bench campaign can --fresh --quiet --workers 1 --out "$runs/faults" ${1:+--only "$1"}
 }
 
-# The example in C, over the same frames.
-controller_in_c_over_can() {
+# external_over_can COMMAND...: an example of the clients, over the same frames.
+external_over_can() {
   local code=0
-  rm -rf "${runs:?}/c"
-  bench run fixtures/any-controller/trapezoid-y.toml -q --no-report --controller external:can:vcan0 --out "$runs/c" &
+  rm -rf "${runs:?}/external"
+  bench run fixtures/any-controller/trapezoid-y.toml -q --no-report --controller external:can:vcan0 --out "$runs/external" &
   local bench=$!
-  chrt --batch 0 "$build/tests/clients/c_pid" can:vcan0 || code=1
+  chrt --batch 0 "$@" can:vcan0 || code=1
   wait "$bench" || code=1
   return "$code"
 }
@@ -282,7 +282,7 @@ in_machine() {
   job 'SocketCAN: filters, error frames, bus-off, queues' \
     "$build/tests/protocol/test_protocol" --gtest_brief=1 '--gtest_filter=SocketCan*'
   on_carrier circle vcan can:vcan0
-  job 'the C client over CAN: a trapezoid, judged' controller_in_c_over_can
+  job 'the C client over CAN: a trapezoid, judged' external_over_can "$build/tests/clients/c_pid"
   job 'edges over CAN FD: the log of a run in one process, bit for bit' edges_over_can_fd
   job 'GPIO lines: both sides, edges, debouncing, taken lines' \
     "$build/tests/protocol/test_protocol" --gtest_brief=1 '--gtest_filter=GpioLines*'
@@ -301,6 +301,7 @@ in_machine() {
   job 'a flood of foreign frames changes no verdict' flood_of_foreign_frames
   if [[ $where == whole-machine ]]; then
     job 'faults over CAN: bus-off, a plant killed and restarted, a killed controller, lost and doubled frames' faults_over_can
+    job 'the Python client over CAN: a trapezoid, judged' external_over_can python3 clients/python/examples/pid.py
   else
     job 'faults over CAN: the bus goes off' faults_over_can bus_off
     job 'faults over CAN: a plant is killed, and started again' faults_over_can link.to_controller.peer

@@ -33,7 +33,7 @@ counted = {}
 streams = {}
 for line in vectors:
     kind, _, digits = line.partition(" ")
-    if kind in ("frames", "cobs"):
+    if kind in ("frames", "cobs") or kind.startswith("can"):
         streams[kind] = bytes.fromhex(digits)
         continue
     counted[kind] = counted.get(kind, 0) + 1
@@ -55,4 +55,30 @@ for name, framing_type in (("frames", towbench.LengthFraming), ("cobs", towbench
         rest = payloads_of(framing_type, broken + bytes(5000), 4096)
         assert all(payload in whole for payload in rest), (name, at)
         assert len(rest) >= 198, (name, at, len(rest))
+
+
+def of_lengths(stream: bytes) -> list:
+    return payloads_of(towbench.LengthFraming, stream, 4096)
+
+
+def taken(frames: bytes) -> tuple:
+    """The legal payloads in a controller's frames, and what was counted besides."""
+    framing = towbench.CanFraming(towbench.Counts())
+    found = []
+    for at in range(0, len(frames), 16):  # as the port hands them over
+        found += [payload for payload in framing.feed(frames[at : at + 16]) if verdict_of(payload) == "ok"]
+    return found, framing.counts
+
+
+for name in ("can", "can_hurt"):
+    expected = of_lengths(streams[name + "_taken"])
+    found, counts = taken(streams[name])
+    differ = [i for i, pair in enumerate(zip(found, expected)) if pair[0] != pair[1]]
+    assert found == expected, (name, len(found), len(expected), differ[:3])
+    assert (counts.sequence_gaps > 10) == (name == "can_hurt"), (name, counts)
+    packed = [1 for at in range(0, len(streams[name]), 16) if streams[name][at : at + 2] in (b"\x90\x01", b"\x91\x01")]
+    assert len(packed) > 1000, len(packed)
+sent = of_lengths(streams["can_payloads"])
+assert len(sent) == 4 * 33_000 + 3, len(sent)
+assert b"".join(map(towbench.CanFraming.frame, sent)) == streams["can_sent"], "another frame than the packer's"
 print(counted)
