@@ -101,12 +101,20 @@ class FirmwareLoop {
     bench_.finish();
   }
 
+  void note_typed(core::Nanoseconds now_ns, std::string_view typed) {
+    if (!typed.empty()) {
+      outcome_.typed_ns.push_back(now_ns);
+    }
+  }
+
   // Types what a person has typed, and waits for the wall clock.
   void serve_person(core::Nanoseconds now_ns, std::string_view printed) {
     constexpr core::Nanoseconds kPace_ns = 5 * core::kNanosecondsPerMillisecond;
     shown_ += printed;
     if (now_ns % kPace_ns == 0) {
-      bench_.type(person_->exchange(shown_));
+      const auto typed = person_->exchange(shown_);
+      bench_.type(typed);
+      note_typed(now_ns, typed);
       shown_.clear();
       std::this_thread::sleep_until(start_ + std::chrono::nanoseconds(now_ns));
     }
@@ -120,6 +128,7 @@ class FirmwareLoop {
     }
     if (faults_.act(now_ns) || by_watchdog) {
       bench_.restarted();
+      outcome_.restarted_ns.push_back(now_ns);
       if (bench_.probe().has_port()) {
         static_cast<void>(bench_.probe().set_parameters(
             fixture_.controller.configuration));  // they fitted before
@@ -160,9 +169,7 @@ class FirmwareLoop {
       const auto pending = script_.pending(now_ns);
       bench_.type(pending);
       script_.typed(pending.size());
-      if (outcome_.first_typed_ns == 0 && !pending.empty()) {
-        outcome_.first_typed_ns = now_ns;
-      }
+      note_typed(now_ns, pending);
     }
     const auto printed = bench_.serve();
     script_.hear(printed);
@@ -191,8 +198,9 @@ class FirmwareLoop {
     }
     outcome_.script_failure = script_.failure();
     if (!failure.empty()) {
-      outcome_.script_failure = fmt::format("at {} s, in step {} of {}: {}", core::seconds(now_ns),
-                                            script_.steps_done() + 1, script_.steps(), failure);
+      outcome_.script_failure =
+          fmt::format("at {:.4f} s, in step {} of {}: {}", core::seconds(now_ns),
+                      script_.steps_done() + 1, script_.steps(), failure);
     } else if (running) {
       outcome_.script_failure =
           fmt::format("the time limit of {} s came in step {} of {}; it had not ended",

@@ -93,15 +93,36 @@ bool drives(double duty_pct) {
   return duty_pct != 0.0;
 }
 
+constexpr double kNever_s = std::numeric_limits<double>::max();
+
+double first_typed_from_s(const SafetyScope& scope, double from_s) {
+  const auto typed = std::find_if(scope.typed_s.begin(), scope.typed_s.end(),
+                                  [&](double typed_s) { return typed_s >= from_s; });
+  return typed == scope.typed_s.end() ? kNever_s : *typed;
+}
+
+// Whether nothing may be driven yet: nobody has typed since the image began, or began again. One
+// that nobody ever types to may begin by itself.
+bool waits_for_command(const SafetyScope& scope, double time_s) {
+  if (scope.typed_s.empty()) {
+    return false;
+  }
+  const auto waits = [&](double began_s) {
+    return time_s > began_s + kSameMoment_s && time_s < first_typed_from_s(scope, began_s);
+  };
+  return time_s < scope.typed_s.front() ||
+         std::any_of(scope.restarts_s.begin(), scope.restarts_s.end(), waits);
+}
+
 Check starts_undriven(const RunData& data, const SafetyScope& scope) {
   auto check = named("starts_undriven",
                      "the first duty of each axis is zero, and so before a command", "ANY-1");
   const auto time_s = data.log.column("time_s");
   for (const auto axis : core::kAxes) {
     const auto duty_pct = data.log_of(axis, "duty_pct");
-    for (std::size_t i = 0; i < duty_pct.size() && (i == 0 || time_s[i] < scope.first_typed_s);
-         ++i) {
-      if (drives(duty_pct[i]) && check.verdict == Verdict::kPass) {
+    for (std::size_t i = 0; i < duty_pct.size(); ++i) {
+      if (drives(duty_pct[i]) && check.verdict == Verdict::kPass &&
+          (i == 0 || waits_for_command(scope, time_s[i]))) {
         fail(check, fmt::format("{} is driven with {:.1f} % at {:.4f} s", core::name_of(axis),
                                 duty_pct[i], time_s[i]));
       }
@@ -127,13 +148,11 @@ double driven_until_s(const RunData& data, double from_s, double to_s) {
   return until_s;
 }
 
-constexpr double kNever_s = std::numeric_limits<double>::max();
-
 // When the controller may drive again: at the operator's first reset after the switch's release; of
-// an operator who is not heard, at the release.
+// an operator who types, at the first thing typed after it.
 double free_again_s(const RunData& data, const SafetyScope& scope, const Activation& pressed) {
-  if (scope.operator_may_reset) {
-    return pressed.to_s;
+  if (scope.operator_types) {
+    return first_typed_from_s(scope, pressed.to_s);
   }
   for (const auto& event : data.events) {
     if (event.kind == "operator_reset" && event.time_s >= pressed.to_s) {
@@ -145,8 +164,9 @@ double free_again_s(const RunData& data, const SafetyScope& scope, const Activat
 
 std::optional<Check> kill_removes_duty(const RunData& data, const SafetyScope& scope) {
   auto check = named("kill_to_zero_duty",
-                     scope.operator_may_reset
-                         ? "2 ms after the kill switch's edge nothing is driven until its release"
+                     scope.operator_types
+                         ? "2 ms after the kill switch's edge nothing is driven, until something "
+                           "is typed behind its release"
                          : "2 ms after the kill switch's edge nothing is driven, until a reset "
                            "behind its release",
                      "ANY-2");
@@ -160,9 +180,9 @@ std::optional<Check> kill_removes_duty(const RunData& data, const SafetyScope& s
       continue;  // pressed again before a reset
     }
     if (end_s < edge_s + kReaction_s) {
-      break;  // it bounced, and what follows is the operator's
+      continue;  // free again before it had to be still
     }
-    judged_to_s = scope.operator_may_reset ? kNever_s : end_s;
+    judged_to_s = end_s;
     const double zero_s = driven_until_s(data, edge_s, end_s);
     check.value = std::max(check.value.value_or(0), zero_s - edge_s);
     if (zero_s - edge_s > kReaction_s + kSameMoment_s && check.verdict == Verdict::kPass) {

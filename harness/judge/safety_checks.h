@@ -11,9 +11,10 @@
 namespace towbench::harness {
 
 //   starts_undriven          the first duty of each axis is zero, and every one before the operator
-//                            has typed anything
+//                            has typed anything, also after a restart
 //   kill_to_zero_duty        2 ms after the kill switch's edge no axis is driven, and none is until
-//                            the switch is released and the operator has reset, or may have
+//                            the switch is released and the operator has reset, or has typed what
+//                            may be a reset
 //   reset_told               INVALID where the controller takes no reset, and the experiment has
 //   one end_stop_not_outwards    2 ms after an end-stop's edge the axis is not driven towards it
 //   while
@@ -25,9 +26,10 @@ namespace towbench::harness {
 //                            controller that keeps its reference to itself
 // A requirement whose occasion did not come is left out. INVALID when the record cannot be read.
 struct SafetyScope {
-  bool reference_is_known = true;   // reference_m of the log lies in the machine's frame
-  bool operator_may_reset = false;  // after the kill switch was released
-  double first_typed_s = 0;         // 0: nobody types
+  bool reference_is_known = true;  // reference_m of the log lies in the machine's frame
+  bool operator_types = false;     // what an image takes for a reset is not known
+  std::vector<double> typed_s;
+  std::vector<double> restarts_s;
 };
 [[nodiscard]] std::vector<Check> safety_checks(const RunData& data, const SafetyScope& scope = {});
 

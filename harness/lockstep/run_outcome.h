@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/time.h"
 
@@ -13,7 +14,8 @@ struct RunOutcome {
   std::string reason;
   std::string script_failure;  // empty when every console step was carried out
   core::Nanoseconds end_ns = 0;
-  core::Nanoseconds first_typed_ns = 0;  // to an image; 0: nothing was
+  std::vector<core::Nanoseconds> typed_ns;      // when anything was, to an image
+  std::vector<core::Nanoseconds> restarted_ns;  // when the image began again
   core::Nanoseconds exchange_ns = 0;
   core::Nanoseconds control_period_ns = 0;
   double wall_time_s = 0;

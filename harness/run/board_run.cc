@@ -73,9 +73,14 @@ void BoardRun::judge_into(const std::filesystem::path& folder, const RunOutcome&
     const auto beside = judge_beside_reference(folder, folder / kReferenceFolder, without_);
     checks.insert(checks.begin(), beside.begin(), beside.end());
   }
-  const SafetyScope image{.reference_is_known = false,
-                          .operator_may_reset = true,
-                          .first_typed_s = core::seconds(outcome.first_typed_ns)};
+  SafetyScope image{
+      .reference_is_known = false, .operator_types = true, .typed_s = {}, .restarts_s = {}};
+  for (const auto restarted_ns : outcome.restarted_ns) {
+    image.restarts_s.push_back(core::seconds(restarted_ns));
+  }
+  for (const auto typed_ns : outcome.typed_ns) {
+    image.typed_s.push_back(core::seconds(typed_ns));
+  }
   judge_safety(folder, limits_of(fixture_.rig.parameters), image, checks);
   judgement.verdict = worst_of(checks);
 }

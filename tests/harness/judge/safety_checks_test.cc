@@ -31,7 +31,7 @@ class KillAndReset : public ::testing::Test {
                            time_s, told));
   }
   // The named check of a run of a second; one without a verdict where it is left out.
-  Check check(const char* name, const std::vector<Drives>& drives) {
+  Check check(const char* name, const std::vector<Drives>& drives, const SafetyScope& scope = {}) {
     run_.write(
         kRow_ns, 1000 * kRow_ns,
         [&](double time_s, bbmc::TelemetryRow& row) {
@@ -41,7 +41,7 @@ class KillAndReset : public ::testing::Test {
           }
         },
         [](double /*time_s*/, emulator::TruthRow& /*row*/) {});
-    for (const auto& found : safety_checks(run_.load())) {
+    for (const auto& found : safety_checks(run_.load(), scope)) {
       if (found.name == name) {
         return found;
       }
@@ -93,6 +93,53 @@ TEST_F(KillAndReset, TheSecondPressIsJudgedLikeTheFirst) {
   EXPECT_EQ(broken.verdict, Verdict::kFail);
   EXPECT_THAT(broken.reason, HasSubstr("pressed at 0.6000 s"));
   EXPECT_NEAR(*broken.value, 0.05, 1e-9);
+}
+
+// What an image takes for a reset is not known, and that something was typed is.
+SafetyScope image(std::vector<double> typed_s) {
+  return {.reference_is_known = false,
+          .operator_types = true,
+          .typed_s = std::move(typed_s),
+          .restarts_s = {}};
+}
+
+TEST_F(KillAndReset, AnImageMayDriveOnceSomethingWasTypedBehindTheRelease) {
+  line(0.2, true);
+  line(0.4, false);
+  const std::vector<Drives> drives{{0.05, 0.201}, {0.501, 1}};
+  EXPECT_EQ(check("kill_to_zero_duty", drives, image({0.01, 0.5})).verdict, Verdict::kPass);
+  EXPECT_EQ(check("kill_to_zero_duty", drives, image({0.01, 0.3})).verdict, Verdict::kFail)
+      << "typed while it was pressed";
+  EXPECT_EQ(check("kill_to_zero_duty", drives, image({0.01})).verdict, Verdict::kFail)
+      << "the release alone frees nothing";
+}
+
+TEST_F(KillAndReset, AnImageIsJudgedWhereTheContactBounces) {
+  line(0.2, true);
+  line(0.201, false);
+  line(0.2015, true);
+  EXPECT_EQ(check("kill_to_zero_duty", {{0.05, 0.9}}, image({0.01})).verdict, Verdict::kFail);
+  EXPECT_EQ(check("kill_to_zero_duty", {{0.05, 0.202}}, image({0.01})).verdict, Verdict::kPass);
+}
+
+TEST_F(KillAndReset, TheSecondPressUnderAnImageIsJudgedLikeTheFirst) {
+  line(0.2, true);
+  line(0.3, false);
+  line(0.6, true);
+  EXPECT_EQ(check("kill_to_zero_duty", {{0.05, 0.2}, {0.45, 0.65}}, image({0.01, 0.4})).verdict,
+            Verdict::kFail);
+}
+
+TEST_F(KillAndReset, AnImageThatBeginsAgainWaitsForACommandAgain) {
+  auto scope = image({0.1, 0.6});
+  scope.restarts_s = {0.4};
+  EXPECT_EQ(check("starts_undriven", {{0.15, 0.4}, {0.65, 1}}, scope).verdict, Verdict::kPass);
+  const auto resumes = check("starts_undriven", {{0.15, 0.4}, {0.45, 1}}, scope);
+  EXPECT_EQ(resumes.verdict, Verdict::kFail);
+  EXPECT_THAT(resumes.reason, HasSubstr("at 0.4500 s"));
+  scope.typed_s.pop_back();
+  EXPECT_EQ(check("starts_undriven", {{0.15, 0.4}, {0.65, 1}}, scope).verdict, Verdict::kFail)
+      << "nobody has typed since";
 }
 
 TEST_F(KillAndReset, AControllerThatIsNotToldMakesTheRunInvalid) {
