@@ -2,11 +2,12 @@
  * character at a time; a 1 kHz control interrupt in double precision; a 1 ms tick of priority 0;
  * the motor driven by the difference of both PWM channels, while the direction pins are outputs
  * that nobody sets; waits without WFI. */
+#include "servo.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "registers.h"
-#include "servo.h"
 
 void enable_caches(void);
 void entry(void);
@@ -14,13 +15,24 @@ void on_interrupt(void);
 void on_supervisor_call(void);
 void on_abort(void);
 
-#define COUNTS_PER_M 445311.0
 #define START 200000
+/* A word that a reset leaves as it was. */
+#define KEPT 0x88000000u
+#define MOVES 0x4D4F5645u
+
+/* What is known of an axis; the gains are those of Y, for a metre as long. */
+struct axis {
+  u32 subsystem, clock_bit; /* PWMSS, and its time base's bit in the control module */
+  double counts_per_m, gain;
+};
+static const struct axis Y = {PWMSS1, 1u << 1, 445311.0, 1.0};
+static const struct axis X = {PWMSS2, 1u << 2, 742241.0, 0.28};
 
 static double history[2][131072]; /* as large as a real one's log */
 static volatile int motion_ended;
 static volatile u32 ticks;
-static int iteration, killed;
+static const struct axis* axis = &Y;
+static int iteration, killed, ticks_stood, direction = 1;
 static const char* stopped;
 static double target, integral, position_before;
 
@@ -28,15 +40,29 @@ static double target, integral, position_before;
 enum planted {
   NOTHING,
   DEAF_TO_KILL,
-  LATE_FOR_KILL,
-  DEAF_TO_END_STOPS,
+  FORGETS_KILL,  /* drives on once the switch is released */
+  LATE_FOR_KILL, /* by ten milliseconds */
+  ONE_TICK_LATE, /* every duty, that after the kill as well */
+  DEAF_TO_Y_MIN,
+  DEAF_TO_Y_MAX,
+  DEAF_TO_X_MIN,
+  DEAF_TO_X_MAX,
   TRUSTS_ENCODER,
   STARTS_WITH_DUTY,
-  SIGN_REVERSED
+  RESUMES_AFTER_RESET, /* drives at once where a reset has interrupted a motion */
+  SIGN_REVERSED,
+  WRAPS_AT_16_BITS,
+  FULL_DUTY_ONLY
 };
 #ifndef PLANTED
 #define PLANTED NOTHING
 #endif
+#define IS_DEAF_TO_AN_END_STOP (PLANTED >= DEAF_TO_Y_MIN && PLANTED <= DEAF_TO_X_MAX)
+/* They go on whatever the count says, or their own fault would stop them. */
+#define IS_CREDULOUS                                                                  \
+  (IS_DEAF_TO_AN_END_STOP || PLANTED == TRUSTS_ENCODER || PLANTED == SIGN_REVERSED || \
+   PLANTED == WRAPS_AT_16_BITS || PLANTED == FULL_DUTY_ONLY || PLANTED == FORGETS_KILL)
+#define TICKS_LATE (PLANTED == ONE_TICK_LATE ? 1 : 0)
 
 /* ---- interrupts ---- */
 
@@ -72,10 +98,10 @@ static void interrupt_setup(u32 n, u32 priority, handler function) {
 }
 
 static double profile(double t) { /* 0.1 m in 2 s, at rest at both ends */
-  const double T = 2.0;
+  const double T = 2.0, way = 0.1 * axis->counts_per_m * direction;
   if (t <= 0) return START;
-  if (t >= T) return START + 0.1 * COUNTS_PER_M;
-  return START + 0.1 * COUNTS_PER_M * (t / T - sin(2 * M_PI * t / T) / (2 * M_PI));
+  if (t >= T) return START + way;
+  return START + way * (t / T - sin(2 * M_PI * t / T) / (2 * M_PI));
 }
 static void drive(u32 subsystem, double percent) {
   u32 period = H(subsystem + EPWM + 0x0A);
@@ -84,15 +110,23 @@ static void drive(u32 subsystem, double percent) {
   H(subsystem + EPWM + (percent < 0 ? 0x12 : 0x14)) = 0;
   H(subsystem + EPWM + (percent < 0 ? 0x14 : 0x12)) = size;
 }
+static double later(double duty) {
+  static double before[2];
+  before[1] = before[0];
+  before[0] = duty;
+  return before[TICKS_LATE];
+}
+static u32 end_stops(void) {
+  u32 seen = W(GPIO1 + 0x138) & 0xF0000u;
+  return IS_DEAF_TO_AN_END_STOP ? seen & ~(0x10000u << (PLANTED - DEAF_TO_Y_MIN)) : seen;
+}
 /* Why the motor is left alone, or null: an end-stop, a count that does not follow. */
 static const char* reason_to_stop(double error, double duty, u32 count) {
   static u32 still_count;
   static int still_ticks;
-  const u32 end_stops = W(GPIO1 + 0x138) & 0xF0000u;
   const int moved = (int)(count - still_count);
-  if (end_stops && PLANTED != DEAF_TO_END_STOPS) return "end-stop at ";
-  if (PLANTED == TRUSTS_ENCODER || PLANTED == SIGN_REVERSED || PLANTED == DEAF_TO_END_STOPS)
-    return 0;
+  if (end_stops()) return "end-stop at ";
+  if (IS_CREDULOUS) return 0;
   if (error > 2000 || error < -2000) return "lost at ";
   if (moved > 2 || moved < -2 || (duty < 5 && duty > -5)) {
     still_count = count;
@@ -103,23 +137,30 @@ static const char* reason_to_stop(double error, double duty, u32 count) {
 static void control(void) {
   W(TIMER2 + 0x30) = 2;
   W(TIMER2 + 0x28) = 2;
-  double position = W(PWMSS1 + EQEP);
-  u16 status = H(PWMSS1 + EQEP + 0x38);
-  H(PWMSS1 + EQEP + 0x38) = status;
+  const u32 subsystem = axis->subsystem;
+  const u32 count = W(subsystem + EQEP);
+  double position = count;
+  if (PLANTED == WRAPS_AT_16_BITS) position = START + (short)(count - START);
+  u16 status = H(subsystem + EQEP + 0x38);
+  H(subsystem + EQEP + 0x38) = status;
   target = profile(iteration * 1e-3 - 0.5);
   double error = target - position;
   double speed = (position - position_before) * 1000;
   double wanted = (target - profile(iteration * 1e-3 - 0.501)) * 1000;
   position_before = position;
   integral += error;
-  double duty = 0.008 * error + 2e-6 * integral + 0.005 * (wanted - speed);
+  double duty = axis->gain * (0.008 * error + 2e-6 * integral + 0.005 * (wanted - speed));
   if (PLANTED == SIGN_REVERSED) duty = -duty;
-  if (!stopped) stopped = reason_to_stop(error, duty, W(PWMSS1 + EQEP));
-  drive(PWMSS1, killed || stopped ? 0 : duty);
+  if (PLANTED == FULL_DUTY_ONLY) duty = duty > 0 ? 100 : duty < 0 ? -100 : 0;
+  if (!stopped) stopped = reason_to_stop(error, duty, count);
+  if (PLANTED == FORGETS_KILL && !(W(GPIO1 + 0x138) & 1u << 14)) killed = 0;
+  drive(subsystem, later(killed || stopped ? 0 : duty));
   history[0][iteration] = position;
   history[1][iteration] = duty;
-  if (++iteration >= 3000 || killed || stopped) {
-    drive(PWMSS1, 0);
+  ticks_stood = killed || stopped ? ticks_stood + 1 : 0; /* the kill may have come in between */
+  const int ends = PLANTED == FORGETS_KILL ? stopped != 0 : ticks_stood > TICKS_LATE;
+  if (++iteration >= 3000 || ends) {
+    drive(subsystem, 0);
     motion_ended = 1;
   }
   W(TIMER2 + 0x2C) = 2;
@@ -135,14 +176,14 @@ static void kill_switch(void) {
       }
     }
     if (PLANTED != DEAF_TO_KILL) {
-      drive(PWMSS1, 0);
+      if (PLANTED != ONE_TICK_LATE) drive(axis->subsystem, 0);
       killed = 1;
     }
     W(GPIO1 + 0x30) = 1u << 14;
   }
 }
 
-static void move(void) {
+static void move(const struct axis* which, int towards) {
   char answer[8];
   text("\r\nProceed? [Y/n]: ");
   line(answer, sizeof answer);
@@ -150,16 +191,19 @@ static void move(void) {
     text("\r\nnot done\r\n");
     return;
   }
-  W(PWMSS1 + EQEP) = START;
-  iteration = 0;
+  W(KEPT) = MOVES;
+  axis = which;
+  direction = towards;
+  W(axis->subsystem + EQEP) = START;
+  iteration = ticks_stood = 0;
   integral = 0;
   position_before = START;
   motion_ended = killed = 0;
   stopped = 0;
-  W(CONTROL + 0x664) |= 2;
-  H(PWMSS1 + EPWM + 0x12) = 0;
-  H(PWMSS1 + EPWM + 0x14) = 0;
-  H(PWMSS1 + EPWM) &= 0xFFFC;
+  W(CONTROL + 0x664) |= axis->clock_bit;
+  H(axis->subsystem + EPWM + 0x12) = 0;
+  H(axis->subsystem + EPWM + 0x14) = 0;
+  H(axis->subsystem + EPWM) &= 0xFFFC;
   text("\r\nEXECUTING..\r\n");
   W(TIMER5 + 0x2C) = 2;
   W(TIMER5 + 0x38) |= 1;
@@ -169,15 +213,16 @@ static void move(void) {
   while (!motion_ended) {
   }
   __asm__ volatile("cpsid i" ::: "memory");
+  W(KEPT) = 0;
   W(TIMER2 + 0x30) = 2;
   W(TIMER2 + 0x38) &= ~1u;
   W(TIMER5 + 0x30) = 2;
   W(TIMER5 + 0x38) &= ~1u;
-  W(CONTROL + 0x664) &= ~2u;
-  H(PWMSS1 + EPWM) |= 3;
+  W(CONTROL + 0x664) &= ~axis->clock_bit;
+  H(axis->subsystem + EPWM) |= 3;
   text("\r\n");
   text(killed ? "killed at " : stopped ? stopped : "EOR at ");
-  number((int)W(PWMSS1 + EQEP));
+  number((int)W(axis->subsystem + EQEP));
   text(" ticks ");
   number((int)ticks);
   text("\r\n");
@@ -197,7 +242,7 @@ int main(void) {
   interrupt_setup(93, 0, tick);
   interrupt_setup(99, 2, kill_switch);
   device_setup();
-  if (PLANTED == STARTS_WITH_DUTY) {
+  if (PLANTED == STARTS_WITH_DUTY || (PLANTED == RESUMES_AFTER_RESET && W(KEPT) == MOVES)) {
     drive(PWMSS1, 3);
     W(CONTROL + 0x664) |= 2;
     H(PWMSS1 + EPWM) &= 0xFFFC;
@@ -207,8 +252,10 @@ int main(void) {
   for (;;) {
     text("\r\nservo:~$ ");
     line(command, sizeof command);
-    if (!strcmp(command, "move")) {
-      move();
+    if (!strcmp(command, "move") || !strcmp(command, "back")) {
+      move(&Y, command[0] == 'm' ? 1 : -1);
+    } else if (!strcmp(command, "move x") || !strcmp(command, "back x")) {
+      move(&X, command[0] == 'm' ? 1 : -1);
     } else if (!strcmp(command, "quit")) {
       text("\r\nGoodbye!\r\n");
       for (;;) {

@@ -66,6 +66,16 @@ TEST_F(BoardPlanRun, ABrownOutStopsTheDriveAndTheImageStartsAgain) {
   EXPECT_EQ(console.find("EOR"), std::string::npos);
 }
 
+TEST_F(BoardPlanRun, AnImageThatDrivesAtOnceAfterABrownOutIsCaught) {
+  options_.firmware =
+      std::filesystem::path(TOWBENCH_FIRMWARE_FOLDER) / "servo-RESUMES_AFTER_RESET.elf";
+  const auto sound = run_experiment(servo(), options_);
+  EXPECT_EQ(sound.judgement.verdict, Verdict::kPass) << complaints_of(sound);
+  const auto run = with_fault("board brown_out at=1.8s for=50ms");
+  ASSERT_NE(check_named(run, "starts_undriven"), nullptr);
+  EXPECT_EQ(check_named(run, "starts_undriven")->verdict, Verdict::kFail);
+}
+
 TEST_F(BoardPlanRun, AStuckBitFiresWhenARegisterIsReadWithTheOtherLevel) {
   EXPECT_EQ(fired(with_fault("board stuck_bit at=1.5s address=0x48302180 bit=12 high=true")),
             "PASS");

@@ -2,14 +2,10 @@
 // as a user runs his own.
 #include <atomic>
 #include <cstdio>
-#include <map>
-#include <set>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "harness/campaign/campaign.h"
-#include "harness/campaign/drawn_machines.h"
 #include "tests/harness/end_to_end/run_support.h"
 
 namespace towbench::harness {
@@ -232,90 +228,6 @@ budget = [{ metric = "y_carriage_travel_m", max = 0.105 }]
   EXPECT_THROW((void)run_experiment(load_experiment(files.folder() / "wired.toml"), without),
                FixtureError)
       << "BBMC on the bench has no pins";
-}
-
-// The same motion and the same faults for the image and for six of it with something wrong.
-class ImageCampaign {
- public:
-  ImageCampaign() {
-    std::filesystem::create_directory_symlink(std::filesystem::absolute("fixtures"),
-                                              files_.folder() / "fixtures");
-    write_motion("move", "");
-    write_motion("into-the-end", "[start]\ny_m = 3.86\n");
-    file_ = files_.write("campaign.toml", R"(
-schema = 1
-name = "servo"
-motions = ["move.toml", "into-the-end.toml"]
-without_fault = true
-inject = [
-  { parts = ["kill_switch"], kinds = ["pressed"], phases = ["accelerate", "decelerate"], motions = ["move"] },
-  { parts = ["encoder.y"], kinds = ["frozen", "inverted"], phases = ["accelerate"], motions = ["move"] },
-  { parts = ["host"], kinds = ["late_tick"], phases = ["accelerate"] },
-]
-)");
-  }
-
-  // Results by the case's name; the cases of those whose name holds a text.
-  std::map<std::string, nlohmann::json> results(const std::string& image, const std::string& only) {
-    const CandidateController controller{.firmware = kImages / image, .text = "firmware:" + image};
-    auto campaign = load_campaign(file_, 0, controller);
-    campaign.drawn = std::make_unique<DrawnMachines>(campaign, files_.folder());
-    EXPECT_TRUE(entries_without_cases(campaign).empty());
-    EXPECT_EQ(campaign.refused.size(), 2U) << "host and link, once";
-    std::map<std::string, nlohmann::json> lines;
-    for (const auto& one : cases_of(campaign)) {
-      if (one.id.find(only) != std::string::npos) {
-        lines[one.id] = nlohmann::json::parse(run_campaign_case(campaign, one));
-      }
-    }
-    return lines;
-  }
-
- private:
-  void write_motion(const std::string& name, const std::string& start) {
-    files_.write(name + ".toml", "schema = 1\nname = \"" + name + R"("
-rig = "fixtures/rigs/macs-nominal.toml"
-controller = "fixtures/controllers/bbmc-0.5.toml"
-duration_limit_s = 10.0
-seed = 1
-console = [
-  { expect = "servo:~$ ", timeout_s = 5.0 },
-  { send = "move", expect = "[Y/n]", timeout_s = 1.0 },
-  { send = "Y", expect = "at ", timeout_s = 8.0 },
-]
-budget = [{ metric = "y_carriage_travel_m", min = 0.04, max = 0.105 }, { metric = "y_hard_end_contacts", max = 0.0 }]
-)" + start);
-  }
-
-  TemporaryFixtures files_;
-  std::filesystem::path file_;
-};
-
-TEST(ForeignImage, ACampaignFindsNothingInItAndThePlantedFaultOfEachVariant) {
-  ImageCampaign campaign;
-  const auto good = campaign.results("servo.elf", "");
-  EXPECT_EQ(good.size(), 6U);
-  for (const auto& [name, line] : good) {
-    EXPECT_EQ(line.value("verdict", ""), "PASS") << line.dump();
-  }
-  const auto caught = [&](const std::string& planted, const std::string& only,
-                          const std::string& rule) {
-    const auto lines = campaign.results("servo-" + planted + ".elf", only);
-    ASSERT_FALSE(lines.empty()) << planted;
-    std::set<std::string> broken;
-    for (const auto& [name, line] : lines) {
-      for (const auto& each : line.value("broken", nlohmann::json::array())) {
-        broken.insert(each.value("rule", ""));
-      }
-    }
-    EXPECT_TRUE(broken.contains(rule)) << planted << ": " << lines.begin()->second.dump();
-  };
-  caught("DEAF_TO_KILL", "kill_switch.pressed/accelerate", "kill_to_zero_duty");
-  caught("LATE_FOR_KILL", "kill_switch.pressed/accelerate", "kill_to_zero_duty");
-  caught("DEAF_TO_END_STOPS", "into-the-end/no.fault", "end_stop_not_outwards");
-  caught("TRUSTS_ENCODER", "encoder.y.frozen", "no_sustained_full_duty");
-  caught("STARTS_WITH_DUTY", "move/no.fault", "starts_undriven");
-  caught("SIGN_REVERSED", "move/no.fault", "no_hard_end");
 }
 
 }  // namespace
