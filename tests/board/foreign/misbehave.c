@@ -12,6 +12,9 @@ static char get(void) {
 __attribute__((noinline)) static u32 read_of(u32 address) {
   return W(address + 8) + 1;
 }
+__attribute__((noinline)) static u32 sample_of(u32 adc) {
+  return W(adc + 0x100) & 0xFFF;
+}
 __attribute__((noinline)) static void write_to(u32 address) {
   H(address + 6) = 7;
 }
@@ -35,6 +38,23 @@ int main(void) {
     case 'p':
       while (!(W(I2C0 + 0x24) & 4)) {
       }
+      break;
+    case 'k': /* writes what nothing here computes, and reads none of it */
+      W(ADC + 0x40) = 7;
+      H(I2C0 + 0xA4) = 0x8000;
+      W(UART1) = 'k';
+      for (;;) get();
+    case 'a':
+      return (int)sample_of(ADC);
+    case 'c':
+      while (!(H(PWMSS1 + ECAP + 0x2E) & 2)) {
+      }
+      break;
+    case 'd': /* a watchdog of a quarter of a second, which nobody serves */
+      W(WATCHDOG + 0x2C) = 0xFFFFE000;
+      W(WATCHDOG + 0x30) = 1;
+      W(WATCHDOG + 0x48) = 0xBBBB;
+      W(WATCHDOG + 0x48) = 0x4444;
       break;
     case 'm':
       for (volatile u32 i = 0;; ++i) {

@@ -154,6 +154,36 @@ budget = [{ metric = "y_hard_end_contacts", max = 0.0 }]
             std::string::npos);
 }
 
+// What nothing here computes is told, and proves nothing where the image goes by it.
+TEST(ForeignImage, RegistersThatAreOnlyKeptAndAWatchdogAreToldInTheRun) {
+  Bench bench;
+  const auto after = [&](const char* letter) {
+    return bench.run(std::string("letter-") + letter,
+                     "console = [{ send = \"" + std::string(letter) + R"(", wait_s = 1.5 }]
+budget = [{ metric = "y_hard_end_contacts", max = 0.0 }]
+)",
+                     "misbehave.elf");
+  };
+  const auto reason = [](const RunResult& run, const char* name) {
+    const auto* check = check_named(run, name);
+    return check == nullptr ? "no " + std::string(name) + complaints_of(run)
+                            : std::string(name_of(check->verdict)) + ' ' + check->reason;
+  };
+  const auto writes = after("k");
+  EXPECT_EQ(check_named(writes, "registers_modelled"), nullptr) << complaints_of(writes);
+  const auto listed = contents_of(writes.folder / "board.json");
+  for (const char* named : {"adc: register 0x40", "i2c0: register 0xa4", "uart1: register 0x0"}) {
+    EXPECT_NE(listed.find(named), std::string::npos) << named << '\n' << listed;
+  }
+  const auto sample = after("a");
+  EXPECT_EQ(sample.judgement.verdict, Verdict::kInvalid);
+  EXPECT_NE(reason(sample, "registers_modelled").find("(sample_of)"), std::string::npos)
+      << reason(sample, "registers_modelled");
+  const auto capture = reason(after("c"), "registers_modelled");
+  EXPECT_NE(capture.find("of ecap1"), std::string::npos) << capture;
+  EXPECT_EQ(reason(after("d"), "no_watchdog_reset").substr(0, 4), "FAIL");
+}
+
 // Ctrl-C is how a person at the console ends a run.
 TEST(ForeignImage, ARunOfAPersonAtTheConsoleEndsWhenStoppedAndProvesNothing) {
   TemporaryFixtures files;
