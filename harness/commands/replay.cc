@@ -40,6 +40,7 @@ struct Recorded {
   bool by_wall_clock = false;
   std::string carrier;
   std::filesystem::path image;  // of the virtual board, in the folder
+  bool typed_by_hand = false;   // at the image's console
 };
 
 nlohmann::json result_in(const std::filesystem::path& folder) {
@@ -61,9 +62,16 @@ Recorded recorded_in(const std::filesystem::path& folder) {
                          "\"complete\": a run that was cut short has no whole record to compare");
     }
     const auto image = result.value("image", nlohmann::json::object()).value("file", "");
+    const auto checks = result.value("checks", nlohmann::json::array());
+    const bool by_hand = std::any_of(checks.begin(), checks.end(), [](const auto& check) {
+      return check.value("name", "") == "driven_by_hand";
+    });
     return {folder / result.at("experiment").at("file").get<std::string>(),
-            result.at("seed").get<std::uint64_t>(), result.at("clock") == "real",
-            result.at("carrier").get<std::string>(), image.empty() ? "" : folder / image};
+            result.at("seed").get<std::uint64_t>(),
+            result.at("clock") == "real",
+            result.at("carrier").get<std::string>(),
+            image.empty() ? "" : folder / image,
+            by_hand && !image.empty()};
   } catch (const nlohmann::json::exception& error) {
     throw FixtureError({(folder / "result.json").string()}, error.what(), "a run's result.json");
   }
@@ -225,6 +233,11 @@ void choose_recorded_controller(const std::filesystem::path& folder, const Recor
     throw FixtureError({(folder / "result.json").string(), 0, "clock"}, "\"real\"",
                        "a run in lockstep: another controller does not do the same twice by the "
                        "wall clock");
+  }
+  if (recorded.typed_by_hand) {
+    throw FixtureError({(folder / "result.json").string(), 0, "checks"}, "\"driven_by_hand\"",
+                       "a run by the experiment's console: what a person types at an image's "
+                       "console is not played again");
   }
   if (carrier.starts_with(kProcess)) {
     options.external = ExternalController{.command = carrier.substr(kProcess.size())};

@@ -56,6 +56,13 @@ void BoardRun::judge_into(const std::filesystem::path& folder, const RunOutcome&
   if (!faults.empty() && !options_.person_at_console) {
     drop("driven_by_hand");
   }
+  for (auto& check : checks) {
+    if (check.name == "driven_by_hand" && options_.person_at_console) {
+      check.reason =
+          "typed at the image's console; the run is recorded, does not replay, and "
+          "proves nothing";
+    }
+  }
   const bool goes_dark = std::any_of(faults.begin(), faults.end(), [](const BoardFault& fault) {
     return fault.kind == BoardFault::Kind::kBrownOut;
   });

@@ -210,6 +210,9 @@ budget = [{ metric = "y_carriage_travel_m", max = 0.105 }]
   for (const auto& check : run.judgement.checks) {
     EXPECT_NE(check.verdict, Verdict::kFail) << check.name << ": " << check.reason;
   }
+  const auto replay = std::string(TOWBENCH_PROGRAM) + " replay '" + run.folder.string() + "' 2>&1";
+  EXPECT_NE(printed_by(replay).find("is not played again"), std::string::npos)
+      << printed_by(replay);
 }
 
 // What the image does is right, and its pins are not where it looks for them.
