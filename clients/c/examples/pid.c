@@ -21,7 +21,7 @@ static double inertia[] = {0.13, 0.06}; /* duty per m/s2: the amplifier sets the
 static double proportional = 4600.0, integral = 20000.0, derivative = 120.0; /* m/s2 per m, ... */
 static double filter = 0.5, largest_error = 0.01, brake = 20.0;
 /* More than friction takes, and no way made. */
-static double stall_duty = 0.04, stall_counts = 2, stall_s = 0.04;
+static double stall_duty = 0.06, stall_counts = 2, stall_s = 0.04;
 static const struct {
   const char* name;
   double* value[TB_AXES];

@@ -1,18 +1,16 @@
 """A PID position controller: python3 pid.py ADDRESS [AXES [NAME=VALUE ...]], AXES one of yx (the default), y, x"""
 
 import sys
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.insert(1, sys.path[0] + "/..")
 import towbench  # noqa: E402
 
-# Of the tow tank. NAME=VALUE says what another machine has, on all its axes; rad for m where it turns.
+# Of the tow tank, inertia in duty per m/s2. NAME=VALUE: of another machine, on all its axes; rad for m where it turns.
 SETTINGS = {
-    **{"y.metres_per_count": 2.24545e-6, "x.metres_per_count": 1.34727e-6},
-    **{"y.inertia": 0.13, "x.inertia": 0.06},  # duty per m/s2: the amplifier sets the current
+    **{"y.metres_per_count": 2.24545e-6, "x.metres_per_count": 1.34727e-6, "y.inertia": 0.13, "x.inertia": 0.06},
     **{"proportional": 4600.0, "integral": 20000.0, "derivative": 120.0},  # m/s2 per m, per m s, per m/s
     **{"brake": 20.0, "filter": 0.5, "largest_error": 0.01},  # m/s2 per m/s, share of the newest slope, m
-    **{"stall_duty": 0.04, "stall_counts": 2.0, "stall_s": 0.04},  # more than friction takes, and no way made
+    **{"stall_duty": 0.06, "stall_counts": 2.0, "stall_s": 0.04},  # more than friction takes, and no way made
 }
 
 
@@ -27,8 +25,7 @@ class Pid:
         return -self.inertia * self.brake * moved_m / (bench.exchange_ns * 1e-9)
 
     def error(self, bench: towbench.Bench) -> float:
-        state = bench.axes[self.axis]
-        return state.reference.position_m - self.metres_per_count * state.count
+        return bench.axes[self.axis].reference.position_m - self.metres_per_count * bench.axes[self.axis].count
 
     def duty(self, bench: towbench.Bench) -> float:
         period_s = bench.exchange_ns * 1e-9
@@ -37,8 +34,7 @@ class Pid:
         self.error_before = error
         feedback = self.proportional * error + self.integral * self.summed + self.derivative * self.slope
         wanted = self.inertia * (bench.axes[self.axis].reference.acceleration_m_per_s2 + feedback)
-        if abs(wanted) < 1.0:  # no wind-up while the duty is at its limit
-            self.summed += error * period_s
+        self.summed += error * period_s if abs(wanted) < 1.0 else 0.0  # no wind-up while the duty is at its limit
         stays = abs(bench.axes[self.axis].count - self.still_count) <= self.stall_counts
         self.still_count = self.still_count if stays else bench.axes[self.axis].count
         stalls = (stays and abs(wanted) > self.stall_duty) or abs(wanted) >= 1.0
@@ -50,8 +46,7 @@ def main() -> None:
     axes = tuple(sys.argv[2]) if len(sys.argv) > 2 else ("y", "x")
     for name, _, value in (word.partition("=") for word in sys.argv[3:]):
         named = [key for key in SETTINGS if key in (name, f"y.{name}", f"x.{name}")]
-        if not named:
-            sys.exit(f"{name}: given an unknown setting; allowed: {', '.join(SETTINGS)}")
+        named = named or sys.exit(f"{name}: given an unknown setting; allowed: {', '.join(SETTINGS)}")
         SETTINGS.update(dict.fromkeys(named, float(value)))
     bench = towbench.connect(sys.argv[1])
     bench.greet(reference=True, resets=True, axes=axes)
@@ -60,10 +55,8 @@ def main() -> None:
     while True:
         if bench.reset and not bench.lines & towbench.KILL_SWITCH:  # the operator asks to go on
             loops, stopped, killed = [Pid(axis) for axis in axes], "", False
-        if not stopped:
-            stopped = reason_to_stop(bench, loops)
-            if stopped:
-                print(f"{bench.now_ns * 1e-9:.3f} s: {stopped}", flush=True)
+        if not stopped and (stopped := reason_to_stop(bench, loops)):
+            print(f"{bench.now_ns * 1e-9:.3f} s: {stopped}", flush=True)
         killed = killed or bool(bench.lines & towbench.KILL_SWITCH)
         brakes = stopped == "end-stop" and not killed  # otherwise the count is not to be believed
         for loop in loops:
@@ -75,10 +68,8 @@ def main() -> None:
 
 
 def reason_to_stop(bench: towbench.Bench, loops: list) -> str:
-    if bench.lines & towbench.KILL_SWITCH:
-        return "kill switch"
-    if bench.lines & towbench.HALLS:
-        return "end-stop"
+    if bench.lines & (towbench.KILL_SWITCH | towbench.HALLS):
+        return "kill switch" if bench.lines & towbench.KILL_SWITCH else "end-stop"
     if bench.counts.sequence_gaps:
         return "a message was lost"
     lost = [p.axis for p in loops if abs(p.error(bench)) > p.largest_error or p.stalled_s > p.stall_s]
