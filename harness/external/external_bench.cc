@@ -75,9 +75,10 @@ RunOutcome ExternalBench::ended(HostClock::time_point start) {
 }
 
 void ExternalBench::lose(core::ErrorCode why, const std::string& words) {
-  outcome_.script_failure = fmt::format(
-      "the controller {} at {} s{}", why == core::ErrorCode::kNone ? "ended the run" : "was lost",
-      core::seconds(plant_.node.now_ns()), words);
+  outcome_.script_failure =
+      fmt::format("the controller {} at {:.4f} s{}",
+                  why == core::ErrorCode::kNone ? "ended the run" : "was lost",
+                  core::seconds(plant_.node.now_ns()), words);
   plant_.node.peer_lost(why == core::ErrorCode::kNone ? core::ErrorCode::kPeerClosed : why);
 }
 

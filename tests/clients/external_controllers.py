@@ -8,90 +8,30 @@ import csv
 import filecmp
 import json
 import math
+import os
+import pty
 import subprocess
 import sys
-import tempfile
+import threading
 import tomllib
+import tty
 from pathlib import Path
 
-group, root, program, c_pid, bbmc_process = sys.argv[1], Path(sys.argv[2]), *sys.argv[3:6]
-work = Path(tempfile.mkdtemp(prefix="towbench-external-"))
-PYTHON_PID = f"process:python3 '{root}/clients/python/examples/pid.py' {{address}}"
-C_PID = f"process:'{c_pid}' {{address}}"
-TRAPEZOID = str(root / "fixtures/any-controller/trapezoid-y.toml")
-CIRCLE = str(root / "fixtures/any-controller/circle.toml")
-RESET = str(root / "fixtures/any-controller/kill-and-reset.toml")
-failures = []
-
-
-def bad(kind: str) -> str:
-    return f"process:python3 '{root}/tests/clients/bad_controller.py' '{root}' {kind} {{address}}"
-
-
-def rig_beside(rig: str = "macs-nominal") -> None:
-    """Copies of the rig and the plant that an experiment of this folder needs."""
-    for fixture in (f"rigs/{rig}.toml", f"plants/{rig}.toml"):
-        (work / fixture).parent.mkdir(exist_ok=True)
-        (work / fixture).write_text((root / "fixtures" / fixture).read_text())
-
-
-def experiment(name: str, *parts: str, rig: str = "macs-nominal") -> str:
-    rig_beside(rig)
-    path = work / f"{name}.toml"
-    head = f'schema = 1\nname = "{name}"\nrig = "rigs/{rig}.toml"\nduration_limit_s = 12.0\n'
-    path.write_text(head + "".join(parts))
-    return str(path)
-
-
-def trapezoid(distance_m: float) -> str:
-    return (
-        f'[[reference]]\nmove = "trapezoid"\naxis = "y"\nat_s = 0.5\ndistance_m = {distance_m}\n'
-        "speed_m_per_s = 0.4\nacceleration_m_per_s2 = 1.0\n"
-    )
-
-
-TRAVELS = '[[budget]]\nmetric = "y_carriage_travel_m"\nmin = 0.05\n'
-
-
-def run(experiment_file: str, controller: str, *options: str) -> tuple:
-    done = subprocess.run(
-        [program, "run", experiment_file, "--controller", controller, "--no-report", "--json", "--out", str(work / "runs"), *options],
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
-    try:
-        return done.returncode, json.loads(done.stdout), done.stderr
-    except json.JSONDecodeError:
-        return done.returncode, {}, done.stderr
-
-
-def expect(what: str, holds: bool, detail: object = "") -> None:
-    print(("ok    " if holds else "WRONG ") + what, "" if holds else detail, flush=True)
-    if not holds:
-        failures.append(what)
-
-
-def expect_pass(what: str, *arguments: str) -> Path:
-    code, result, error = run(*arguments)
-    wrong = [(c["name"], c["reason"]) for c in result.get("checks", []) if c["verdict"] != "PASS"]
-    expect(f"{what} passes", code == 0, (code, error, result.get("reason"), wrong))
-    return Path(result.get("folder", ""))
-
-
-def expect_caught(what: str, by: str, *arguments: str) -> None:
-    code, result, error = run(*arguments)
-    failed = [c["name"] for c in result.get("checks", []) if c["verdict"] == "FAIL"]
-    expect(f"{what} is caught by {by}", code in (1, 4) and by in failed, (code, failed, error, result.get("reason")))
+from whole_runs import (
+    C_PID, CIRCLE, PYTHON_PID, RESET, TRAPEZOID, TRAVELS, bad, bbmc_process, c_pid, expect, expect_caught, expect_pass,
+    experiment, failures, group, program, refused, rig_beside, root, run, trapezoid, work,
+)  # fmt: skip
 
 
 def good() -> None:
     lines = len((root / "clients/python/examples/pid.py").read_text().splitlines())
-    expect("the example in Python has at most 90 lines", lines <= 90, lines)
+    expect("the example in Python has at most 80 lines", lines <= 80, lines)
     for name, file in (("trapezoid", TRAPEZOID), ("circle", CIRCLE)):
         one = expect_pass(f"Python, {name}", file, PYTHON_PID)
         two = expect_pass(f"Python, {name}, again", file, PYTHON_PID)
-        expect_pass(f"C, {name}", file, C_PID)
+        three = expect_pass(f"C, {name}", file, C_PID)
+        said = (one / "controller.txt").read_text() + (three / "controller.txt").read_text()
+        expect(f"{name}: neither has found a reason to stop", said == "", said)
         for record in ("log.csv", "truth.csv", "events.jsonl"):
             expect(f"{name}: the same {record} twice", filecmp.cmp(one / record, two / record, shallow=False))
     alone = experiment("y-alone", trapezoid(0.2), TRAVELS, rig="table-7.4")
@@ -112,6 +52,34 @@ def good() -> None:
         replay = subprocess.run([program, "replay", str(folder)], capture_output=True, text=True)
         expect(f"{what} replays", replay.returncode == 0, replay.stdout + replay.stderr)
     comes_by_itself()
+    comes_over_a_serial_line()
+
+
+def copy(from_line: int, to_line: int) -> None:
+    try:
+        while data := os.read(from_line, 65536):
+            while data:
+                data = data[os.write(to_line, data) :]
+    except OSError:
+        pass  # an end was closed
+
+
+def serial_line() -> tuple:
+    """The devices at the ends of a serial line: two ptys, joined."""
+    (one, one_end), (other, other_end) = pty.openpty(), pty.openpty()
+    for end in (one_end, other_end):
+        tty.setraw(end)
+    for ways in ((one, other), (other, one)):
+        threading.Thread(target=copy, args=ways, daemon=True).start()
+    return os.ttyname(one_end), os.ttyname(other_end)
+
+
+def comes_over_a_serial_line() -> None:
+    ours, theirs = serial_line()
+    out = work / "serial"
+    bench = subprocess.Popen([program, "run", TRAPEZOID, "--controller", f"external:serial:{ours}", "--no-report", "--quiet", "--out", str(out)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    comes = subprocess.run([sys.executable, str(root / "clients/python/examples/pid.py"), f"serial:{theirs}"], capture_output=True, text=True, timeout=120)
+    expect("one that comes over a serial line passes", (bench.wait(120), comes.returncode) == (0, 0), comes.stderr)
 
 
 def comes_by_itself() -> None:
@@ -266,26 +234,47 @@ def deaf() -> None:
     expect_caught("late", "y_tracking_error_peak_m", TRAPEZOID, bad("a_tenth_of_a_second_late"))
 
 
+# What each is told by, and whether the plant takes the drive away.
+REFUSED = {
+    "both_channels": ("both PWM channels active", True),
+    "time_runs_back": ("time ran backwards", False),
+    "skips_a_sequence": ("sequence", False),
+    "illegal_field": ("out of range", False),
+    "not_a_number": ("out of range", False),
+    "garbage": ("dropped", False),
+}
+GONE = {
+    "dies": "closed the link",
+    "says_bye": "ended the run",
+    "goes_silent": "peer is silent",
+    "babbles": "more than 1000 messages in one exchange",
+    "floods": "more than 1000 messages in one exchange",
+}
+NEVER_THERE = {"never_connects": "before it greeted", "other_version": "versions differ", "one_axis": "handshake refused", "other_tick": "handshake refused"}
+WHOLE = {"log.csv", "truth.csv", "events.jsonl", "metrics.json", "result.json", "controller.txt", "manifest.json"}
+
+
 def broken() -> None:
-    for kind in ("both_channels", "time_runs_back", "skips_a_sequence", "illegal_field", "not_a_number", "garbage"):
-        expect_caught(kind, "messages_accepted", TRAPEZOID, bad(kind))
-    for kind in ("dies", "says_bye", "goes_silent", "babbles", "floods"):
-        expect_caught(kind, "controller_stays", TRAPEZOID, bad(kind))
-        folder = max((work / "runs").iterdir(), key=lambda path: path.stat().st_mtime_ns)
-        files = {path.name for path in folder.iterdir()}
-        expect(f"{kind} leaves a whole run folder", {"log.csv", "truth.csv", "events.jsonl", "result.json", "controller.txt", "manifest.json"} <= files, files)
-        expect(f"{kind}: the drive is off", '"drive_removed"' in (folder / "events.jsonl").read_text())
-    for kind, words in (("never_connects", "before it greeted"), ("other_version", "handshake refused"), ("one_axis", "handshake refused"), ("other_tick", "handshake refused")):
+    for kinds, check in ((REFUSED, "messages_accepted"), ({kind: (words, True) for kind, words in GONE.items()}, "controller_stays")):
+        for kind, (words, loses_drive) in kinds.items():
+            code, result, error = run(TRAPEZOID, bad(kind))
+            lines = [c["reason"] for c in result.get("checks", []) if c["name"] == check and c["verdict"] == "FAIL"]
+            others = {c["verdict"] for c in result.get("checks", [])}
+            expect(f"{kind} is caught by {check}, and the line says why", len(lines) == 1 and words in lines[0], (lines, error))
+            expect(f"{kind} ends with {code}", code == (4 if "INVALID" in others else 1), (code, others))
+            folder = Path(result.get("folder", ""))
+            files = {path.name for path in folder.iterdir()}
+            expect(f"{kind} leaves a whole run folder", files >= WHOLE and result["status"] == "complete", files)
+            if loses_drive:
+                expect(f"{kind}: the drive is off", '"drive_removed"' in (folder / "events.jsonl").read_text())
+    for kind, words in NEVER_THERE.items():
         code, result, error = run(TRAPEZOID, bad(kind))
         expect(f"{kind} ends with 3 and a reason", code == 3 and words in result.get("reason", ""), (code, result.get("reason"), error))
-
-
-def refused(what: str, file: str, controller: str, words: str, *options: str) -> None:
-    arguments = [program, "run", file, "--no-report", "--out", str(work / "bad"), *(["--controller", controller] if controller else []), *options]
-    done = subprocess.run(arguments, capture_output=True, text=True, timeout=60)
-    lines = done.stderr.strip().splitlines()
-    expect(f"{what} is refused in one line", done.returncode == 2 and len(lines) == 1 and words in lines[0], (done.returncode, done.stderr))
-    expect(f"{what} leaves nothing", not list((work / "bad").glob("*")))
+        folder = Path(result.get("folder", ""))
+        files = {path.name for path in folder.iterdir()}
+        expect(f"{kind} leaves what there is", files >= {"inputs", "result.json", "manifest.json", "controller.txt"}, files)
+        duty = columns(folder / "log.csv", "y_duty_pct", "x_duty_pct") if (folder / "log.csv").stat().st_size else []
+        expect(f"{kind} has driven nothing", all(row == (0, 0) for row in duty), duty[:3])
 
 
 def bad_input() -> None:
