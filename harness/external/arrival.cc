@@ -6,11 +6,11 @@ namespace towbench::harness {
 namespace {
 
 constexpr auto kSomebodyComes = std::chrono::seconds(60);
+constexpr std::string_view kPlaceholder = "{address}";
 
 }  // namespace
 
 std::string with_address(std::string command, const std::string& address) {
-  constexpr std::string_view kPlaceholder = "{address}";
   for (auto at = command.find(kPlaceholder); at != std::string::npos;
        at = command.find(kPlaceholder, at + address.size())) {
     command.replace(at, kPlaceholder.size(), address);
@@ -69,10 +69,17 @@ bool Arrival::goes_on() {
 std::string Arrival::nobody_came() {
   if (process_ && !process_->runs()) {
     const auto how = process_->join();
-    return fmt::format("the controller's process {} before it greeted; see {}",
-                       how.empty() ? "ended" : how, printed_.string());
+    return fmt::format("the controller's process {} before it greeted{}; see {}",
+                       how.empty() ? "ended" : how, nobody_told(), printed_.string());
   }
-  return fmt::format("no controller greeted at {}", address_.text());
+  return fmt::format("no controller greeted at {}{}", address_.text(), nobody_told());
+}
+
+// What a newcomer forgets.
+std::string Arrival::nobody_told() const {
+  const bool told =
+      controller_.address || controller_.command.find(kPlaceholder) != std::string::npos;
+  return told ? "" : fmt::format(" (its command has no {} to tell it where)", kPlaceholder);
 }
 
 }  // namespace towbench::harness

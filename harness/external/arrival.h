@@ -43,6 +43,7 @@ class Arrival {
   // Asked when the bench listens already.
   bool goes_on();
   std::string nobody_came();
+  [[nodiscard]] std::string nobody_told() const;
 
   const ExternalController& controller_;
   std::filesystem::path printed_;

@@ -278,6 +278,8 @@ def broken() -> None:
 
 
 def bad_input() -> None:
+    code, result, error = run(TRAPEZOID, PYTHON_PID.replace(" {address}", ""))
+    expect("a command without {address} is told", code == 3 and "has no {address}" in result.get("reason", ""), (code, result.get("reason"), error))
     both = experiment("both", trapezoid(0.1), '[[console]]\nsend = "status"\n', TRAVELS)
     overlap = experiment("overlap", trapezoid(0.6), trapezoid(0.1), TRAVELS)
     still = experiment("still", TRAVELS)
