@@ -301,8 +301,8 @@ std::string campaign_report(const CampaignReport& report, const Results& results
   auto text = fmt::format(
       "# {}\n\n{}: {} cases, {} fired, {} detected, {} handled, {} failed, {} "
       "invalid; {} not run yet\n\n",
-      report.title, name_of(sum.verdict()), sum.cases, sum.fired, sum.detected, sum.handled,
-      sum.failed, sum.invalid, sum.missing);
+      report.title.empty() ? "Campaign" : report.title, name_of(sum.verdict()), sum.cases,
+      sum.fired, sum.detected, sum.handled, sum.failed, sum.invalid, sum.missing);
   if (!report.controller.empty()) {
     text += fmt::format("Controller: `{}`\n\n", report.controller);
   }
