@@ -21,7 +21,7 @@ import time
 from dataclasses import dataclass, field
 from functools import reduce
 from operator import getitem, xor
-from typing import Callable, Iterator, NamedTuple
+from typing import Any, Callable, Iterator, NamedTuple, Tuple
 
 VERSION = 1
 CONTROLLER, PLANT, OBSERVER = 0, 1, 2
@@ -46,23 +46,26 @@ class BenchError(Exception):
 # --- messages ---------------------------------------------------------------------------------------------------
 
 
+Fields = Tuple[Any, ...]
+
+
 class Layout(NamedTuple):
     """The fields behind the id, little-endian, and whether they are legal together."""
 
     name: str
     fields: struct.Struct
-    legal: Callable[[tuple], bool]
+    legal: Callable[[Fields], Any]
 
 
 def _axis(value: int) -> bool:
     return value < 2
 
 
-def _hello(m: tuple) -> bool:
+def _hello(m: Fields) -> Any:
     return m[1] <= OBSERVER and m[2] < 4
 
 
-def _finite(values: tuple) -> bool:
+def _finite(values: Fields) -> bool:
     return all(map(math.isfinite, values))
 
 
@@ -111,7 +114,7 @@ def encode(kind: int, *fields: float, edges: tuple[int, ...] = ()) -> bytes:
     return payload + struct.pack(f"<{len(edges)}I", *edges) if edges else payload
 
 
-def decode(payload: bytes) -> tuple[int, tuple, tuple[int, ...]]:
+def decode(payload: bytes) -> tuple[int, Fields, tuple[int, ...]]:
     """Id, fields and edges. KeyError: unknown id; EOFError: shorter than its message; ValueError: an illegal field."""
     if not payload:
         raise EOFError("empty")
@@ -198,7 +201,7 @@ def crc32c(data: bytes) -> int:
     size = len(data)
     if size > _LONGEST_BY_PLACE:
         return _crc_step(0xFFFFFFFF, data) ^ 0xFFFFFFFF
-    return reduce(xor, map(getitem, _CRC_BY_SIZE[size], data), _CRC_START[size])
+    return reduce(xor, map(getitem, _CRC_BY_SIZE[size], data), _CRC_START[size])  # type: ignore[arg-type]
 
 
 @dataclass
@@ -341,10 +344,12 @@ class _Segments:
             self._held = b""
         elif self._following == 0 or behind + 1 != self._following:
             self.counts.truncated += 1
-            return self._drop()
+            self._drop()
+            return None
         if len(self._held) + (behind + 1) * _SEGMENT > self.longest:
             self.counts.too_long += 1
-            return self._drop()
+            self._drop()
+            return None
         self._held += data[1:]
         self._following = behind
         if behind:
@@ -616,13 +621,13 @@ class Bench:
     exchange_ns: int = 1_000_000
     lines: int = 0
     axes: dict[str, Axis] = field(default_factory=lambda: {name: Axis() for name in AXES})
-    faults: list[tuple[int, int, int]] = field(default_factory=list)  # number, time, detail: what the bench refused
+    faults: list[Fields] = field(default_factory=list)  # number, time, detail: what the bench refused
     gives_reference: bool = False
     reset: bool = False  # in this turn the operator asked to leave the safe state
     _out: bytearray = field(default_factory=bytearray)
     _outputs_sequence: int = 0
     _ended: int = 0  # the message that ended the last wait
-    _reply: tuple | None = None
+    _reply: Fields | None = None
     _waiting: list[bytes] = field(default_factory=list)
 
     def send(self, kind: int, *fields: float) -> None:
@@ -749,7 +754,7 @@ class Bench:
             self.counts.sequence_gaps += 1
         axis._sequence = sequence
 
-    def _count_edges(self, axis: Axis, fields: tuple, edges: tuple[int, ...]) -> None:
+    def _count_edges(self, axis: Axis, fields: Fields, edges: tuple[int, ...]) -> None:
         self._check_sequence(axis, fields[4])
         levels = fields[1]
         for edge in edges:
