@@ -1,7 +1,8 @@
 """The standard campaign, of controllers that the bench did not write: campaign_of_controllers.py GROUP ROOT PROGRAM C_PID [NAME...]
 
 `guard` takes a few cases of it, `whole` all: the good ones keep everything, and each bad one is caught in some case.
-Names (C, Python, a bad one's kind) are those of `whole` that are tried; all without any.
+`each` gives each bad one the cases alone that are meant for it. Names (C, Python, a bad one's kind) are those that are
+tried of `whole` and `each`; all without any.
 """
 
 import json
@@ -31,6 +32,22 @@ BAD = {
     "one_tick_late": "obeys_kill",
     "waits_for_ever": "stops_when_silent",
     "full_duty_only": "y_duty_saturated_share",
+}
+# The cases that are meant for it.
+MEANT = {
+    "deaf_to_kill": "any-trapezoid-y/kill_switch.pressed/cruise",
+    "forgets_the_kill": "any-trapezoid-y/kill_switch.released_without_reset/cruise",
+    "deaf_to_y_max": "any-end-y-max/no.fault",
+    "deaf_to_y_min": "any-there-and-back-y/endstop.y_min.stuck_closed",
+    "deaf_to_x_max": "any-end-x-max/no.fault",
+    "deaf_to_x_min": "any-end-x-min/no.fault",
+    "trusts_the_encoder": "any-trapezoid-y/encoder.y.frozen",
+    "starts_with_duty": "any-trapezoid-y/no.fault",
+    "wraps_at_16_bits": "any-trapezoid-y/no.fault",
+    "sign_reversed": "any-trapezoid-y/no.fault",
+    "one_tick_late": "protocol/obeys_kill",
+    "waits_for_ever": "protocol/stops_when_silent",
+    "full_duty_only": "any-trapezoid-y/no.fault",
 }
 failures = []
 
@@ -86,6 +103,9 @@ if group == "guard":
     code, results, said, took_s = campaign("process:/nonexistent {address}", "any-end-y-max")
     invalid = [line["verdict"] for line in results] == ["INVALID"] * len(results)
     expect(f"one that never comes: {len(results)} cases, all INVALID", code == 4 and results and invalid, (code, said[-400:]))
+elif group == "each":
+    for kind in sys.argv[5:] or BAD:
+        bad(kind, MEANT[kind])
 else:
     names = sys.argv[5:] or ["C", "Python", *BAD]
     for name in names:
