@@ -527,7 +527,6 @@ class SocketPort:
             raise BenchError("the bench closed the connection")
         return data
 
-
     def _spin(self) -> bytes | None:
         """What comes before a blocked read could be woken; None if nothing does, and then seldom tried again."""
         self._reads_left -= 1
