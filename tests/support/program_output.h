@@ -14,6 +14,11 @@ struct ProgramOutput {
   std::string text;  // stdout and stderr
 };
 
+// A path as one word of a shell's command, also within single quotes.
+inline std::string quoted(const std::string& path) {
+  return '"' + path + '"';
+}
+
 inline ProgramOutput output_of(const std::string& command) {
   ProgramOutput output;
   std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/harness/end_to_end/run_support.h"
+#include "tests/support/program_output.h"
 
 namespace towbench::harness {
 namespace {
@@ -92,7 +93,8 @@ TEST(ForeignImage, LiesInItsRunFolderAndReplaysFromThere) {
             std::filesystem::file_size(kImages / "servo.elf"));
   EXPECT_EQ(image.value("sha256", "").substr(0, 64) + ' ',
             printed_by("sha256sum '" + (kImages / "servo.elf").string() + "'").substr(0, 65));
-  const auto replay = std::string(TOWBENCH_PROGRAM) + " replay '" + run.folder.string() + "' 2>&1";
+  const auto replay =
+      tests::quoted(TOWBENCH_PROGRAM) + " replay '" + run.folder.string() + "' 2>&1";
   EXPECT_NE(printed_by(replay).find("log.csv       identical"), std::string::npos)
       << printed_by(replay);
   std::filesystem::copy_file(kImages / "mapped.elf", run.folder / "inputs" / "servo.elf",
@@ -210,7 +212,8 @@ budget = [{ metric = "y_carriage_travel_m", max = 0.105 }]
   for (const auto& check : run.judgement.checks) {
     EXPECT_NE(check.verdict, Verdict::kFail) << check.name << ": " << check.reason;
   }
-  const auto replay = std::string(TOWBENCH_PROGRAM) + " replay '" + run.folder.string() + "' 2>&1";
+  const auto replay =
+      tests::quoted(TOWBENCH_PROGRAM) + " replay '" + run.folder.string() + "' 2>&1";
   EXPECT_NE(printed_by(replay).find("is not played again"), std::string::npos)
       << printed_by(replay);
 }

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 tests::ProgramOutput bench(const std::string& words) {
-  return tests::output_of(std::string(TOWBENCH_PROGRAM) + " " + words);
+  return tests::output_of(tests::quoted(TOWBENCH_PROGRAM) + " " + words);
 }
 
 std::string text_in(const fs::path& file) {

@@ -24,7 +24,7 @@ class MachineOfLittle : public ::testing::Test {
                         "[axis.y.hall_min]\nfitted = false\n");
   }
   tests::ProgramOutput validated(const std::string& named) const {
-    return tests::output_of(std::string(TOWBENCH_PROGRAM) + " validate " + named);
+    return tests::output_of(tests::quoted(TOWBENCH_PROGRAM) + " validate " + named);
   }
   static long times(const std::string& text, const std::string& part) {
     long count = 0;

@@ -40,7 +40,7 @@ class NewMachine : public ::testing::Test {
     return towbench("new-machine --out " + folder() + options);
   }
   [[nodiscard]] static tests::ProgramOutput towbench(const std::string& arguments) {
-    return tests::output_of(std::string(TOWBENCH_PROGRAM) + " " + arguments + " </dev/null");
+    return tests::output_of(tests::quoted(TOWBENCH_PROGRAM) + " " + arguments + " </dev/null");
   }
   [[nodiscard]] std::string folder() const { return (files_.folder() / "stage").string(); }
   [[nodiscard]] std::string experiment() const { return folder() + "/experiment.toml"; }
@@ -155,7 +155,7 @@ TEST_F(NewMachine, WritesOverNothing) {
 
 // A person at a terminal is asked for what the line does not give.
 TEST_F(NewMachine, AsksAtATerminalForWhatIsMissing) {
-  const std::string command = std::string(TOWBENCH_PROGRAM) + " new-machine --out " + folder() +
+  const std::string command = tests::quoted(TOWBENCH_PROGRAM) + " new-machine --out " + folder() +
                               " --transmission screw --mass-kg 20 --stroke-m 0.4" + kMotor;
   const auto output =
       tests::output_of("printf '5e-3\\nboth\\n' | script -qec '" + command + "' /dev/null");

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 using Output = tests::ProgramOutput;
 
 Output towbench(const std::string& arguments) {
-  return tests::output_of(std::string(TOWBENCH_PROGRAM) + " " + arguments);
+  return tests::output_of(tests::quoted(TOWBENCH_PROGRAM) + " " + arguments);
 }
 
 Output bash(const std::string& script) {
@@ -49,7 +49,7 @@ TEST(CommandLine, AMisspeltVerbIsToldOnOneLine) {
 }
 
 TEST(CommandLine, BashCompletesVerbsOptionsAndExperiments) {
-  const std::string script = "source <(" + std::string(TOWBENCH_PROGRAM) + " completion); ";
+  const std::string script = "source <(" + tests::quoted(TOWBENCH_PROGRAM) + " completion); ";
   const auto completes = [&](const std::string& words, int at) {
     return script + "COMP_WORDS=(towbench " + words + "); COMP_CWORD=" + std::to_string(at) +
            "; _towbench; echo \"<${COMPREPLY[*]}>\"";
@@ -106,7 +106,7 @@ TEST(CommandLine, ReplaySaysIdenticalAndNamesTheFirstLineThatIsNot) {
 TEST(CommandLine, APipedConsoleSessionRunsLineByLine) {
   Output output;
   const std::string command = std::string("printf 'status\\nnonsense\\nquit\\n' | ") +
-                              TOWBENCH_PROGRAM +
+                              tests::quoted(TOWBENCH_PROGRAM) +
                               " control --fast --controller fixtures/controllers/bbmc-tuned.toml"
                               " --rig fixtures/rigs/macs-nominal.toml 2>&1";
   std::FILE* pipe = popen(command.c_str(), "r");

@@ -14,7 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 
 tests::ProgramOutput refused(const std::string& arguments) {
-  return tests::output_of("timeout 10 " + std::string(TOWBENCH_PROGRAM) + " " + arguments);
+  return tests::output_of("timeout 10 " + tests::quoted(TOWBENCH_PROGRAM) + " " + arguments);
 }
 
 TEST(HardInput, ValuesThatAreNoneAreBadArguments) {
@@ -101,7 +101,7 @@ TEST(HardInput, AFaultThatAPartCannotHaveIsToldWithItsPlace) {
 TEST(HardInput, AHangUpEndsARunInOrder) {
   TemporaryFixtures files;
   const auto output = tests::output_of(
-      "bash -c '" + std::string(TOWBENCH_PROGRAM) + " run circles-20min --no-report -q --out " +
+      "bash -c '" + tests::quoted(TOWBENCH_PROGRAM) + " run circles-20min --no-report -q --out " +
       files.folder().string() + " & until ls " + files.folder().string() +
       "/*/log.csv; do sleep 0.02; done >/dev/null 2>&1; kill -HUP $!; wait $!'");
   EXPECT_EQ(output.code, kExitRuntime) << output.text;

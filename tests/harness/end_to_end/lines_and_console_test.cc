@@ -17,7 +17,7 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 tests::ProgramOutput typed(const std::string& arguments) {
-  return tests::output_of(std::string(TOWBENCH_PROGRAM) + " " + arguments);
+  return tests::output_of(tests::quoted(TOWBENCH_PROGRAM) + " " + arguments);
 }
 
 TEST(EncoderLinesOption, AnExperimentThatIsTooFastIsRefusedWithBothRates) {
@@ -65,7 +65,7 @@ TEST(SerialConsole, ASessionIsTypedAtTheFarEndOfTheLine) {
       tests::output_of("python3 tests/carriers/typing_operator.py " + line.far_end() +
                        " 'reset poscalib y 0.449092m' 'reset poscalib x 0.336819m'"
                        " 'run -trapez y --distance 0.02m --speed 0.05m/s' quit & operator=$!; " +
-                       TOWBENCH_PROGRAM +
+                       tests::quoted(TOWBENCH_PROGRAM) +
                        " control --controller fixtures/controllers/bbmc-tuned.toml"
                        " --rig fixtures/rigs/macs-nominal.toml --fast --console serial:" +
                        line.near_end() + " && wait $operator");

@@ -8,6 +8,7 @@
 #include "harness/checks/check.h"
 #include "harness/fixtures/linux_devices_fixture.h"
 #include "tests/harness/fixtures/temporary_fixtures.h"
+#include "tests/support/program_output.h"
 
 namespace towbench::harness {
 namespace {
@@ -54,7 +55,7 @@ class LinuxDevicesTest : public ::testing::Test {
   }
   // The exit code; what was said is in said_.
   int control(const std::string& typed, const std::string& devices) {
-    const std::string command = "printf '" + typed + "' | " + TOWBENCH_PROGRAM +
+    const std::string command = "printf '" + typed + "' | " + tests::quoted(TOWBENCH_PROGRAM) +
                                 " control --controller " + file("controller.toml") + " --devices " +
                                 devices + " 2>&1";
     std::FILE* pipe = popen(command.c_str(), "r");

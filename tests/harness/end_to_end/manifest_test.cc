@@ -30,7 +30,8 @@ class Manifest : public ::testing::Test {
  protected:
   // `environment`: assignments in front of the program.
   static tests::ProgramOutput bench(const std::string& words, const std::string& environment = "") {
-    return tests::output_of("env " + environment + " " + TOWBENCH_PROGRAM + " " + words);
+    return tests::output_of("env " + environment + " " + tests::quoted(TOWBENCH_PROGRAM) + " " +
+                            words);
   }
 
   Runs runs_;

@@ -86,7 +86,7 @@ class ReportAgreement : public ::testing::Test {
 };
 
 tests::ProgramOutput report(const fs::path& folder) {
-  return tests::output_of(std::string(TOWBENCH_PROGRAM) + " report " + folder.string());
+  return tests::output_of(tests::quoted(TOWBENCH_PROGRAM) + " report " + folder.string());
 }
 
 TEST_F(ReportAgreement, OfASoundFolderIsAPass) {

@@ -274,7 +274,7 @@ TEST(Objective, KeepsTheRulesWhereASearchOnceBrokeThem) {
 }
 
 tests::ProgramOutput falsify(const std::string& arguments) {
-  return tests::output_of(std::string(TOWBENCH_PROGRAM) + " falsify " + arguments);
+  return tests::output_of(tests::quoted(TOWBENCH_PROGRAM) + " falsify " + arguments);
 }
 
 TEST(FalsifyVerb, RefusesInOneLine) {

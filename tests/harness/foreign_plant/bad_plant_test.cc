@@ -29,7 +29,7 @@ class RefusedAtStart : public ::testing::TestWithParam<Wrong> {};
 TEST_P(RefusedAtStart, InOneLineWithExitCode2) {
   const auto& wrong = GetParam();
   const Stage stage(wrong.library, wrong.parameters, "answer_limit_s = 0.3\n");
-  const auto output = tests::output_of(std::string(TOWBENCH_PROGRAM) + " run " +
+  const auto output = tests::output_of(tests::quoted(TOWBENCH_PROGRAM) + " run " +
                                        (stage.folder() / "experiment.toml").string() + " --out " +
                                        (stage.folder() / "runs").string());
   EXPECT_EQ(output.code, kExitBadInput) << output.text;

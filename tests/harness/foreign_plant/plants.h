@@ -29,7 +29,7 @@ class Stage {
   explicit Stage(const std::string& library = "screw_stage", const std::string& parameters = "",
                  const std::string& more = "") {
     const auto written = tests::output_of(
-        std::string(TOWBENCH_PROGRAM) + " new-machine --out " + folder().string() +
+        tests::quoted(TOWBENCH_PROGRAM) + " new-machine --out " + folder().string() +
         " --name stage --transmission screw --lead-m 5e-3 --mass-kg 20 --stroke-m 0.4"
         " --rotor-inertia-kg-m2 2e-5 --torque-constant-Nm-per-A 0.06 --resistance-ohm 1.2"
         " --amplifier-gain-A-per-V 0.8 --current-limit-A 8 --supply-V 48 --encoder-lines 2000"

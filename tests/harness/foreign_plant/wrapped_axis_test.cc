@@ -130,7 +130,7 @@ TEST(WrappedAxis, GivesTheSameLogUnderAnExternalController) {
   const TemporaryFixtures folder;
   RunOptions options;
   options.out = folder.folder();
-  options.external = ExternalController{.command = TOWBENCH_C_PID " {address}"};
+  options.external = ExternalController{.command = "'" TOWBENCH_C_PID "' {address}"};
   const auto first = run_experiment(own, options);
   const auto second = run_experiment(wrapped, options);
   ASSERT_EQ(first.exit_code, kExitPass) << complaints_of(first);

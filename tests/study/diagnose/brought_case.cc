@@ -77,8 +77,8 @@ std::string BroughtCase::command(const std::string& arguments) const {
 }
 
 std::string BroughtCase::without_model(const std::string& arguments) const {
-  return fmt::format("cd {} && exec {} diagnose --out found {}", folder_.string(), TOWBENCH_STUDY,
-                     arguments);
+  return fmt::format("cd {} && exec {} diagnose --out found {}", folder_.string(),
+                     quoted(TOWBENCH_STUDY), arguments);
 }
 
 ProgramOutput BroughtCase::diagnose_without_model(const std::string& arguments) const {
