@@ -11,8 +11,8 @@ trap 'rm -rf "$scratch"' EXIT
 objects() { find "$build/$1" -name '*.o' -path '*.dir/*' ! -path '*/axis_fmu.dir/*' | sort; }
 
 # Strong definitions only (T, D, B, R): weak ones are templates and inlines of the headers both may see.
-defined() { xargs nm -C --defined-only | awk '$2 ~ /^[TDBR]$/ && /towbench::/' | cut -d' ' -f3- | sort -u; }
-needed() { xargs nm -C --undefined-only | awk '/towbench::/' | sed 's/^ *U //' | sort -u; }
+defined() { xargs -d '\n' nm -C --defined-only | awk '$2 ~ /^[TDBR]$/ && /towbench::/' | cut -d' ' -f3- | sort -u; }
+needed() { xargs -d '\n' nm -C --undefined-only | awk '/towbench::/' | sed 's/^ *U //' | sort -u; }
 
 for side in emulator bbmc; do
   objects "$side" >"$scratch/$side.objects"

@@ -97,13 +97,15 @@ TEST(HardInput, AFaultThatAPartCannotHaveIsToldWithItsPlace) {
   EXPECT_THAT(output.text, HasSubstr("c.toml:6"));
 }
 
-// A terminal that goes away ends a run as a signal to end does: what there is, is kept.
+// A terminal that goes away ends a run as a signal to end does: what there is, is kept. Tests may
+// be run below nohup, which a program inherits.
 TEST(HardInput, AHangUpEndsARunInOrder) {
   TemporaryFixtures files;
-  const auto output = tests::output_of(
-      "bash -c '" + tests::quoted(TOWBENCH_PROGRAM) + " run circles-20min --no-report -q --out " +
-      files.folder().string() + " & until ls " + files.folder().string() +
-      "/*/log.csv; do sleep 0.02; done >/dev/null 2>&1; kill -HUP $!; wait $!'");
+  const auto output =
+      tests::output_of("bash -c 'env --default-signal=HUP " + tests::quoted(TOWBENCH_PROGRAM) +
+                       " run circles-20min --no-report -q --out " + files.folder().string() +
+                       " & until ls " + files.folder().string() +
+                       "/*/log.csv; do sleep 0.02; done >/dev/null 2>&1; kill -HUP $!; wait $!'");
   EXPECT_EQ(output.code, kExitRuntime) << output.text;
   for (const auto& entry : std::filesystem::directory_iterator(files.folder())) {
     EXPECT_EQ(json_of(entry.path() / "result.json").at("reason"), "interrupted");
