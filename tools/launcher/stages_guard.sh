@@ -110,7 +110,7 @@ stage_sanitize_address() {
   fi
   built sanitize "${targets[@]}" towbench-bench towbench-panel
   for folder in "${folders[@]}"; do
-    LSAN_OPTIONS=suppressions=$root/tests/support/leaks_of_libraries.txt:print_suppressions=0 \
+    LSAN_OPTIONS="suppressions='$root/tests/support/leaks_of_libraries.txt':print_suppressions=0" \
       ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 \
       run_tests sanitize "tests/$folder" -E "$(left_out)|NOT_BUILT" -LE browser || return 1
   done
