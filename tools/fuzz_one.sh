@@ -8,11 +8,11 @@ corpus=$root/build/fuzz/corpus/$name # what make_fuzz_seeds wrote and earlier ru
 findings=$root/build/fuzz/findings
 mkdir -p "$corpus" "$findings"
 seeds=$root/tests/fuzz/corpus/$name
-[ -d "$seeds" ] || seeds=
+set -- "$corpus"
+[ ! -d "$seeds" ] || set -- "$corpus" "$seeds"
 log=$findings/$name.log
-# shellcheck disable=SC2086  # seeds is one word or none
 if "$target" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
-  -artifact_prefix="$findings/$name-" "$corpus" $seeds >"$log" 2>&1; then
+  -artifact_prefix="$findings/$name-" "$@" >"$log" 2>&1; then
   echo "$name: $(awk '/number_of_executed_units/ {print $2}' "$log") inputs in $seconds s, no finding"
 else
   tail -n 40 "$log"
