@@ -2,10 +2,9 @@
 # Builds gpio-sim out of tree. Debian's kernels have it switched off, and the simulated interrupts
 # below it too, so both become one module. A module may not look up interrupt descriptors; the
 # exported generic_handle_irq() does the same by number.
-# usage: build_gpio_sim.sh FOLDER RELEASE SERIES     FOLDER/unpacked holds headers and source
+# usage: build_gpio_sim.sh FOLDER RELEASE SERIES UNPACKED     UNPACKED holds headers and source
 set -euo pipefail
-folder=$1 release=$2 series=$3
-unpacked=$folder/unpacked
+folder=$1 release=$2 series=$3 unpacked=$4
 source=$unpacked/linux-source-$series
 work=$unpacked/gpio-sim
 mkdir -p "$work"

@@ -23,7 +23,10 @@ series=$(sed -E 's/^([0-9]+\.[0-9]+).*/\1/' <<<"$release")
 identity="$release $(wanted_modules | cksum)"
 if [[ -e $folder/complete && $(<"$folder/complete") == "$identity" ]]; then exit 0; fi
 rm -rf "$folder"
-mkdir -p "$folder/debs" "$folder/modules" "$folder/unpacked"
+mkdir -p "$folder/debs" "$folder/modules"
+# The kernel's Makefiles take no path with a space.
+unpacked=$(mktemp -d)
+trap 'rm -rf "$unpacked"' EXIT
 echo "carriers: fetching Debian kernel $release (some 220 MB, once)"
 
 # apt's own sandbox user may not write here; it downloads as the caller then, and warns.
@@ -33,28 +36,27 @@ if ! (cd "$folder/debs" && apt-get -q download "$image" "linux-headers-$release"
   tail -n 3 "$folder/download.log"
   skip "apt cannot provide $image with its headers and source"
 fi
-for deb in "$folder"/debs/{linux-image,linux-headers,linux-kbuild,busybox}*.deb; do dpkg -x "$deb" "$folder/unpacked"; done
+for deb in "$folder"/debs/{linux-image,linux-headers,linux-kbuild,busybox}*.deb; do dpkg -x "$deb" "$unpacked"; done
 dpkg --fsys-tarfile "$folder"/debs/linux-source-*.deb |
   tar -xO "./usr/src/linux-source-$series.tar.xz" |
-  tar -xJ -C "$folder/unpacked" "linux-source-$series/drivers/gpio/gpio-sim.c" \
+  tar -xJ -C "$unpacked" "linux-source-$series/drivers/gpio/gpio-sim.c" \
     "linux-source-$series/drivers/gpio/gpiolib.h" "linux-source-$series/kernel/irq/irq_sim.c" \
     "linux-source-$series/scripts/extract-vmlinux"
 rm -rf "$folder/debs"
 
 # The bare ELF image boots in half the time of the compressed one.
-sh "$folder/unpacked/linux-source-$series/scripts/extract-vmlinux" \
-  "$folder/unpacked/boot/vmlinuz-$release" >"$folder/vmlinux"
-cp "$folder/unpacked/bin/busybox" "$folder/busybox"
-"$(dirname "${BASH_SOURCE[0]}")/build_gpio_sim.sh" "$folder" "$release" "$series"
+sh "$unpacked/linux-source-$series/scripts/extract-vmlinux" \
+  "$unpacked/boot/vmlinuz-$release" >"$folder/vmlinux"
+cp "$unpacked/bin/busybox" "$folder/busybox"
+"$(dirname "${BASH_SOURCE[0]}")/build_gpio_sim.sh" "$folder" "$release" "$series" "$unpacked"
 
 while read -r module; do
   [[ $module == gpio-sim ]] && continue
-  found=$(find "$folder/unpacked/lib/modules" -name "$module.ko" -o -name "$module.ko.xz" | head -n 1)
+  found=$(find "$unpacked/lib/modules" -name "$module.ko" -o -name "$module.ko.xz" | head -n 1)
   case $found in
     '') ;; # built into this kernel, or part of another module
     *.xz) xz -dc "$found" >"$folder/modules/$module.ko" ;;
     *) cp "$found" "$folder/modules/$module.ko" ;;
   esac
 done < <(wanted_modules)
-rm -rf "$folder/unpacked"
 echo "$identity" >"$folder/complete"

@@ -14,5 +14,6 @@ command -v qemu-system-x86_64 >/dev/null || {
   exit 99
 }
 "$here/fetch_kernel.sh" "$kernel" || exit
-"$here/boot.sh" "$kernel" "$patience" "$here/jobs.sh $root $build $jobs" | grep --line-buffered -v 'SeaBIOS\|Booting from'
+job=$(printf '%q ' "$here/jobs.sh" "$root" "$build" "$jobs")
+"$here/boot.sh" "$kernel" "$patience" "$job" | grep --line-buffered -v 'SeaBIOS\|Booting from'
 exit "${PIPESTATUS[0]}"

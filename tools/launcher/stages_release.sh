@@ -105,7 +105,7 @@ stage_carrier_table() {
   {
     "$here/jobs.sh" "$root" "$tree" table-host
     "$here/fetch_kernel.sh" "$kernel" &&
-      "$here/boot.sh" "$kernel" 900 "$here/jobs.sh $root $tree table-machine"
+      "$here/boot.sh" "$kernel" 900 "$(printf '%q ' "$here/jobs.sh" "$root" "$tree" table-machine)"
   } >"$log" 2>&1
   echo '| carrier | encoder data | trapezoid-400 | on the wire, to plant + to controller | worst case, digest at 1 kHz | turn: bare, ours, ratio | tracking error, peak | rms, steady |'
   echo '| --- | --- | --- | ---: | ---: | ---: | ---: | ---: |'
