@@ -70,13 +70,13 @@ std::string Arrival::nobody_came() {
   if (process_ && !process_->runs()) {
     const auto how = process_->join();
     return fmt::format("the controller's process {} before it greeted{}; see {}",
-                       how.empty() ? "ended" : how, nobody_told(), printed_.string());
+                       how.empty() ? "ended" : how, note_of_missing_address(), printed_.string());
   }
-  return fmt::format("no controller greeted at {}{}", address_.text(), nobody_told());
+  return fmt::format("no controller greeted at {}{}", address_.text(), note_of_missing_address());
 }
 
-// What a newcomer forgets.
-std::string Arrival::nobody_told() const {
+// A command without the placeholder is the usual mistake.
+std::string Arrival::note_of_missing_address() const {
   const bool told =
       controller_.address || controller_.command.find(kPlaceholder) != std::string::npos;
   return told ? "" : fmt::format(" (its command has no {} to tell it where)", kPlaceholder);

@@ -43,7 +43,7 @@ class Arrival {
   // Asked when the bench listens already.
   bool goes_on();
   std::string nobody_came();
-  [[nodiscard]] std::string nobody_told() const;
+  [[nodiscard]] std::string note_of_missing_address() const;
 
   const ExternalController& controller_;
   std::filesystem::path printed_;

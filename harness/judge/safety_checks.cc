@@ -180,7 +180,7 @@ std::optional<Check> kill_removes_duty(const RunData& data, const SafetyScope& s
       continue;  // pressed again before a reset
     }
     if (end_s < edge_s + kReaction_s) {
-      continue;  // free again before it had to be still
+      continue;  // may drive again before the 2 ms have passed
     }
     judged_to_s = end_s;
     const double zero_s = driven_until_s(data, edge_s, end_s);

@@ -4,8 +4,8 @@
 #include <complex>
 #include <vector>
 
-// Eigen's decompositions behind functions of dynamic size. Compiling one takes longer than all that
-// calls it, so each is compiled once, here.
+// Eigen's decompositions as functions of matrices of dynamic size. Each takes seconds to compile,
+// so it is compiled here, and not once for each size that a caller has.
 namespace towbench::harness::identify {
 
 using MatrixView = Eigen::Ref<const Eigen::MatrixXd>;
