@@ -199,6 +199,9 @@ void PlantExchange::send_samples() noexcept {
       sink_->on(*axis->current_sample());
     }
   }
+  if (rig_.camera_frame()) {
+    observer_->on_frame(*rig_.camera_frame());
+  }
   if (rig_.force_sample()) {
     observer_->on_force(*rig_.force_sample());
     sink_->on(*rig_.force_sample());

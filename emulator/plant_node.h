@@ -10,6 +10,7 @@
 #include "core/time.h"
 #include "emulator/faults/scheduled_event.h"
 #include "emulator/rig_parameters.h"
+#include "emulator/sensors/camera.h"
 #include "emulator/truth_row.h"
 #include "protocol/message_sink.h"
 
@@ -26,6 +27,8 @@ class PlantObserver {
   virtual void on_truth(const TruthRow& row) noexcept = 0;
   virtual void on_event(const PlantEvent& event) noexcept = 0;
   // Each sample of a sensor that is fitted, when it is taken: what the sensor says, no truth.
+  // Nothing that a controller is sent.
+  virtual void on_frame(const CameraFrame& /*frame*/) noexcept {}
   virtual void on_force(const protocol::ForceSample& /*sample*/) noexcept {}
   virtual void on_current(const protocol::CurrentSample& /*sample*/) noexcept {}
   // A controller was refused at its greeting.

@@ -12,6 +12,7 @@ class PlantRelay : public PlantObserver {
 
   void on_truth(const TruthRow& row) noexcept override { to_.on_truth(row); }
   void on_event(const PlantEvent& event) noexcept override { to_.on_event(event); }
+  void on_frame(const CameraFrame& frame) noexcept override { to_.on_frame(frame); }
   void on_force(const protocol::ForceSample& sample) noexcept override { to_.on_force(sample); }
   void on_current(const protocol::CurrentSample& sample) noexcept override {
     to_.on_current(sample);

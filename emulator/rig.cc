@@ -179,6 +179,9 @@ Rig::Rig(const RigParameters& parameters, std::uint64_t seed)
     sensor.load_mass_kg += added_mass_kg(parameters.water);
     force_sensor_.emplace(sensor, force_seed);
   }
+  if (parameters.camera.fitted) {
+    camera_.emplace(parameters.camera, seeds.bits());
+  }
   unsigned lines = 0;
   for (const Axis which : core::kAxes) {
     if (parameters_.axes[which].exists) {
@@ -273,6 +276,9 @@ void Rig::step() noexcept {
   if (force_sensor_) {
     measure_force();
   }
+  if (camera_) {
+    expose_frame();
+  }
   if (supply_.ready() != was_ready) {
     update_ready_lines();
   }
@@ -324,6 +330,14 @@ void Rig::measure_force() noexcept {
   protocol::ForceSample sample;
   const bool taken = force_sensor_->step(now_ns_, load_N, acceleration, sample);
   force_sample_ = taken ? std::optional(sample) : std::nullopt;
+}
+
+void Rig::expose_frame() noexcept {
+  core::PerAxis<double> carriage_m{};
+  for (const Axis which : core::kAxes) {
+    carriage_m[which] = axes_[which] ? axes_[which]->carriage_m() : 0.0;
+  }
+  camera_frame_ = camera_->see(now_ns_, carriage_m);
 }
 
 // The amplifiers notice the supply at the end of the tick: its last nanosecond.

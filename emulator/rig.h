@@ -20,6 +20,7 @@
 #include "emulator/faults/slipping_disc.h"
 #include "emulator/foreign/moved_axis.h"
 #include "emulator/rig_parameters.h"
+#include "emulator/sensors/camera.h"
 #include "emulator/sensors/current_monitor.h"
 #include "emulator/sensors/encoder_wiring.h"
 #include "emulator/sensors/force_sensor.h"
@@ -72,6 +73,8 @@ class RigAxis {
   [[nodiscard]] const std::optional<protocol::CurrentSample>& current_sample() const noexcept {
     return current_sample_;
   }
+  // At the end of the last step.
+  [[nodiscard]] double carriage_m() const noexcept { return state_.carriage_m; }
   // Mean over the last step.
   [[nodiscard]] double carriage_acceleration_m_per_s2() const noexcept {
     return acceleration_m_per_s2_;
@@ -150,6 +153,10 @@ class Rig {
   [[nodiscard]] const std::optional<protocol::ForceSample>& force_sample() const noexcept {
     return force_sample_;
   }
+  // Exposed at the end of the last step, if one was due.
+  [[nodiscard]] const std::optional<CameraFrame>& camera_frame() const noexcept {
+    return camera_frame_;
+  }
   // Of the last tick, on the carriage: drag and thrust, without the added mass's inertia.
   [[nodiscard]] const core::PerAxis<double>& water_force_N() const noexcept { return water_N_; }
   [[nodiscard]] TruthRow truth() const noexcept;
@@ -164,6 +171,7 @@ class Rig {
   void step_foreign() noexcept;
   void feel_water() noexcept;
   void measure_force() noexcept;
+  void expose_frame() noexcept;
   void update_ready_lines() noexcept;
   [[nodiscard]] double cross_axis_force_N(core::Axis which) const noexcept;
 
@@ -176,6 +184,8 @@ class Rig {
   core::PerAxis<double> water_N_{};
   std::optional<ForceSensor> force_sensor_;
   std::optional<protocol::ForceSample> force_sample_;
+  std::optional<Camera> camera_;
+  std::optional<CameraFrame> camera_frame_;
   core::Nanoseconds now_ns_ = 0;
   InputWiring input_wiring_;
   std::uint16_t machine_lines_ = 0;

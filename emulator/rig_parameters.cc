@@ -138,6 +138,9 @@ const char* inconsistency(const RigParameters& rig) noexcept {
   if (rig.force_sensor.fitted && !whole_ticks(rig.force_sensor.sample_period_s)) {
     return "force_sensor.sample_period_s must be a whole number of 100 us ticks";
   }
+  if (rig.camera.fitted && !whole_ticks(rig.camera.frame_period_s)) {
+    return "camera.frame_period_s must be a whole number of 100 us ticks";
+  }
   return nullptr;
 }
 

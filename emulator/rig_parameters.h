@@ -124,6 +124,7 @@ struct RigParameters {
   SupplyParameters supply;
   KillSwitchParameters kill_switch;
   ForceSensorParameters force_sensor;
+  CameraParameters camera;
   WaterParameters water;
   // Of the file this was read from; no parameter. 0 = not known.
   std::uint64_t fixture_hash = 0;
@@ -139,6 +140,7 @@ struct RigParameters {
     v.group("supply", supply, "shared 12 V supply");
     v.group("kill_switch", kill_switch, "the operator's kill switch");
     v.group("force_sensor", force_sensor, "six-axis force/torque sensor at the load's mount");
+    v.group("camera", camera, "camera above the tank");
     v.group("water", water, "what hangs in the water");
   }
 };

@@ -140,7 +140,7 @@ struct CameraParameters {
   void visit(Visitor& v) {
     v.value("fitted", fitted, core::any_finite(), "whether the carriage is watched");
     v.value("frame_period_s", frame_period_s, core::between(1e-3, 10.0),
-            "whole number of milliseconds");
+            "whole number of plant ticks");
     v.value("delay_s", delay_s, core::between(0.0, 0.5), "from exposure to arrival");
     v.value("noise_m", noise_m, core::between(0.0, 0.1), "standard deviation, each frame");
     v.value("resolution_m", resolution_m, core::between(1e-6, 0.1), "step of what is seen");

@@ -20,9 +20,14 @@ inline constexpr std::string_view kForceHeader =
 [[nodiscard]] inline std::string current_header(core::Axis axis) {
   return "time_s," + std::string(core::name_of(axis)) + "_current_A";
 }
+inline constexpr std::string_view kCameraFile = "camera.csv";
+[[nodiscard]] inline std::string camera_column(core::Axis axis) {
+  return std::string(core::name_of(axis)) + "_carriage_m";
+}
 // All that a run folder may hold.
-[[nodiscard]] inline std::array<std::string, 1 + core::kAxisCount> sensor_files() {
-  return {std::string(kForceFile), current_file(core::Axis::kY), current_file(core::Axis::kX)};
+[[nodiscard]] inline std::array<std::string, 2 + core::kAxisCount> sensor_files() {
+  return {std::string(kForceFile), current_file(core::Axis::kY), current_file(core::Axis::kX),
+          std::string(kCameraFile)};
 }
 
 }  // namespace towbench::harness

@@ -26,7 +26,7 @@ Check named(std::string name, std::string meaning, std::string reason) {
 
 // Empty when rows stand exactly one period apart and reach the end.
 std::string gaps_in(std::span<const double> time_s, core::Nanoseconds period_ns,
-                    core::Nanoseconds end_ns) {
+                    core::Nanoseconds end_ns, core::Nanoseconds late_ns = 0) {
   if (time_s.empty()) {
     return "there is no row";
   }
@@ -37,10 +37,10 @@ std::string gaps_in(std::span<const double> time_s, core::Nanoseconds period_ns,
                          time_s[i], time_s[i] - time_s[i - 1], period_s);
     }
   }
-  if (time_s.front() > period_s + kSameTime_s) {
+  if (time_s.front() > period_s + core::seconds(late_ns) + kSameTime_s) {
     return fmt::format("the first row is at {} s", time_s.front());
   }
-  if (time_s.back() + period_s <= core::seconds(end_ns) - kSameTime_s) {
+  if (time_s.back() + period_s <= core::seconds(end_ns + late_ns) - kSameTime_s) {
     return fmt::format("the last row is at {} s, the run ended at {} s", time_s.back(),
                        core::seconds(end_ns));
   }
@@ -85,7 +85,8 @@ std::string why_sensor_incomplete(const RunData& data, const ExpectedRecord& exp
   // A plant that is heard once an exchange may end that much before the controller.
   const auto slack_ns = std::max<core::Nanoseconds>(0, expected.exchange_ns - sensor.period_ns);
   const auto gaps =
-      gaps_in(found->second.column("time_s"), sensor.period_ns, expected.end_ns - slack_ns);
+      gaps_in(found->second.column("time_s"), sensor.period_ns, expected.end_ns - slack_ns,
+              sensor.late_ns);
   return gaps.empty() ? not_finite_in(found->second) : gaps;
 }
 

@@ -27,6 +27,7 @@ struct ExpectedRecord {
 struct ExpectedSensor {
   std::string file;
   core::Nanoseconds period_ns = 0;
+  core::Nanoseconds late_ns = 0;  // its rows are stamped so long after what they show
 };
 
 // log.csv: a row each control period from the first to the end, none lost, none torn.

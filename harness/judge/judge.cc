@@ -39,6 +39,10 @@ std::vector<ExpectedSensor> sensors_of(const emulator::RigParameters& rig) {
           {current_file(which), core::nanoseconds(axis.current_monitor.sample_period_s)});
     }
   }
+  if (rig.camera.fitted) {
+    sensors.push_back({std::string(kCameraFile), core::nanoseconds(rig.camera.frame_period_s),
+                       core::nanoseconds(rig.camera.delay_s)});
+  }
   return sensors;
 }
 

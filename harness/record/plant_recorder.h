@@ -25,6 +25,7 @@ class PlantRecorder final : public emulator::PlantObserver {
   void on_truth(const emulator::TruthRow& row) noexcept override;
   void on_event(const emulator::PlantEvent& event) noexcept override;
   void on_force(const protocol::ForceSample& sample) noexcept override { sensors_.add(sample); }
+  void on_frame(const emulator::CameraFrame& frame) noexcept override { sensors_.add(frame); }
   void on_current(const protocol::CurrentSample& sample) noexcept override { sensors_.add(sample); }
 
   void flush() noexcept;

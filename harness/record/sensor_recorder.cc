@@ -1,5 +1,7 @@
 #include "harness/record/sensor_recorder.h"
 
+#include <string>
+
 #include "harness/checks/sensor_files.h"
 
 namespace towbench::harness {
@@ -13,6 +15,15 @@ SensorRecorder::SensorRecorder(const std::filesystem::path& folder,
     if (rig.axes[axis].exists && rig.axes[axis].current_monitor.fitted) {
       currents_[axis].emplace(folder / current_file(axis), current_header(axis), writer);
     }
+  }
+  if (rig.camera.fitted) {
+    WriteFrame write;
+    std::string header = "time_s";
+    for (const auto axis : core::kAxes) {
+      write.exists[axis] = rig.axes[axis].exists;
+      header += rig.axes[axis].exists ? "," + camera_column(axis) : "";
+    }
+    camera_.emplace(folder / kCameraFile, header, writer, write);
   }
 }
 
@@ -36,6 +47,19 @@ void SensorRecorder::WriteCurrent::operator()(
   }
 }
 
+void SensorRecorder::WriteFrame::operator()(
+    std::span<const emulator::CameraFrame> frames) const noexcept {
+  for (const auto& frame : frames) {
+    csv->time(frame.arrived_ns);
+    for (const auto axis : core::kAxes) {
+      if (exists[axis]) {
+        csv->number(frame.carriage_m[axis]);
+      }
+    }
+    csv->end_row();
+  }
+}
+
 void SensorRecorder::add(const protocol::ForceSample& sample) noexcept {
   if (force_) {
     force_->rows.add(sample);
@@ -48,7 +72,16 @@ void SensorRecorder::add(const protocol::CurrentSample& sample) noexcept {
   }
 }
 
+void SensorRecorder::add(const emulator::CameraFrame& frame) noexcept {
+  if (camera_) {
+    camera_->rows.add(frame);
+  }
+}
+
 void SensorRecorder::hand_over() noexcept {
+  if (camera_) {
+    camera_->rows.hand_over();
+  }
   if (force_) {
     force_->rows.hand_over();
   }
@@ -60,6 +93,9 @@ void SensorRecorder::hand_over() noexcept {
 }
 
 void SensorRecorder::flush() noexcept {
+  if (camera_) {
+    camera_->csv.flush();
+  }
   if (force_) {
     force_->csv.flush();
   }
@@ -71,7 +107,7 @@ void SensorRecorder::flush() noexcept {
 }
 
 bool SensorRecorder::good() const noexcept {
-  bool good = !force_ || force_->csv.good();
+  bool good = (!force_ || force_->csv.good()) && (!camera_ || camera_->csv.good());
   for (const auto& file : currents_) {
     good = good && (!file || file->csv.good());
   }

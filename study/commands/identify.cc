@@ -16,6 +16,7 @@
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
 #include "study/commands/identified_controller_file.h"
+#include "study/commands/identify_camera.h"
 #include "study/commands/identify_output.h"
 #include "study/commands/verbs.h"
 #include "study/procedures/chain.h"
@@ -49,6 +50,7 @@ struct IdentifyOptions {
   bool json = false;
   bool blind = false;
   bool track = false;
+  std::string camera;
   std::string data;
   std::string columns;
   std::string structure;
@@ -207,6 +209,9 @@ int execute_set(const IdentifyOptions& options, const Bench& bench) {
 }
 
 int execute_identify(const IdentifyOptions& options) {
+  if (!options.camera.empty()) {
+    return tell_elastic_error(options.camera, options.json);
+  }
   auto bench = bench_of(options);
   if (!options.data.empty()) {
     return execute_on_log(options, bench);
@@ -277,6 +282,10 @@ void add_identify(CLI::App& app, int& exit_code) {
   verb->add_flag("--json", options->json, "print estimates.json");
   verb->add_option("--data", options->data,
                    "estimate from this log instead: a run folder, BBMC's data log, a CSV file");
+  verb->add_option("--camera", options->camera,
+                   "the chain's elastic error instead, from encoder and camera of this run folder")
+      ->check(CLI::ExistingDirectory)
+      ->excludes("--data");
   verb->add_option("--columns", options->columns, "which column of that CSV is what, TOML")
       ->check(CLI::ExistingFile)
       ->needs("--data");
@@ -300,6 +309,7 @@ void add_identify(CLI::App& app, int& exit_code) {
   verb->footer(
       "Example: towbench identify fixtures/rigs/tow-dry.toml --out identified\n"
       "         towbench identify --data log.csv --axis y --columns map.toml\n"
+      "         towbench identify --camera runs/20260101T120000Z-1-0f3a\n"
       "         towbench identify --machine 2 --axis x --only EXP-P-1 --only EXP-P-3\n"
       "         towbench identify --drawn 10 --seeds 40 --workers 2 --out set   (hours; "
       "continues)\n"
@@ -307,7 +317,7 @@ void add_identify(CLI::App& app, int& exit_code) {
       "Writes estimates.json, report.html, identified_plant.toml (rejected_plant.toml where what "
       "is\n"
       "found contradicts a document or a belief), identified_controller.toml.\n"
-      "Exit: 0 all experiments done,\n"
+      "--camera writes nothing. Exit: 0 all experiments done,\n"
       "1 an estimate misses the emulated machine's own value by more than its demand allows,\n"
       "2 bad arguments, 4 an experiment was refused or its data are no good.");
   verb->callback([options, &exit_code] { exit_code = execute_identify(*options); });

@@ -1,5 +1,7 @@
 // Force and motor current in the run folder: every sample that the plant sent, at the sensor's own
 // rate, whatever lies between plant and controller.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "harness/checks/sensor_files.h"
@@ -109,7 +111,7 @@ TEST(SensorRecord, IsTheSameInOneProcessAndInTwo) {
   const auto two = runs.run(fixture, Carrier::kLocal);
   EXPECT_EQ(two.exit_code, kExitPass) << complaints_of(two);
   for (const auto& file : sensor_files()) {
-    EXPECT_FALSE(contents_of(one.folder / file).empty()) << file;
+    EXPECT_EQ(contents_of(one.folder / file).empty(), file == kCameraFile) << file;
     EXPECT_TRUE(contents_of(one.folder / file) == contents_of(two.folder / file)) << file;
   }
 }
@@ -137,6 +139,45 @@ TEST(SensorRecord, ShowsTheDragOfASteadyTow) {
   }
   ASSERT_GT(samples, 100U);
   EXPECT_NEAR(sum_N / static_cast<double>(samples), -8.78 * 0.3 * 0.3, 0.05);
+}
+
+// A frame is of the carriage when it was exposed, to half a pixel and noise.
+TEST(SensorRecord, HoldsEachFrameOfTheCameraWithWhenItArrived) {
+  Runs runs;
+  const auto run = runs.run("circle-watched");
+  ASSERT_EQ(run.exit_code, kExitPass) << complaints_of(run);
+  const auto camera = CsvTable::load(run.folder / kCameraFile);
+  const auto truth = CsvTable::load(run.folder / "truth.csv");
+  const auto arrived_s = camera.column("time_s");
+  ASSERT_GT(camera.rows(), 300U);
+  std::size_t row = 0;
+  double off_m = 0;
+  for (std::size_t i = 0; i < camera.rows(); ++i) {
+    const double exposed_s = 0.04 * static_cast<double>(i + 1);
+    ASSERT_NEAR(arrived_s[i], exposed_s + 0.08, 1e-9);
+    while (row + 1 < truth.rows() && truth.column("time_s")[row] < exposed_s - 1e-9) {
+      ++row;
+    }
+    const double error_m = camera.column("y_carriage_m")[i] - truth.column("y_carriage_m")[row];
+    EXPECT_LT(std::fabs(error_m), 2.5e-4 + 5 * 2e-4);
+    off_m += error_m * error_m;
+  }
+  const double rms_m = std::sqrt(off_m / static_cast<double>(camera.rows()));
+  EXPECT_NEAR(rms_m, std::hypot(2e-4, 5e-4 / std::sqrt(12)), 3e-5);
+}
+
+TEST(SensorRecord, OfACameraThatLacksAFrameMakesTheRunInvalid) {
+  const auto fixture = Runs::shipped("circle-watched");
+  Runs runs;
+  const auto run = runs.run(fixture);
+  const auto whole = contents_of(run.folder / kCameraFile);
+  const auto third_line = whole.find('\n', whole.find('\n') + 1) + 1;
+  auto without = whole;
+  without.erase(third_line, whole.find('\n', third_line) + 1 - third_line);
+  for (const auto& text : {without, whole.substr(0, whole.rfind('\n', whole.size() - 2) + 1)}) {
+    std::ofstream(run.folder / kCameraFile) << text;
+    EXPECT_EQ(judge(run.folder, fixture, run.outcome).verdict, Verdict::kInvalid);
+  }
 }
 
 TEST(SensorRecord, OfASensorThatIsNotFittedIsNotThere) {
