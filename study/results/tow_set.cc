@@ -52,10 +52,13 @@ Recovery from_json(const nlohmann::json& json) {
   return each;
 }
 
-// One machine, one seed, all experiments.
+// One machine, one seed, all experiments. Each machine has noise of its own: with the same on all,
+// more machines would say no more.
 void tow_one(const TowSet& set, std::uint64_t machine, std::uint64_t seed) {
-  const procedures::TowLoads loads(drawn_for_towing(set.rig, machine), set.controller, seed,
-                                   set.rigs, {.stop = set.stop, .progress = {}});
+  constexpr std::uint64_t kMostSeeds = 10'000;  // of a set
+  const procedures::TowLoads loads(drawn_for_towing(set.rig, machine), set.controller,
+                                   machine * kMostSeeds + seed, set.rigs,
+                                   {.stop = set.stop, .progress = {}});
   nlohmann::json kept{{"recoveries", nlohmann::json::array()},
                       {"not_done", nlohmann::json::array()}};
   for (const auto& procedure : procedures::tow_procedures()) {

@@ -123,7 +123,7 @@ class Exp1 {
          kRepeats},
         {"mbdp_near", "(8.6), rigid model of tows at the near end", kBlind},
         {"mbdp_middle", "(8.6), rigid model of tows in mid tank", kBlind},
-        {"mbdp", "(8.6), model with friction by place, from tows in air"}};
+        {"mbdp", "(8.6), model with friction by place, from tows in air", "", kRepeats}};
     methods[2].weighted = false;
     methods[3].weighted = false;
     for (std::size_t k = 0; k < in_.size(); ++k) {
@@ -159,7 +159,7 @@ class Exp1 {
   TowOutcome told(const std::vector<Method>& methods, const identify::RigidModel& near,
                   const identify::RigidModel& middle, const identify::ExtendedModel& extended) {
     TowOutcome outcome;
-    outcome.estimates.push_back(scale_estimate(scale_, wet_));
+    outcome.estimates.push_back(identify::withheld(scale_estimate(scale_, wet_), kRepeats));
     Figure curves{.title = "Drag against speed, three methods",
                   .x_label = "speed, m/s",
                   .y_label = "drag, N",
