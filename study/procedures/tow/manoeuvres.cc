@@ -9,6 +9,7 @@
 #include "study/procedures/tow/feasibility.h"
 #include "study/procedures/tow/tow_procedure.h"
 #include "study/procedures/tow/tracking_errors.h"
+#include "study/procedures/tow/weigh_drive.h"
 
 namespace towbench::harness::procedures {
 namespace {
@@ -20,6 +21,7 @@ struct Exp4Settings {
   double start_x_m = 0.3368;
   double speed_m_per_s = 0.25;
   double largest_peak_m = 1e-3;  // TRK-2: plain PID, motor side
+  double expected_load_N = 5.0;  // what the body may push with; assumed, a few times its thrust
 
   template <typename Visitor>
   void visit(Visitor& v) {
@@ -28,6 +30,8 @@ struct Exp4Settings {
     v.value("speed_m_per_s", speed_m_per_s, core::between(0.01, 0.35), "of the straight segment");
     v.value("largest_peak_m", largest_peak_m, core::between(1e-6, 1.0),
             "of the tracking error of any axis in any segment, motor side");
+    v.value("expected_load_N", expected_load_N, core::between(0.0, 25.0),
+            "of the body on an axis; the controller's encoder check allows for it");
   }
 };
 
@@ -105,7 +109,8 @@ class Manoeuvres final : public TowProcedure {
         return tow_refused(why);
       }
     }
-    const auto with = wet.play(path(wet, "with the body", s));
+    const auto with =
+        wet.play(path(wet, "with the body", s), expecting_load(wet, s.expected_load_N));
     const auto without = dry.play(path(dry, "without the body", s));
     for (const auto* each : {&with, &without}) {
       if (!each->trouble.empty()) {
