@@ -6,11 +6,11 @@
 namespace towbench::board {
 namespace {
 
-enum Register : std::uint32_t {
-  kSysStatus = 0x14,
+enum AintcRegister : std::uint32_t {
+  kAintcSysStatus = 0x14,
   kSirIrq = 0x40,
   kSirFiq = 0x44,
-  kControl = 0x48,
+  kAintcControl = 0x48,
   kIrqPriority = 0x60,
   kFiqPriority = 0x64,
   kThreshold = 0x68,
@@ -174,7 +174,7 @@ std::uint32_t Aintc::read_word(std::uint32_t offset, std::uint32_t /*lanes*/) {
     }
   }
   switch (offset) {
-    case kSysStatus:
+    case kAintcSysStatus:
       return 1;
     case kSirIrq:
       return accepted_ || offered_ >= 0 ? active_ : kSpurious | active_;
@@ -186,7 +186,7 @@ std::uint32_t Aintc::read_word(std::uint32_t offset, std::uint32_t /*lanes*/) {
       return 0xFFFF'FFC0U;
     case kThreshold:
       return threshold_;
-    case kControl:
+    case kAintcControl:
       return 0;
     default:
       return stored(offset);
@@ -204,7 +204,7 @@ void Aintc::write_word(std::uint32_t offset, std::uint32_t value, std::uint32_t 
     }
   } else if (offset >= kFirstBank && offset < kEndOfBanks) {
     write_bank(offset, value, lanes);
-  } else if (offset == kControl) {
+  } else if (offset == kAintcControl) {
     if ((value & kNewIrqAgreement) != 0) {
       accepted_ = false;
     }

@@ -6,7 +6,7 @@
 namespace towbench::board {
 namespace {
 
-enum Register : std::uint32_t {
+enum TimerRegister : std::uint32_t {
   kIdentity = 0x00,
   kConfiguration = 0x10,
   kIrqEoi = 0x20,
@@ -14,10 +14,10 @@ enum Register : std::uint32_t {
   kIrqStatus = 0x28,
   kIrqEnableSet = 0x2C,
   kIrqEnableClear = 0x30,
-  kControl = 0x38,
-  kCounter = 0x3C,
+  kTimerControl = 0x38,
+  kTimerCounter = 0x3C,
   kReload = 0x40,
-  kTrigger = 0x44,
+  kTimerTrigger = 0x44,
   kWritePending = 0x48,
   kCompare = 0x4C,
 };
@@ -26,7 +26,7 @@ constexpr std::uint32_t kAutoReload = 1U << 1U;
 constexpr std::uint32_t kPrescaler = 1U << 5U;
 constexpr std::uint32_t kCompareEnable = 1U << 6U;
 constexpr std::uint32_t kMatch = 1U << 0U;
-constexpr std::uint32_t kOverflow = 1U << 1U;
+constexpr std::uint32_t kTimerOverflow = 1U << 1U;
 constexpr std::uint64_t kRange = 1ULL << 32U;
 
 }  // namespace
@@ -102,7 +102,7 @@ void Dmtimer::advance(core::Nanoseconds now_ns) {
     if (!again) {
       control_ &= ~kStart;
     }
-    raise(kOverflow);
+    raise(kTimerOverflow);
   }
 }
 
@@ -126,9 +126,9 @@ std::uint32_t Dmtimer::read_word(std::uint32_t offset, std::uint32_t /*lanes*/) 
     case kIrqEnableSet:
     case kIrqEnableClear:
       return enabled_;
-    case kControl:
+    case kTimerControl:
       return control_;
-    case kCounter:
+    case kTimerCounter:
       if (running()) {
         bus().disturb();
       }
@@ -137,7 +137,7 @@ std::uint32_t Dmtimer::read_word(std::uint32_t offset, std::uint32_t /*lanes*/) 
       return reload_;
     case kCompare:
       return compare_;
-    case kTrigger:
+    case kTimerTrigger:
       return 0xFFFF'FFFFU;
     case kWritePending:
     case kIrqEoi:
@@ -167,19 +167,19 @@ void Dmtimer::write_word(std::uint32_t offset, std::uint32_t value, std::uint32_
       enabled_ &= ~value;
       update_line();
       break;
-    case kControl: {
+    case kTimerControl: {
       const std::uint32_t count = counter();
       control_ = merged(control_);
       restart_from(count);
       break;
     }
-    case kCounter:
+    case kTimerCounter:
       restart_from(merged(counter()));
       break;
     case kReload:
       reload_ = merged(reload_);
       break;
-    case kTrigger:
+    case kTimerTrigger:
       restart_from(reload_);
       break;
     case kCompare: {

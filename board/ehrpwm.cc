@@ -6,7 +6,7 @@
 namespace towbench::board {
 namespace {
 
-enum Register : std::uint32_t {
+enum PwmRegister : std::uint32_t {
   kTbCtl = 0x00,
   kTbSts = 0x02,
   kTbCnt = 0x08,

@@ -6,9 +6,9 @@
 namespace towbench::board {
 namespace {
 
-enum Register : std::uint32_t {
-  kRevision = 0x00,
-  kSysConfig = 0x10,
+enum GpioRegister : std::uint32_t {
+  kGpioRevision = 0x00,
+  kGpioSysConfig = 0x10,
   kRaw0 = 0x24,
   kRaw1 = 0x28,
   kStatus0 = 0x2C,
@@ -17,8 +17,8 @@ enum Register : std::uint32_t {
   kSet1 = 0x38,
   kClear0 = 0x3C,
   kClear1 = 0x40,
-  kSysStatus = 0x114,
-  kControl = 0x130,
+  kGpioSysStatus = 0x114,
+  kGpioControl = 0x130,
   kOutputEnable = 0x134,
   kDataIn = 0x138,
   kDataOut = 0x13C,
@@ -37,12 +37,12 @@ enum Register : std::uint32_t {
 Gpio::Gpio(std::string name, Bus& bus, Interrupt interrupt)
     : RegisterBlock(std::move(name), 0x1000, bus), interrupt_(std::move(interrupt)) {
   settles_ns_.fill(kNever);
-  stored(kRevision) = 0x5060'0801U;
+  stored(kGpioRevision) = 0x5060'0801U;
 }
 
 void Gpio::reset() {
   RegisterBlock::reset();
-  stored(kRevision) = 0x5060'0801U;
+  stored(kGpioRevision) = 0x5060'0801U;
   inputs_ = 0xFFFF'FFFFU;
   data_out_ = chosen_ = 0;
   for (unsigned line = 0; line < 2; ++line) {
@@ -139,9 +139,9 @@ std::uint32_t Gpio::read_word(std::uint32_t offset, std::uint32_t /*lanes*/) {
     case kClear0:
     case kClear1:
       return enabled_[(offset - kClear0) / 4];
-    case kSysStatus:
+    case kGpioSysStatus:
       return 1;
-    case kSysConfig:
+    case kGpioSysConfig:
       return stored(offset) & ~2U;
     case kOutputEnable:
       return inputs_;
@@ -168,7 +168,7 @@ void Gpio::write_word(std::uint32_t offset, std::uint32_t value, std::uint32_t l
     case kClear1:
       write_interrupts(offset, value);
       break;
-    case kSysConfig:
+    case kGpioSysConfig:
       if ((value & 2U) != 0) {
         reset();
       } else {

@@ -7,7 +7,7 @@
 namespace towbench::board {
 namespace {
 
-enum Register : std::uint32_t {
+enum UartRegister : std::uint32_t {
   kData = 0x00,
   kInterruptEnable = 0x04,
   kFifoControl = 0x08,
@@ -17,10 +17,10 @@ enum Register : std::uint32_t {
   kModemStatus = 0x18,
   kScratch = 0x1C,
   kMode1 = 0x20,
-  kControl = 0x40,  // SCR
+  kUartControl = 0x40,  // SCR
   kSupplementary = 0x44,
-  kSysConfig = 0x54,
-  kSysStatus = 0x58,
+  kUartSysConfig = 0x54,
+  kUartSysStatus = 0x58,
   kReceiveLevel = 0x64,
   kTransmitLevel = 0x68,
 };
@@ -33,7 +33,7 @@ constexpr std::uint32_t kTransmitInterrupt = 1U << 1U;
 constexpr std::uint32_t kStatusInterrupt = 1U << 2U;
 constexpr std::uint32_t kAutoRts = 1U << 6U;
 constexpr std::uint32_t kSoftwareFlow = 0xFU;
-constexpr core::Nanoseconds kClock_Hz = 48'000'000;
+constexpr core::Nanoseconds kUartClock_Hz = 48'000'000;
 constexpr core::Nanoseconds kBitsPerByte = 10;
 // Of a FIFO that holds something but less than its trigger (TRM 19.3.6.1.4).
 constexpr core::Nanoseconds kTimeoutBytes = 4;
@@ -64,7 +64,7 @@ void Uart::reset() {
 core::Nanoseconds Uart::byte_time_ns() const noexcept {
   const core::Nanoseconds divisor = divisor_ == 0 ? 26 : divisor_;
   const core::Nanoseconds oversampling = (mode_ & 7U) == 3 ? 13 : 16;
-  return kBitsPerByte * oversampling * divisor * core::kNanosecondsPerSecond / kClock_Hz;
+  return kBitsPerByte * oversampling * divisor * core::kNanosecondsPerSecond / kUartClock_Hz;
 }
 
 void Uart::type(std::string_view bytes) {
@@ -188,7 +188,7 @@ std::size_t Uart::receive_trigger() const noexcept {
   if (!fifo_on()) {
     return 1;
   }
-  if ((stored(kControl) & 0x80U) != 0) {
+  if ((stored(kUartControl) & 0x80U) != 0) {
     return std::max<std::size_t>(1, high << 2U | low);
   }
   return high != 0 ? 4 * high : kLevels[low];
@@ -201,7 +201,7 @@ std::size_t Uart::transmit_trigger() const noexcept {
   if (!fifo_on()) {
     return 1;
   }
-  if ((stored(kControl) & 0x40U) != 0) {
+  if ((stored(kUartControl) & 0x40U) != 0) {
     return std::max<std::size_t>(1, high << 2U | low);
   }
   return high != 0 ? 4 * high : kLevels[low];
@@ -232,9 +232,9 @@ std::uint32_t Uart::read_word(std::uint32_t offset, std::uint32_t lanes) {
       return mode_;
     case kSupplementary:
       return to_send_.size() > depth() ? 1U : 0U;
-    case kSysConfig:
+    case kUartSysConfig:
       return stored(offset) & ~2U;
-    case kSysStatus:
+    case kUartSysStatus:
       return 1;
     case kReceiveLevel:
       return static_cast<std::uint32_t>(received_.size());
@@ -293,7 +293,7 @@ void Uart::write_word(std::uint32_t offset, std::uint32_t value, std::uint32_t l
     case kMode1:
       mode_ = value;
       break;
-    case kSysConfig:
+    case kUartSysConfig:
       if ((value & 2U) != 0) {
         reset();
       } else {

@@ -6,14 +6,14 @@ namespace towbench::board {
 namespace {
 
 constexpr std::uint32_t kStatus = 0x14;
-constexpr std::uint32_t kControl = 0x24;
-constexpr std::uint32_t kCounter = 0x28;
-constexpr std::uint32_t kLoad = 0x2C;
-constexpr std::uint32_t kTrigger = 0x30;
+constexpr std::uint32_t kWatchdogControl = 0x24;
+constexpr std::uint32_t kWatchdogCounter = 0x28;
+constexpr std::uint32_t kWatchdogLoad = 0x2C;
+constexpr std::uint32_t kWatchdogTrigger = 0x30;
 constexpr std::uint32_t kPending = 0x34;
 constexpr std::uint32_t kStartStop = 0x48;
 
-constexpr std::int64_t kClock_Hz = 32'768;
+constexpr std::int64_t kWatchdogClock_Hz = 32'768;
 constexpr std::uint32_t kPrescales = 1U << 5U;
 
 }  // namespace
@@ -25,7 +25,7 @@ Watchdog::Watchdog(std::string name, std::uint32_t size, Bus& bus)
 
 void Watchdog::reset() {
   RegisterBlock::reset();
-  stored(kControl) = kPrescales;
+  stored(kWatchdogControl) = kPrescales;
   loaded_ns_ = now_ns_;
   loaded_count_ = 0;
   sequence_ = 0;
@@ -34,7 +34,7 @@ void Watchdog::reset() {
 }
 
 std::int64_t Watchdog::clocks_per_tick() const noexcept {
-  const auto control = stored(kControl);
+  const auto control = stored(kWatchdogControl);
   return (control & kPrescales) == 0 ? 1 : std::int64_t{1} << (control >> 2U & 7U);
 }
 
@@ -43,7 +43,8 @@ std::uint64_t Watchdog::elapsed() const noexcept {
   const auto span_ns = now_ns_ - loaded_ns_;
   const auto seconds = span_ns / core::kNanosecondsPerSecond;
   const auto rest_ns = span_ns % core::kNanosecondsPerSecond;
-  const auto clocks = seconds * kClock_Hz + rest_ns * kClock_Hz / core::kNanosecondsPerSecond;
+  const auto clocks =
+      seconds * kWatchdogClock_Hz + rest_ns * kWatchdogClock_Hz / core::kNanosecondsPerSecond;
   return static_cast<std::uint64_t>(clocks / clocks_per_tick());
 }
 
@@ -56,10 +57,10 @@ core::Nanoseconds Watchdog::next_event_ns() const {
     return kNever;
   }
   const auto clocks = ((std::int64_t{1} << 32) - loaded_count_) * clocks_per_tick();
-  const auto seconds = clocks / kClock_Hz;
-  const auto rest = clocks % kClock_Hz;
+  const auto seconds = clocks / kWatchdogClock_Hz;
+  const auto rest = clocks % kWatchdogClock_Hz;
   return loaded_ns_ + seconds * core::kNanosecondsPerSecond +
-         (rest * core::kNanosecondsPerSecond + kClock_Hz - 1) / kClock_Hz;
+         (rest * core::kNanosecondsPerSecond + kWatchdogClock_Hz - 1) / kWatchdogClock_Hz;
 }
 
 void Watchdog::advance(core::Nanoseconds now_ns) {
@@ -89,7 +90,7 @@ std::uint32_t Watchdog::read_word(std::uint32_t offset, std::uint32_t /*lanes*/)
   switch (offset) {
     case kStatus:
       return 1;  // its own reset is over
-    case kCounter:
+    case kWatchdogCounter:
       bus().disturb();
       return counter();
     case kPending:
@@ -104,15 +105,15 @@ void Watchdog::write_word(std::uint32_t offset, std::uint32_t value, std::uint32
   const auto count = counter();
   keep(offset, value, lanes);
   switch (offset) {
-    case kControl:
+    case kWatchdogControl:
       load_counter(count);  // goes on from there at the new rate
       break;
-    case kCounter:
+    case kWatchdogCounter:
       load_counter(stored(offset));
       break;
-    case kTrigger:
+    case kWatchdogTrigger:
       if (stored(offset) != before) {
-        load_counter(stored(kLoad));
+        load_counter(stored(kWatchdogLoad));
       }
       break;
     case kStartStop:
