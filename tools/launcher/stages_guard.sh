@@ -72,7 +72,7 @@ stage_carriers() {
   local status=0 log=$build/carriers.log jobs=machine
   if [[ $everything == true ]]; then jobs=whole-machine; fi
   built release towbench-bench test_protocol test_bbmc c_pid
-  if is_asked_for fresh_start; then start_fresh_start; fi
+  start_fresh_start_beside
   "$root/tests/carriers/run.sh" "$root" "$build/release" "$jobs" 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
   passed=$((passed + $(grep -c '^@@ passed' "$log")))
   note=$(sed -n -e 's/^@@ \(real time unproven\).*/; \1/p' \
@@ -87,6 +87,7 @@ stage_carriers() {
 
 # Where threads are: the lock-free queues, the carriers, and the controller between them.
 stage_sanitize_thread() {
+  start_fresh_start_beside
   built tsan test_core test_protocol test_bbmc
   local folder
   for folder in core protocol bbmc; do
@@ -142,7 +143,12 @@ first_start_key() {
 first_starts_kept() { echo "${XDG_CACHE_HOME:-$HOME/.cache}/towbench/fresh_start"; }
 first_start_has_passed() { [[ $everything == false && -e $(first_starts_kept)/$(first_start_key) ]]; }
 
-# Beside the carriers' machine, which is emulated on one core, the first start has another.
+# It waits for packages more than it computes, so other stages run beside it: the sanitizers, or where they are kept
+# the carriers' machine.
+start_fresh_start_beside() {
+  if is_asked_for fresh_start && [[ -z $fresh_start ]]; then start_fresh_start; fi
+}
+
 start_fresh_start() {
   if first_start_has_passed; then return; fi
   # A release compiles from nothing, as a newcomer does; main's guard has compiled the same sources already.

@@ -41,8 +41,8 @@ guards main:
   carriers          the demo over serial lines, CAN and GPIO lines, and the carriers' own tests, in an
                     emulated machine whose Debian kernel has both; a run by the wall clock
   fresh_start       a clone in a bare Debian 12, as root and as a user: ./towbench demo from nothing, beside
-                    the carriers' machine. Left out where launcher, build files and packages are as when it
-                    passed last
+                    the stages before. Left out where launcher, build files and packages are as when it passed
+                    last
   fuzz              every decoder and parser, ten seconds each (TOWBENCH_FUZZ_SECONDS to change)
 
 with --all besides:
