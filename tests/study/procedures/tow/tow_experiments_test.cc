@@ -1,6 +1,8 @@
 // Every tow experiment on the nominal machine and on two drawn ones: what it estimates, against
 // what the emulated water is.
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <tuple>
 
@@ -8,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "study/procedures/tow/feasibility.h"
+#include "study/procedures/tow/weigh_drive.h"
 #include "study/recovery/tow/tow_recovery.h"
 #include "study/results/tow_set.h"
 
@@ -63,6 +66,30 @@ INSTANTIATE_TEST_SUITE_P(AllOnThreeMachines, TowExperiment,
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name + "_machine_" + std::to_string(std::get<1>(instance.param));
                          });
+
+// The motor held, the carriage swings at the resonance times the root of the rotor's share of the
+// inertia. Machine 4 is light and its chain soft: at 0.1 m/s the weight turned it round.
+TEST(WeighedDrive, TellsTheChainOfALightCarriageThatSwingsFar) {
+  const auto rig = machine(4);
+  const auto& plant = rig.parameters.axes[core::Axis::kY].plant;
+  const double held_rad_per_s = 2 * std::numbers::pi * plant.chain.resonance_Hz *
+                                std::sqrt(plant.rotor_inertia_kg_m2 / plant.inertia_kg_m2);
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const TowLoads loads(rig, controller(), seed, "fixtures/rigs");
+    const auto weighed = procedures::weigh_drive(loads.with({}), core::Axis::kY, {});
+    ASSERT_EQ(weighed.trouble, "");
+    EXPECT_NEAR(weighed.chain.rate_rad_per_s / held_rad_per_s, 1.0, 0.03);
+    EXPECT_GT(weighed.chain.deviation, 0.005);
+    EXPECT_LT(weighed.chain.deviation, 0.03);
+  }
+}
+
+// What the body of EXP-4 pushes with is no encoder that froze, on a weak X drive either.
+TEST(Manoeuvres, AreNoFrozenEncoderOnAWeakDrive) {
+  const TowLoads loads(machine(4), controller(), 1, "fixtures/rigs");
+  const auto outcome = procedures::manoeuvres()->run({.loads = loads});
+  EXPECT_EQ(outcome.status, ProcedureOutcome::Status::kDone) << outcome.reason;
+}
 
 // (8.6) takes friction that it does not know for drag.
 TEST(BlindPrediction, ReadsTooMuchFromTheNearEndAndTooLittleFromMidTank) {
