@@ -84,9 +84,8 @@ std::string why_sensor_incomplete(const RunData& data, const ExpectedRecord& exp
   }
   // A plant that is heard once an exchange may end that much before the controller.
   const auto slack_ns = std::max<core::Nanoseconds>(0, expected.exchange_ns - sensor.period_ns);
-  const auto gaps =
-      gaps_in(found->second.column("time_s"), sensor.period_ns, expected.end_ns - slack_ns,
-              sensor.late_ns);
+  const auto gaps = gaps_in(found->second.column("time_s"), sensor.period_ns,
+                            expected.end_ns - slack_ns, sensor.late_ns);
   return gaps.empty() ? not_finite_in(found->second) : gaps;
 }
 

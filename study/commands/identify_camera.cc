@@ -26,8 +26,7 @@ std::string held_frequency(const Within95& per_acceleration_s2) {
     return "not told";
   }
   return fmt::format("{:.3g} ({:.3g} .. {:.3g})", hertz(per_acceleration_s2.value),
-                     hertz(per_acceleration_s2.value + per_acceleration_s2.half_width),
-                     hertz(low));
+                     hertz(per_acceleration_s2.value + per_acceleration_s2.half_width), hertz(low));
 }
 
 std::string in_mm(const Within95& each) {

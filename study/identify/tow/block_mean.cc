@@ -143,6 +143,11 @@ UncertainMean combine(double share_a, const UncertainMean& a, double share_b,
   return sum;
 }
 
+UncertainMean doubted(const UncertainMean& mean, double share, double freedom) {
+  return combine(1.0, mean, 1.0,
+                 {.value = 0, .deviation = std::fabs(mean.value * share), .freedom = freedom});
+}
+
 double student_factor(double freedom) {
   constexpr double kUpper = 0.975;
   // Beyond this Student's t is the normal distribution to four digits.

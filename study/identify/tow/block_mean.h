@@ -42,6 +42,9 @@ inline constexpr double kSwing_s = 0.243;
 [[nodiscard]] UncertainMean combine(double share_a, const UncertainMean& a, double share_b,
                                     const UncertainMean& b);
 
+// With a further, independent error of `share` of its value. `freedom`: of that error's deviation.
+[[nodiscard]] UncertainMean doubted(const UncertainMean& mean, double share, double freedom);
+
 // Half width of the two-sided 95 % interval over the deviation: Student's t.
 [[nodiscard]] double student_factor(double freedom);
 

@@ -91,6 +91,8 @@ struct WaterForce {
 [[nodiscard]] std::vector<WaterForce> water_forces(std::span<const CarriageTurn> axes,
                                                    double period_s);
 
+// Of a chain's deviation: it rests on some thousand rows of one swing.
+inline constexpr double kChainFreedom = 100;
 // By how much drag is unsure because the chain is, as a share of it. `rate_rad_per_s`: the
 // motion's.
 [[nodiscard]] double doubt_by_chain(const CarriageChain& chain, double rate_rad_per_s) noexcept;

@@ -256,18 +256,14 @@ std::optional<CurvedDrag> curved_force(const Recording& with, const Recording& w
     along[Axis::kY].push_back(turn.water[0].drag_N_s2_per_m2);
     along[Axis::kX].push_back(turn.water[1].drag_N_s2_per_m2);
   }
-  const auto doubted = [](const std::vector<double>& values, double share_of_value) {
-    auto mean = mean_of_repeats(values);
-    mean.deviation = std::hypot(mean.deviation, mean.value * share_of_value);
-    return mean;
-  };
   double all_doubt = 0;
   for (const auto axis : core::kAxes) {
     const double doubt = doubt_by_chain(chain[axis], rate_rad_per_s);
-    result.along_axis_N_s2_per_m2[axis] = doubted(along[axis], doubt);
+    result.along_axis_N_s2_per_m2[axis] =
+        doubted(mean_of_repeats(along[axis]), doubt, kChainFreedom);
     all_doubt = std::hypot(all_doubt, 0.5 * doubt);  // each axis has half of the drag
   }
-  result.quadratic_drag_N_s2_per_m2 = doubted(drags, all_doubt);
+  result.quadratic_drag_N_s2_per_m2 = doubted(mean_of_repeats(drags), all_doubt, kChainFreedom);
   result.added_mass_kg = mean_of_repeats(masses);
   for (std::size_t bin = 0; bin < headings; ++bin) {
     const double middle = (static_cast<double>(bin) + 0.5) / static_cast<double>(headings);

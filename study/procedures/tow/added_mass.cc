@@ -156,8 +156,8 @@ class AddedMass final : public TowProcedure {
     const std::string by_sensor =
         "force sensor in the water and out of it, the carriage's own motion behind its chain; "
         "scatter between frequencies";
-    auto drag = identify::mean_of_repeats(repeats.drag);
-    drag.deviation = std::hypot(drag.deviation, drag.value * doubt);
+    const auto drag =
+        identify::doubted(identify::mean_of_repeats(repeats.drag), doubt, identify::kChainFreedom);
     outcome.estimates = {
         identify::to_estimate(identify::mean_of_repeats(repeats.by_sensor), "fsm_added_mass_kg",
                               "y", "kg", by_sensor),

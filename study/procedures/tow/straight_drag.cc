@@ -171,9 +171,8 @@ class Exp1 {
       auto coefficient = method.coefficient();
       if (method.name != "fsm") {
         // The drive's scale is common to all points of a method.
-        coefficient.deviation =
-            std::hypot(coefficient.deviation,
-                       coefficient.value * scale_.deviation_N / scale_.force_per_duty_N);
+        coefficient = identify::doubted(coefficient, scale_.deviation_N / scale_.force_per_duty_N,
+                                        scale_.freedom);
       }
       auto found =
           identify::drag_curve(method.points, method.name + "_drag_N", "y", method.rests_on);

@@ -20,8 +20,7 @@ INSTANTIATE_TEST_SUITE_P(Experiments, Shipped,
                                            "trapezoid-400-best", "trapezoid-10-stiff",
                                            "trapezoid-20-best", "circle-best", "spatial-best",
                                            "ellipse-best", "goto-pick-and-place", "one-axis",
-                                           "trapezoid-10hz", "trapezoid-100hz",
-                                           "circle-watched"),
+                                           "trapezoid-10hz", "trapezoid-100hz", "circle-watched"),
                          [](const auto& each) {
                            std::string name = each.param;
                            std::replace(name.begin(), name.end(), '-', '_');
