@@ -57,16 +57,13 @@ class Layout(NamedTuple):
     legal: Callable[[Fields], Any]
 
 
-def _axis(value: int) -> bool:
-    return value < 2
-
-
 def _hello(m: Fields) -> Any:
     return m[1] <= OBSERVER and m[2] < 4
 
 
 def _finite(values: Fields) -> bool:
-    return all(map(math.isfinite, values))
+    """Singles, of which no sum leaves the doubles: one that is infinite or no number makes the sum so."""
+    return math.isfinite(sum(values))
 
 
 HELLO, HELLO_REPLY, PWM_DUTY, ENCODER_EDGES, ENCODER_REPORT, DIGITAL_INPUTS, DIGITAL_OUTPUTS = range(1, 8)
@@ -76,22 +73,22 @@ LAYOUTS: dict[int, Layout] = {
     HELLO: Layout("Hello", struct.Struct("<HBBIIIQ"), _hello),
     HELLO_REPLY: Layout("HelloReply", struct.Struct("<HBBIIIQH"), lambda m: _hello(m) and m[7] in KNOWN_CODES),
     PWM_DUTY: Layout(
-        "PwmDuty", struct.Struct("<BBHHHI"), lambda m: _axis(m[0]) and m[1] < 2 and 0 < m[4] >= max(m[2], m[3])
+        "PwmDuty", struct.Struct("<BBHHHI"), lambda m: m[0] < 2 and m[1] < 2 and 0 < m[4] >= max(m[2], m[3])
     ),
     # With the count of edges, which stand behind: 32 bits each.
     ENCODER_EDGES: Layout(
         "EncoderEdges",
         struct.Struct("<BBqqIH"),
-        lambda m: _axis(m[0]) and m[1] < 8 and m[2] >= 0 and m[3] >= 0 and m[5] <= MAX_EDGES,
+        lambda m: m[0] < 2 and m[1] < 8 and m[2] >= 0 and m[3] >= 0 and m[5] <= MAX_EDGES,
     ),
     ENCODER_REPORT: Layout(
-        "EncoderReport", struct.Struct("<BBqiqIiHHI"), lambda m: _axis(m[0]) and m[1] < 8 and 0 <= m[4] <= m[2]
+        "EncoderReport", struct.Struct("<BBqiqIiHHI"), lambda m: m[0] < 2 and m[1] < 8 and 0 <= m[4] <= m[2]
     ),
     DIGITAL_INPUTS: Layout("DigitalInputs", struct.Struct("<HqI"), lambda m: m[0] < 128 and m[1] >= 0),
     DIGITAL_OUTPUTS: Layout("DigitalOutputs", struct.Struct("<HqI"), lambda m: m[0] < 4 and m[1] >= 0),
     FORCE_SAMPLE: Layout("ForceSample", struct.Struct("<q6f"), lambda m: m[0] >= 0 and _finite(m[1:])),
     CURRENT_SAMPLE: Layout(
-        "CurrentSample", struct.Struct("<Bqf"), lambda m: _axis(m[0]) and m[1] >= 0 and math.isfinite(m[2])
+        "CurrentSample", struct.Struct("<Bqf"), lambda m: m[0] < 2 and m[1] >= 0 and math.isfinite(m[2])
     ),
     ADVANCE: Layout("Advance", struct.Struct("<q"), lambda m: m[0] >= 0),
     ADVANCED: Layout("Advanced", struct.Struct("<q"), lambda m: m[0] >= 0),
@@ -99,7 +96,7 @@ LAYOUTS: dict[int, Layout] = {
     FAULT: Layout("Fault", struct.Struct("<HqI"), lambda m: m[0] in KNOWN_CODES and m[1] >= 0),
     BYE: Layout("Bye", struct.Struct("<q"), lambda m: m[0] >= 0),
     REFERENCE_POINT: Layout(
-        "Reference", struct.Struct("<Bq3f"), lambda m: _axis(m[0]) and m[1] >= 0 and _finite(m[2:])
+        "Reference", struct.Struct("<Bq3f"), lambda m: m[0] < 2 and m[1] >= 0 and _finite(m[2:])
     ),
     RESET: Layout("Reset", struct.Struct("<q"), lambda m: m[0] >= 0),
 }
@@ -217,6 +214,9 @@ class Counts:
     sequence_gaps: int = 0
 
 
+_LENGTH, _CHECKSUM = struct.Struct("<H"), struct.Struct("<I")
+
+
 class LengthFraming:
     """length u16, payload, CRC-32C over both: for a stream that loses nothing."""
 
@@ -227,8 +227,8 @@ class LengthFraming:
 
     @staticmethod
     def frame(payload: bytes) -> bytes:
-        covered = len(payload).to_bytes(2, "little") + payload
-        return covered + crc32c(covered).to_bytes(4, "little")
+        covered = _LENGTH.pack(len(payload)) + payload
+        return covered + _CHECKSUM.pack(crc32c(covered))
 
     def feed(self, data: bytes) -> Iterator[bytes]:
         held = self._held + data if self._held else data
@@ -707,19 +707,20 @@ class Bench:
             raise BenchError(f"the bench is gone: {error}") from error
         self._out.clear()
         deadline = time.monotonic() + self.silence_s
-        self._ended = 0
+        left_s = self.silence_s
         while True:
             while self._waiting:
-                kind = self._take(self._waiting.pop(0))
-                if kind in (expected, BYE):
+                kind = self._take(self._waiting.pop())
+                if kind == expected or kind == BYE:
                     self._ended = kind
                     return
                 if kind == HEARTBEAT:  # somebody holds the bench, and it says so
                     deadline = time.monotonic() + self.silence_s
-            left_s = deadline - time.monotonic()
+                    left_s = self.silence_s
             if left_s <= 0:
                 raise BenchError(f"the bench was silent for {self.silence_s} s")
-            self._waiting.extend(self.framing.feed(self.port.receive(left_s)))
+            self._waiting = list(self.framing.feed(self.port.receive(left_s)))[::-1]  # taken from the end
+            left_s = deadline - time.monotonic()
 
     def _take(self, payload: bytes) -> int:
         try:
