@@ -22,7 +22,7 @@ inline constexpr std::string_view kForceHeader =
 }
 inline constexpr std::string_view kCameraFile = "camera.csv";
 [[nodiscard]] inline std::string camera_column(core::Axis axis) {
-  return std::string(core::name_of(axis)) + "_carriage_m";
+  return std::string(core::name_of(axis)) + "_camera_m";
 }
 // All that a run folder may hold.
 [[nodiscard]] inline std::array<std::string, 2 + core::kAxisCount> sensor_files() {

@@ -60,6 +60,8 @@ export function axisFigures(run: RunData, axis: string): Figure[] {
     ["position_m", "motor side", "measured"],
     ["reference_m", "reference", "reference"],
   ]);
+  const carriage = curves(table, axis, [["carriage_m", "carriage (truth)", "truth"]]);
+  const camera = curves(table, axis, [["camera_m", "camera", "measured"]]);
   const figures: Figure[] = [
     {
       ...plain,
@@ -110,6 +112,14 @@ export function axisFigures(run: RunData, axis: string): Figure[] {
       unit: "A",
       zero: true,
       curves: curves(table, axis, [["current_A", "amplifier's monitor", "measured"]]),
+    },
+    {
+      ...plain,
+      id: `${axis}-camera`,
+      title: "Carriage by the camera, when its frame arrives",
+      unit: length,
+      held: true,
+      curves: camera.length > 0 ? [...carriage, ...camera] : [],
     },
     {
       ...plain,

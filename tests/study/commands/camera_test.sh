@@ -48,6 +48,6 @@ CHECK
 
 "$bench" run pulses -q --no-report --out "$scratch/blind"
 refused "$(echo "$scratch"/blind/*)" "camera.csv: given no such file"
-printf 'time_s,y_carriage_m\n0.12,0.4\n0.16\n' >"$run/camera.csv"
+printf 'time_s,y_camera_m\n0.12,0.4\n0.16\n' >"$run/camera.csv"
 refused "$run" "camera.csv"
 exit $failed
