@@ -15,7 +15,7 @@
 
 namespace {
 
-using namespace towbench::harness::diagnose;
+using namespace towbench::study::diagnose;
 using towbench::tests::HiddenAxis;
 using Clock = std::chrono::steady_clock;
 

@@ -19,10 +19,11 @@ void keep_freed_memory() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  using namespace towbench::harness;
+  using namespace towbench;
+  using namespace towbench::study;
   keep_freed_memory();
   // `emulate` is the other process of a tow over a carrier.
-  constexpr std::array<AddVerb, 6> kVerbs{add_identify, add_tow,          add_results,
-                                          add_diagnose, add_validate_all, add_emulate};
-  return run_command_line(kVerbs, argc, argv);
+  constexpr std::array<harness::AddVerb, 6> kVerbs{
+      add_identify, add_tow, add_results, add_diagnose, add_validate_all, harness::add_emulate};
+  return harness::run_command_line(kVerbs, argc, argv);
 }

@@ -9,7 +9,7 @@
 #include "study/active/active_report.h"
 #include "study/active/earlier_run.h"
 
-namespace towbench::harness::active {
+namespace towbench::study::active {
 namespace {
 
 using diagnose::Diagnosis;
@@ -113,7 +113,8 @@ class Loop {
     if (question.means == Means::kKnownForce) {
       trial.push = Push{.force_N = question.push_N};
     }
-    const ExperimentFixture fixture = write_trial(site_, trial, request_.out / "experiments");
+    const harness::ExperimentFixture fixture =
+        write_trial(site_, trial, request_.out / "experiments");
     outcome_.rounds.push_back(
         {.asked = question.causes, .motion = question.motion.words(), .experiment = fixture.file});
     if (trial.push) {
@@ -124,7 +125,7 @@ class Loop {
     return trial.push ? fit_bias_corrected(question, trial, fixture) : log_twice(fixture);
   }
 
-  bool log_twice(const ExperimentFixture& fixture) {
+  bool log_twice(const harness::ExperimentFixture& fixture) {
     for (const bool judged_on : {false, true}) {
       const auto folder = folder_of_run(fixture, judged_on ? 1 : 0);
       if (!folder) {
@@ -136,7 +137,7 @@ class Loop {
   }
 
   bool fit_bias_corrected(const Question& question, const Trial& trial,
-                          const ExperimentFixture& fixture) {
+                          const harness::ExperimentFixture& fixture) {
     const auto folder = folder_of_run(fixture, 0);
     if (!folder) {
       return false;
@@ -157,14 +158,14 @@ class Loop {
   }
 
   // The folder of a run to its end, from now or from an earlier start of the same command.
-  std::optional<std::filesystem::path> folder_of_run(const ExperimentFixture& fixture,
+  std::optional<std::filesystem::path> folder_of_run(const harness::ExperimentFixture& fixture,
                                                      std::uint64_t repeat) {
     const auto runs = request_.out / "runs";
     const std::uint64_t seed = fixture.experiment.seed + repeat;
     auto folder = earlier_run(runs, fixture, seed);
     if (!folder) {
-      const RunResult result = hands_.run(fixture, runs, seed);
-      if (!result.complete || result.exit_code != kExitPass) {
+      const harness::RunResult result = hands_.run(fixture, runs, seed);
+      if (!result.complete || result.exit_code != harness::kExitPass) {
         end(result.complete ? End::kRunFailed : End::kStopped,
             fmt::format("{}: {}", result.folder.string(),
                         result.complete ? "the experiment did not pass, see its report"
@@ -195,4 +196,4 @@ Outcome diagnose_actively(const Request& request, const Hands& hands) {
   return Loop(request, hands).run();
 }
 
-}  // namespace towbench::harness::active
+}  // namespace towbench::study::active

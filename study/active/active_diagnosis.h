@@ -21,7 +21,7 @@
 #include "study/active/trial.h"
 #include "study/diagnose/diagnosis.h"
 
-namespace towbench::harness::active {
+namespace towbench::study::active {
 
 using Logs = std::vector<std::string>;
 
@@ -39,8 +39,8 @@ struct Hands {
   std::function<diagnose::Diagnosis(const Logs& data, const Logs& holdout,
                                     const std::filesystem::path& folder, const Correction& known)>
       diagnose;
-  std::function<RunResult(const ExperimentFixture& fixture, const std::filesystem::path& out,
-                          std::uint64_t seed)>
+  std::function<harness::RunResult(const harness::ExperimentFixture& fixture,
+                                   const std::filesystem::path& out, std::uint64_t seed)>
       run;
   // The ratio of known_force.h and its interval, from a run folder.
   std::function<diagnose::Interval(const std::string& folder, const Push& push)> weigh_force;
@@ -76,4 +76,4 @@ struct Outcome {
 // Throws FixtureError for a log or rig that nothing can be run on.
 [[nodiscard]] Outcome diagnose_actively(const Request& request, const Hands& hands);
 
-}  // namespace towbench::harness::active
+}  // namespace towbench::study::active

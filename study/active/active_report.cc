@@ -7,7 +7,7 @@
 
 #include "harness/record/line_writer.h"
 
-namespace towbench::harness::active {
+namespace towbench::study::active {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -98,8 +98,8 @@ std::string told(const Request& request, const Outcome& outcome) {
 }
 
 void write_report(const Request& request, const Outcome& outcome) {
-  write_atomically(request.out / "active.json", json_of(outcome));
-  write_atomically(request.out / "active.txt", told(request, outcome));
+  harness::write_atomically(request.out / "active.json", json_of(outcome));
+  harness::write_atomically(request.out / "active.txt", told(request, outcome));
 }
 
-}  // namespace towbench::harness::active
+}  // namespace towbench::study::active

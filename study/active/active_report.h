@@ -5,7 +5,7 @@
 
 #include "study/active/active_diagnosis.h"
 
-namespace towbench::harness::active {
+namespace towbench::study::active {
 
 // The first five lines say what was asked, run, where it lies, the answer, and why it ends there.
 [[nodiscard]] std::string told(const Request& request, const Outcome& outcome);
@@ -15,4 +15,4 @@ namespace towbench::harness::active {
 // Both, as active.txt and active.json in request.out. Throws when it cannot.
 void write_report(const Request& request, const Outcome& outcome);
 
-}  // namespace towbench::harness::active
+}  // namespace towbench::study::active

@@ -6,14 +6,14 @@
 
 #include "harness/fixtures/canonical_hash.h"
 
-namespace towbench::harness::active {
+namespace towbench::study::active {
 
 std::optional<std::filesystem::path> earlier_run(const std::filesystem::path& runs,
-                                                 const ExperimentFixture& fixture,
+                                                 const harness::ExperimentFixture& fixture,
                                                  std::uint64_t seed) {
-  const nlohmann::json hashes{{"rig", hash_text(fixture.rig.hash)},
-                              {"controller", hash_text(fixture.controller.hash)},
-                              {"experiment", hash_text(fixture.hash)}};
+  const nlohmann::json hashes{{"rig", harness::hash_text(fixture.rig.hash)},
+                              {"controller", harness::hash_text(fixture.controller.hash)},
+                              {"experiment", harness::hash_text(fixture.hash)}};
   std::error_code none_yet;
   for (const auto& entry : std::filesystem::directory_iterator(runs, none_yet)) {
     std::ifstream stream(entry.path() / "result.json");
@@ -27,4 +27,4 @@ std::optional<std::filesystem::path> earlier_run(const std::filesystem::path& ru
   return std::nullopt;
 }
 
-}  // namespace towbench::harness::active
+}  // namespace towbench::study::active

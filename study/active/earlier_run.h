@@ -7,12 +7,12 @@
 
 #include "harness/experiment/experiment_fixture.h"
 
-namespace towbench::harness::active {
+namespace towbench::study::active {
 
 // The run folder below `runs` that holds it, complete and passed; in lockstep a new one would have
 // the same bits.
-[[nodiscard]] std::optional<std::filesystem::path> earlier_run(const std::filesystem::path& runs,
-                                                               const ExperimentFixture& fixture,
-                                                               std::uint64_t seed);
+[[nodiscard]] std::optional<std::filesystem::path> earlier_run(
+    const std::filesystem::path& runs, const harness::ExperimentFixture& fixture,
+    std::uint64_t seed);
 
-}  // namespace towbench::harness::active
+}  // namespace towbench::study::active

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace towbench::harness::active {
+namespace towbench::study::active {
 namespace {
 
 using diagnose::Diagnosis;
@@ -139,4 +139,4 @@ std::string names_of(const Diagnosis& d) {
   return all.empty() ? "nothing" : joined(all, ", ");
 }
 
-}  // namespace towbench::harness::active
+}  // namespace towbench::study::active

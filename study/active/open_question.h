@@ -7,7 +7,7 @@
 
 #include "study/diagnose/diagnosis.h"
 
-namespace towbench::harness::active {
+namespace towbench::study::active {
 
 // The two that only a known force tells apart.
 inline constexpr const char* kAmplifierGain = "amplifier_gain";
@@ -31,4 +31,4 @@ struct Question {
 [[nodiscard]] std::string names_of(const diagnose::Diagnosis& d);
 [[nodiscard]] std::string joined(const std::vector<std::string>& names, const char* between);
 
-}  // namespace towbench::harness::active
+}  // namespace towbench::study::active

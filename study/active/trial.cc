@@ -13,7 +13,7 @@
 #include "harness/fixtures/fixture_error.h"
 #include "study/procedures/machine.h"
 
-namespace towbench::harness::active {
+namespace towbench::study::active {
 namespace {
 
 using diagnose::TrialMotion;
@@ -25,12 +25,12 @@ constexpr double kSlack_s = 60;         // of the limits: pauses, settling
 constexpr double kPauseOfBbmc_s = 0.5;  // before each motion
 constexpr double kEntry_s = 1;          // in which a sine gets going
 
-FixtureError unfit(const std::filesystem::path& folder, const std::string& given,
-                   const std::string& allowed) {
-  return FixtureError({.file = folder.string()}, given, allowed);
+harness::FixtureError unfit(const std::filesystem::path& folder, const std::string& given,
+                            const std::string& allowed) {
+  return harness::FixtureError({.file = folder.string()}, given, allowed);
 }
 
-ExperimentFixture recorded_in(const std::filesystem::path& folder) {
+harness::ExperimentFixture recorded_in(const std::filesystem::path& folder) {
   std::ifstream stream(folder / "result.json");
   const auto result = nlohmann::json::parse(stream, nullptr, false);
   if (!result.is_object() || result.value("status", "") != "complete") {
@@ -38,19 +38,21 @@ ExperimentFixture recorded_in(const std::filesystem::path& folder) {
                 "with --active the first --data is a run folder: its rig, controller and start "
                 "are needed to run the next experiment");
   }
-  return load_experiment(folder / result["experiment"]["file"].get<std::string>());
+  return harness::load_experiment(folder / result["experiment"]["file"].get<std::string>());
 }
 
 // The user's rig with the carriage where the recorded run had it must be the recorded machine.
-void refuse_another_machine(const ExperimentFixture& recorded, const std::filesystem::path& rig) {
-  SourceFiles sources;
-  auto parameters = load_rig(rig, sources).parameters;
+void refuse_another_machine(const harness::ExperimentFixture& recorded,
+                            const std::filesystem::path& rig) {
+  harness::SourceFiles sources;
+  auto parameters = harness::load_rig(rig, sources).parameters;
   for (const auto axis : core::kAxes) {
     parameters.axes[axis].start_m = recorded.rig.parameters.axes[axis].start_m;
   }
-  if (canonical_hash(parameters) != recorded.rig.hash) {
-    throw FixtureError({.file = rig.string()}, "another machine than the log was recorded on",
-                       "the rig of the first run folder");
+  if (harness::canonical_hash(parameters) != recorded.rig.hash) {
+    throw harness::FixtureError({.file = rig.string()},
+                                "another machine than the log was recorded on",
+                                "the rig of the first run folder");
   }
 }
 
@@ -59,8 +61,8 @@ bool starts_with(const std::string& text, const char* what) {
 }
 
 // What was typed before the first motion.
-std::vector<ConsoleStep> prologue_of(const Experiment& experiment) {
-  std::vector<ConsoleStep> steps;
+std::vector<harness::ConsoleStep> prologue_of(const harness::Experiment& experiment) {
+  std::vector<harness::ConsoleStep> steps;
   for (const auto& step : experiment.console) {
     if (step.wait_idle || starts_with(step.send, "run") || starts_with(step.send, "goto")) {
       break;
@@ -70,7 +72,7 @@ std::vector<ConsoleStep> prologue_of(const Experiment& experiment) {
   return steps;
 }
 
-std::optional<double> declared_m(const std::vector<ConsoleStep>& prologue,
+std::optional<double> declared_m(const std::vector<harness::ConsoleStep>& prologue,
                                  const std::string& axis) {
   const std::string words = "reset poscalib " + axis + ' ';
   std::optional<double> place;
@@ -82,7 +84,7 @@ std::optional<double> declared_m(const std::vector<ConsoleStep>& prologue,
   return place;
 }
 
-ConsoleStep leg(const Site& site, double distance_m, double speed, double ramp_s) {
+harness::ConsoleStep leg(const Site& site, double distance_m, double speed, double ramp_s) {
   return procedures::move(
       fmt::format("run -trapez {} --distance {:.6f}m --speed {:.6f}m/s --acceleration {:.4f}s",
                   site.axis, distance_m, speed, ramp_s),
@@ -90,12 +92,12 @@ ConsoleStep leg(const Site& site, double distance_m, double speed, double ramp_s
 }
 
 // An even number of legs, so that what differs between the directions is there as often.
-std::vector<ConsoleStep> to_and_fro(const Site& site, const TrialMotion& m) {
+std::vector<harness::ConsoleStep> to_and_fro(const Site& site, const TrialMotion& m) {
   const double way = 2 * m.amplitude_m;
   const double ramp_s = m.speed_m_per_s / m.acceleration_m_per_s2;
   const double leg_s = way / m.speed_m_per_s + ramp_s + kPauseOfBbmc_s;
   const int pairs = std::max(2, static_cast<int>(std::ceil(kLongEnough_s / (2 * leg_s))));
-  std::vector<ConsoleStep> steps;
+  std::vector<harness::ConsoleStep> steps;
   for (int pair = 0; pair < pairs; ++pair) {
     steps.push_back(leg(site, way, m.speed_m_per_s, ramp_s));
     steps.push_back(leg(site, -way, m.speed_m_per_s, ramp_s));
@@ -104,8 +106,8 @@ std::vector<ConsoleStep> to_and_fro(const Site& site, const TrialMotion& m) {
 }
 
 // From its lower end, begun at a time that is known, so that a push can be timed within it.
-std::vector<ConsoleStep> sine(const Site& site, const TrialMotion& m, double at_s,
-                              double duration_s) {
+std::vector<harness::ConsoleStep> sine(const Site& site, const TrialMotion& m, double at_s,
+                                       double duration_s) {
   const double turns = std::ceil(duration_s * m.frequency_Hz);
   auto step = procedures::move(
       fmt::format("run -sinus {} --amplitude {:.6f}m --frequency {:.6f}Hz --turns {:.0f} "
@@ -135,9 +137,9 @@ std::vector<emulator::ScheduledEvent> events_of(const Push& push, core::Axis axi
   return {event(push.from_s, push.force_N), event(push.to_s, 0)};
 }
 
-Experiment experiment_of(const Site& site, Trial& trial) {
+harness::Experiment experiment_of(const Site& site, Trial& trial) {
   const TrialMotion& m = trial.motion;
-  Experiment e;
+  harness::Experiment e;
   e.name = trial.name;
   e.title = "Separating experiment: " + m.words();
   e.description = "Asked by a diagnosis to tell apart: " + trial.asks + ".";
@@ -198,16 +200,17 @@ Site find_site(const std::filesystem::path& run_folder, const std::filesystem::p
   return site;
 }
 
-ExperimentFixture write_trial(const Site& site, Trial& trial, const std::filesystem::path& folder) {
+harness::ExperimentFixture write_trial(const Site& site, Trial& trial,
+                                       const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  ExperimentFixture fixture = site.recorded;
+  harness::ExperimentFixture fixture = site.recorded;
   fixture.experiment = experiment_of(site, trial);
   const auto path = folder / (trial.name + ".toml");
   std::ofstream file(path);
-  file << to_toml(fixture, relative_to(site.rig_file, folder),
-                  relative_to(site.recorded.controller_file, folder));
+  file << harness::to_toml(fixture, relative_to(site.rig_file, folder),
+                           relative_to(site.recorded.controller_file, folder));
   file.close();
-  return load_experiment(path);
+  return harness::load_experiment(path);
 }
 
-}  // namespace towbench::harness::active
+}  // namespace towbench::study::active

@@ -9,14 +9,14 @@
 #include "harness/experiment/experiment_fixture.h"
 #include "study/diagnose/trial_motion.h"
 
-namespace towbench::harness::active {
+namespace towbench::study::active {
 
 // Where and how the first log was recorded, from what its run folder keeps. Nothing of what the
 // machine truly is leaves this struct but into the files of the next run.
 struct Site {
-  ExperimentFixture recorded;  // the experiment of the run folder
+  harness::ExperimentFixture recorded;  // the experiment of the run folder
   std::filesystem::path rig_file;
-  std::vector<ConsoleStep> prologue{};  // tells the controller where it stands
+  std::vector<harness::ConsoleStep> prologue{};  // tells the controller where it stands
   std::string axis;
   double start_m = 0;  // of the axis, by the prologue
 };
@@ -42,7 +42,7 @@ struct Trial {
 
 // Writes folder/<name>.toml and reads it back as what will be run. Throws FixtureError,
 // filesystem_error.
-[[nodiscard]] ExperimentFixture write_trial(const Site& site, Trial& trial,
-                                            const std::filesystem::path& folder);
+[[nodiscard]] harness::ExperimentFixture write_trial(const Site& site, Trial& trial,
+                                                     const std::filesystem::path& folder);
 
-}  // namespace towbench::harness::active
+}  // namespace towbench::study::active

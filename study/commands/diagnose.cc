@@ -16,7 +16,7 @@
 #include "study/diagnose/explain.h"
 #include "study/diagnose/headline.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 int diagnose_once(const DiagnoseOptions& options) {
@@ -38,7 +38,7 @@ int diagnose_once(const DiagnoseOptions& options) {
     }
     std::printf("%s\n", (std::filesystem::path(options.out) / "report.html").c_str());
   }
-  return kExitPass;
+  return harness::kExitPass;
 }
 
 std::vector<std::string> names_of_effects() {
@@ -54,7 +54,7 @@ int execute_diagnose(const DiagnoseOptions& options, const ActiveOptions& active
     return active.wanted ? diagnose_and_run(options, active) : diagnose_once(options);
   } catch (const UnusableData& error) {
     std::fprintf(stderr, "towbench: diagnose: %s\n", error.what());
-    return kExitBadInput;
+    return harness::kExitBadInput;
   }
 }
 
@@ -79,9 +79,9 @@ void add_diagnose(CLI::App& app, int& exit_code) {
   verb->add_option("--explain", options->explain,
                    "why this effect was named, or not; may be repeated")
       ->check(CLI::IsMember(names_of_effects()));
-  verb->add_option("--out", options->out, "folder to write to")->check(folder_to_write());
+  verb->add_option("--out", options->out, "folder to write to")->check(harness::folder_to_write());
   verb->add_option("--seed", options->seed, "of the bootstrap and the simulated references")
-      ->check(whole_number());
+      ->check(harness::whole_number());
   verb->add_flag("-q,--quiet", options->quiet, "no progress");
   verb->add_flag("--json", options->json, "print diagnosis.json");
   add_active_options(*verb, *active);
@@ -101,4 +101,4 @@ void add_diagnose(CLI::App& app, int& exit_code) {
       [options, active, &exit_code] { exit_code = execute_diagnose(*options, *active); });
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -9,7 +9,7 @@
 #include "study/active/active_report.h"
 #include "study/diagnose/known_force.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 // Multiplies a value, a `{ value = ... }` or a list of values, where the file has the key.
@@ -81,14 +81,15 @@ diagnose::Interval fit_bias_corrected(const DiagnoseOptions& options, const Plan
                                {.force_N = push.force_N, .from_s = push.from_s, .to_s = push.to_s});
 }
 
-RunResult run_quietly(const DiagnoseOptions& options, const ExperimentFixture& fixture,
-                      const std::filesystem::path& out, std::uint64_t seed) {
-  ExperimentOptions how;
+harness::RunResult run_quietly(const DiagnoseOptions& options,
+                               const harness::ExperimentFixture& fixture,
+                               const std::filesystem::path& out, std::uint64_t seed) {
+  harness::ExperimentOptions how;
   how.out = out.string();
   how.seed = seed;
   how.json = true;  // its table would stand between the lines of the answer
   how.quiet = options.quiet;
-  return run_with_options(fixture, how);
+  return harness::run_with_options(fixture, how);
 }
 
 active::Hands hands_of(const DiagnoseOptions& options, const PlantModel& plant) {
@@ -104,7 +105,7 @@ active::Hands hands_of(const DiagnoseOptions& options, const PlantModel& plant) 
     write_diagnosis(round, model, d);
     return d;
   };
-  hands.run = [&](const ExperimentFixture& fixture, const std::filesystem::path& out,
+  hands.run = [&](const harness::ExperimentFixture& fixture, const std::filesystem::path& out,
                   std::uint64_t seed) { return run_quietly(options, fixture, out, seed); };
   hands.weigh_force = [&](const std::string& folder, const active::Push& push) {
     return fit_bias_corrected(options, plant, folder, push);
@@ -119,7 +120,9 @@ active::Hands hands_of(const DiagnoseOptions& options, const PlantModel& plant) 
 
 int exit_code_of(active::Outcome::End end) {
   using End = active::Outcome::End;
-  return end == End::kRunFailed ? kExitFail : end == End::kStopped ? kExitRuntime : kExitPass;
+  return end == End::kRunFailed ? harness::kExitFail
+         : end == End::kStopped ? harness::kExitRuntime
+                                : harness::kExitPass;
 }
 
 }  // namespace
@@ -150,4 +153,4 @@ int diagnose_and_run(const DiagnoseOptions& options, const ActiveOptions& active
   return exit_code_of(outcome.end);
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -7,7 +7,7 @@
 
 #include "study/commands/diagnose_logs.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 struct ActiveOptions {
   bool wanted = false;
@@ -21,4 +21,4 @@ void add_active_options(CLI::App& verb, ActiveOptions& options);
 // Throws UnusableData, FixtureError.
 [[nodiscard]] int diagnose_and_run(const DiagnoseOptions& options, const ActiveOptions& active);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -15,12 +15,12 @@
 #include "study/logs/column_map.h"
 #include "study/logs/read_table.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 // What the plant did is not opened, not even for its hash.
 void refuse_changed(const std::filesystem::path& folder) {
-  const auto manifest = check_manifest(folder, [](const std::string& name) {
+  const auto manifest = harness::check_manifest(folder, [](const std::string& name) {
     return name == "log.csv" || name == "result.json" || name.starts_with("inputs/");
   });
   if (!manifest.present && std::filesystem::exists(folder / "result.json")) {
@@ -107,7 +107,7 @@ std::filesystem::path model_of(const DiagnoseOptions& options) {
   }
   const std::filesystem::path first = options.data.front();
   const auto plants = std::filesystem::is_directory(first / "inputs" / "plants")
-                          ? toml_files_in(first / "inputs" / "plants")
+                          ? harness::toml_files_in(first / "inputs" / "plants")
                           : std::vector<std::filesystem::path>{};
   if (plants.size() != 1) {
     throw UnusableData("no --model, and " + first.string() +
@@ -139,7 +139,7 @@ diagnose::Diagnosis diagnose_logs(const DiagnoseOptions& options, PlantModel pla
   request.runs = read_logs(options.data, options, plant.model, findings);
   request.holdout = read_logs(options.holdout, options, plant.model, findings);
   request.model = plant.model;
-  ProgressLine progress(!options.quiet);
+  harness::ProgressLine progress(!options.quiet);
   request.progress = [&progress](const std::string& line) { progress.show(line); };
   diagnose::Diagnosis d = diagnose::diagnose(request);
   d.findings.insert(d.findings.begin(), findings.begin(), findings.end());
@@ -151,18 +151,19 @@ void write_diagnosis(const DiagnoseOptions& options, const PlantModel& plant,
   refuse_fatal(d.findings);
   const std::filesystem::path folder = options.out;
   std::filesystem::create_directories(folder);
-  write_atomically(folder / "diagnosis.json", diagnose::diagnosis_json(d));
+  harness::write_atomically(folder / "diagnosis.json", diagnose::diagnosis_json(d));
   const bool none = has_no_model(options);
-  write_atomically(folder / "extended_plant.toml",
-                   diagnose::extend_plant(none ? estimated_plant(d) : plant.plant, d).text);
+  harness::write_atomically(
+      folder / "extended_plant.toml",
+      diagnose::extend_plant(none ? estimated_plant(d) : plant.plant, d).text);
   diagnose::write_series(d, folder);
-  write_atomically(
+  harness::write_atomically(
       folder / "report.html",
       diagnosis_page::page((none ? "Diagnosis of " + options.data.front()
                                  : "Diagnosis of " + model_of(options).filename().string()) +
                                ", axis " + options.axis,
                            d));
-  write_atomically(folder / "headline.txt", diagnose::headline(d));
+  harness::write_atomically(folder / "headline.txt", diagnose::headline(d));
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -11,7 +11,7 @@
 #include "study/commands/plant_model.h"
 #include "study/diagnose/diagnosis.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 // What was given cannot be diagnosed: one line, exit code 2.
 class UnusableData : public std::runtime_error {
@@ -50,4 +50,4 @@ struct DiagnoseOptions {
 void write_diagnosis(const DiagnoseOptions& options, const PlantModel& plant,
                      const diagnose::Diagnosis& d);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -5,7 +5,7 @@
 #include "harness/fixtures/controller_fixture.h"
 #include "harness/record/line_writer.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 void write_identified_controller(const std::filesystem::path& path,
                                  const procedures::Machine& machine,
@@ -15,11 +15,11 @@ void write_identified_controller(const std::filesystem::path& path,
     return;
   }
   try {
-    (void)read_controller(FixtureFile::parse(text, path));
-    write_atomically(path, text);
-  } catch (const FixtureError& error) {
+    (void)harness::read_controller(harness::FixtureFile::parse(text, path));
+    harness::write_atomically(path, text);
+  } catch (const harness::FixtureError& error) {
     std::fprintf(stderr, "not written: %s\n", error.what());
   }
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -5,7 +5,7 @@
 
 #include "study/procedures/identified_controller.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 // Writes nothing where nothing was found. What contradicts itself is no controller: that is said on
 // stderr, and nothing is written either.
@@ -13,4 +13,4 @@ void write_identified_controller(const std::filesystem::path& path,
                                  const procedures::Machine& machine,
                                  const identify::Estimates& estimates);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -27,7 +27,7 @@
 #include "study/results/identification_set.h"
 #include "study/results/set_up_tracking.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 using procedures::ChainResult;
@@ -77,7 +77,7 @@ void refuse_unknown(const std::vector<std::string>& only,
       ids += (ids.empty() ? "" : " ") + std::string(each->id());
     }
     if (!known) {
-      throw FixtureError({.file = "--only"}, id, ids);
+      throw harness::FixtureError({.file = "--only"}, id, ids);
     }
   }
 }
@@ -91,18 +91,18 @@ std::vector<std::string> structure_names() {
 }
 
 int exit_code_of(const ChainResult& result, const std::vector<Recovery>& recoveries) {
-  int code = result.steps.empty() ? kExitInvalid : kExitPass;
+  int code = result.steps.empty() ? harness::kExitInvalid : harness::kExitPass;
   for (const auto& each : recoveries) {
     if (!each.agrees || !each.narrow) {
-      code = kExitFail;
+      code = harness::kExitFail;
     }
   }
   for (const auto& step : result.steps) {
     if (step.outcome.status == ProcedureOutcome::Status::kFailed) {
-      return kExitInvalid;
+      return harness::kExitInvalid;
     }
     if (step.outcome.status == ProcedureOutcome::Status::kRefused) {
-      code = kExitInvalid;
+      code = harness::kExitInvalid;
     }
   }
   return code;
@@ -110,20 +110,20 @@ int exit_code_of(const ChainResult& result, const std::vector<Recovery>& recover
 
 // What the command line names, read.
 struct Bench {
-  RigFixture rig;
-  ControllerFixture controller;
+  harness::RigFixture rig;
+  harness::ControllerFixture controller;
   std::filesystem::path settings;
 };
 
 Bench bench_of(const IdentifyOptions& options) {
-  const auto fixtures = fixtures_directory();
+  const auto fixtures = harness::fixtures_directory();
   const auto named = [&](const std::string& given, const char* folder, const char* standard) {
     return given.empty() ? fixtures / folder / standard : std::filesystem::path(given);
   };
-  SourceFiles sources;
-  return {.rig = load_rig(named(options.rig, "rigs", "tow-dry.toml"), sources),
-          .controller =
-              load_controller(named(options.controller, "controllers", "bbmc-tuned.toml"), sources),
+  harness::SourceFiles sources;
+  return {.rig = harness::load_rig(named(options.rig, "rigs", "tow-dry.toml"), sources),
+          .controller = harness::load_controller(
+              named(options.controller, "controllers", "bbmc-tuned.toml"), sources),
           .settings = options.settings.empty() ? fixtures / "identification"
                                                : std::filesystem::path(options.settings)};
 }
@@ -135,7 +135,7 @@ int tell_everything(const IdentifyOptions& options, const std::string& title,
   identify::write_estimates(out / "estimates.json", result.estimates);
   write_plant(out, procedures::identified_plant(machine, result.estimates), result);
   write_identified_controller(out / "identified_controller.toml", machine, result.estimates);
-  write_atomically(out / "report.html", procedures::study_page(title, result, recoveries));
+  harness::write_atomically(out / "report.html", procedures::study_page(title, result, recoveries));
   if (options.json) {
     fmt::print("{}\n", identify::to_json(result.estimates).dump(2));
   } else {
@@ -151,14 +151,14 @@ int tell_everything(const IdentifyOptions& options, const std::string& title,
 // Nothing is moved and no truth is near: the log is all there is.
 int execute_on_log(const IdentifyOptions& options, const Bench& bench) {
   if (options.axis == "both") {
-    throw FixtureError({.file = "--axis"}, "nothing", "y or x: whose log it is");
+    throw harness::FixtureError({.file = "--axis"}, "nothing", "y or x: whose log it is");
   }
   const auto axis = axes_of(options.axis).front();
   const procedures::Machine machine(bench.rig, bench.controller, options.seed);
   const auto log =
       procedures::read_brought_log(options.data, options.columns, axis, machine.nameplate(axis));
   std::filesystem::create_directories(options.out);
-  ProgressLine progress(!options.quiet);
+  harness::ProgressLine progress(!options.quiet);
   progress.show("output error on " + log.source, 0);
   ChainResult result;
   procedures::ChainStep step{.id = "log", .title = log.source};
@@ -172,7 +172,7 @@ int execute_on_log(const IdentifyOptions& options, const Bench& bench) {
 }
 
 int execute_set(const IdentifyOptions& options, const Bench& bench) {
-  ProgressLine progress(!options.quiet);
+  harness::ProgressLine progress(!options.quiet);
   IdentificationSet set{.rig = bench.rig,
                         .controller = bench.controller,
                         .settings = bench.settings,
@@ -182,7 +182,7 @@ int execute_set(const IdentifyOptions& options, const Bench& bench) {
                         .spread = kSpread,
                         .workers = options.workers,
                         .axes = axes_of(options.axis),
-                        .stop = &stop_requested(),
+                        .stop = &harness::stop_requested(),
                         .progress = [&](std::size_t done, std::size_t all) {
                           progress.show(fmt::format("{} of {} runs", done, all),
                                         static_cast<double>(done) / static_cast<double>(all));
@@ -194,15 +194,15 @@ int execute_set(const IdentifyOptions& options, const Bench& bench) {
   const auto runs = run_set(set);
   progress.clear();
   const auto page = foreign ? foreign_page(set, runs) : set_page(set, runs);
-  write_atomically(set.out / "set.md", page);
+  harness::write_atomically(set.out / "set.md", page);
   fmt::print("{}{}\n", options.quiet ? "" : page, (set.out / "set.md").string());
-  int code = kExitPass;
+  int code = harness::kExitPass;
   for (const auto& run : runs) {
     if (!run.done || !run.not_done.empty()) {
-      return kExitInvalid;
+      return harness::kExitInvalid;
     }
     for (const auto& each : run.recoveries) {
-      code = each.agrees && each.narrow ? code : kExitFail;
+      code = each.agrees && each.narrow ? code : harness::kExitFail;
     }
   }
   return code;
@@ -225,9 +225,9 @@ int execute_identify(const IdentifyOptions& options) {
       drawn_rig(bench.rig, options.machine, kSpread, find_structure(options.structure));
   bench.rig = drawn.truth;
   std::filesystem::create_directories(options.out);
-  const LoopWatchers watchers{.stop = &stop_requested(), .progress = {}};
+  const harness::LoopWatchers watchers{.stop = &harness::stop_requested(), .progress = {}};
   const auto machine = drawn.machine(bench.controller, options.seed, watchers);
-  ProgressLine progress(!options.quiet);
+  harness::ProgressLine progress(!options.quiet);
   const procedures::ChainOptions chain{
       .only = options.only,
       .axes = axes_of(options.axis),
@@ -237,16 +237,17 @@ int execute_identify(const IdentifyOptions& options) {
                                  options.machine, options.seed, options.structure),
       .resume = options.resume,
       .progress = [&](const std::string& what, double share) { progress.show(what, share); },
-      .stop = &stop_requested()};
+      .stop = &harness::stop_requested()};
   auto result = procedures::run_chain(machine, all, chain);
-  if (options.track && !stop_requested()) {
+  if (options.track && !harness::stop_requested()) {
     progress.show("Table 7.6 with the controller set up", 0);
     const auto name = options.machine == 0
                           ? fmt::format("`{}`", bench.rig.name)
                           : fmt::format("{} drawn within {:.0f} % of `{}`", options.machine,
                                         100 * kSpread, bench.rig.name);
-    write_atomically(std::filesystem::path(options.out) / "tracking.md",
-                     set_up_section(name, track_set_up(bench.rig, machine, result.estimates)));
+    harness::write_atomically(
+        std::filesystem::path(options.out) / "tracking.md",
+        set_up_section(name, track_set_up(bench.rig, machine, result.estimates)));
   }
   progress.clear();
   // Only now may anybody look at what the machine is.
@@ -271,8 +272,8 @@ void add_identify(CLI::App& app, int& exit_code) {
   verb->add_option("--settings", options->settings, "folder of the experiments' own files")
       ->check(CLI::ExistingDirectory);
   verb->add_option("--seed", options->seed, "of the sensors' noise and of where things stand")
-      ->check(whole_number());
-  verb->add_option("--out", options->out, "folder to write to")->check(folder_to_write());
+      ->check(harness::whole_number());
+  verb->add_option("--out", options->out, "folder to write to")->check(harness::folder_to_write());
   verb->add_flag("--resume", options->resume, "continue what was interrupted in that folder");
   verb->add_flag("--blind", options->blind, "do not set the rig's own parameters beside");
   auto* track =
@@ -301,10 +302,10 @@ void add_identify(CLI::App& app, int& exit_code) {
                    "the machine with what no estimator assumes, or all of them as a set")
       ->check(CLI::IsMember(structure_names()));
   verb->add_option("--seeds", options->seeds, "with --drawn: seeds of each")
-      ->check(whole_number())
+      ->check(harness::whole_number())
       ->check(CLI::Range(1, 10000));
   verb->add_option("--workers", options->workers, "with --drawn: processes at once")
-      ->check(whole_number())
+      ->check(harness::whole_number())
       ->check(CLI::Range(1, 256));
   verb->footer(
       "Example: towbench identify fixtures/rigs/tow-dry.toml --out identified\n"
@@ -323,4 +324,4 @@ void add_identify(CLI::App& app, int& exit_code) {
   verb->callback([options, &exit_code] { exit_code = execute_identify(*options); });
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

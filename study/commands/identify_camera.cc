@@ -12,7 +12,7 @@
 #include "harness/checks/check.h"
 #include "study/runs/watched_run.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 using identify::ElasticError;
@@ -83,7 +83,7 @@ int tell_elastic_error(const std::filesystem::path& run_folder, bool json) {
   if (json) {
     fmt::print("{}\n", all.dump(2));
   }
-  return told ? kExitPass : kExitInvalid;
+  return told ? harness::kExitPass : harness::kExitInvalid;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

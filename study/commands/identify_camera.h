@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
-namespace towbench::harness {
+namespace towbench::study {
 
 // Prints a table, or JSON. Exit code: 0 told for an axis that moved, 4 for none. Throws
 // FixtureError for a folder without log.csv or camera.csv, and for a damaged one.
 int tell_elastic_error(const std::filesystem::path& run_folder, bool json);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -5,7 +5,7 @@
 #include "harness/record/line_writer.h"
 #include "study/procedures/identified_plant.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 using procedures::ChainResult;
 using procedures::ProcedureOutcome;
@@ -55,11 +55,11 @@ void write_plant(const std::filesystem::path& out, const std::string& text, Chai
     return;
   }
   const auto why = procedures::contradiction(text);
-  write_atomically(why.empty() ? plant : rejected, text);
+  harness::write_atomically(why.empty() ? plant : rejected, text);
   if (!why.empty()) {
     result.steps.push_back({.id = "plant", .title = "Identified plant"});
     result.steps.back().outcome = ProcedureOutcome::failed("rejected_plant.toml: " + why);
   }
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -8,7 +8,7 @@
 #include "study/procedures/chain.h"
 #include "study/recovery/recovery.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 void tell_steps(const procedures::ChainResult& result);
 // `against`: those of the estimates that have a truth, in their order; empty: none is shown.
@@ -20,4 +20,4 @@ void tell_estimates(const identify::Estimates& estimates, const std::vector<Reco
 void write_plant(const std::filesystem::path& out, const std::string& text,
                  procedures::ChainResult& result);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

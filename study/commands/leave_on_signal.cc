@@ -6,14 +6,14 @@
 
 #include "harness/checks/check.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 // Nothing but what a signal handler may call.
 void leave(int /*signal*/) {
   constexpr std::string_view kLine = "towbench: stopped before its end, nothing was written\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, kLine.data(), kLine.size());
-  _exit(kExitRuntime);
+  _exit(harness::kExitRuntime);
 }
 
 }  // namespace
@@ -31,4 +31,4 @@ LeaveOnSignal::~LeaveOnSignal() {
   sigaction(SIGTERM, &terminate_before_, nullptr);
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -3,7 +3,7 @@
 
 #include <csignal>
 
-namespace towbench::harness {
+namespace towbench::study {
 
 // While it lives either signal ends the process with kExitRuntime and one line.
 class LeaveOnSignal {
@@ -18,4 +18,4 @@ class LeaveOnSignal {
   struct sigaction terminate_before_ {};
 };
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

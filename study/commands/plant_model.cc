@@ -4,7 +4,7 @@
 #include "emulator/plant/derived_mechanics.h"
 #include "harness/fixtures/rig_fixture.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 constexpr double kDegrees = 57.29577951308232;  // of a radian
@@ -35,13 +35,13 @@ void add_stated_terms(diagnose::NominalModel& m, const emulator::AxisParameters&
 }  // namespace
 
 PlantModel load_plant_model(const std::filesystem::path& path, const std::string& axis) {
-  SourceFiles sources;
-  const RigFixture rig = load_plant(path, sources);
-  PlantModel out{{}, FixtureFile::load(path).table()};
+  harness::SourceFiles sources;
+  const harness::RigFixture rig = harness::load_plant(path, sources);
+  PlantModel out{{}, harness::FixtureFile::load(path).table()};
   const auto* stated = out.plant["axis"][axis].as_table();
   if (stated == nullptr) {
-    throw FixtureError({.file = path.string(), .key = "axis." + axis}, "nothing",
-                       "the axis that is to be diagnosed");
+    throw harness::FixtureError({.file = path.string(), .key = "axis." + axis}, "nothing",
+                                "the axis that is to be diagnosed");
   }
   const auto which = axis == "x" ? core::Axis::kX : core::Axis::kY;
   const auto& a = rig.parameters.axes[which];
@@ -72,4 +72,4 @@ PlantModel load_plant_model(const std::filesystem::path& path, const std::string
   return out;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

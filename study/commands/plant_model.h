@@ -8,7 +8,7 @@
 
 #include "study/prediction/nominal_model.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 struct PlantModel {
   diagnose::NominalModel model;
@@ -20,4 +20,4 @@ struct PlantModel {
 [[nodiscard]] PlantModel load_plant_model(const std::filesystem::path& path,
                                           const std::string& axis);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

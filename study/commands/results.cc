@@ -24,7 +24,7 @@
 #include "study/results/results_page.h"
 #include "study/results/thesis_tracking.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 struct ResultsOptions {
@@ -34,10 +34,10 @@ struct ResultsOptions {
 };
 
 struct ResultsBench {
-  RigFixture dry;
-  RigFixture wet;
-  ControllerFixture controller;
-  LoopWatchers watchers;
+  harness::RigFixture dry;
+  harness::RigFixture wet;
+  harness::ControllerFixture controller;
+  harness::LoopWatchers watchers;
   std::string fingerprint;  // of what is run, apart from the program and the settings
 };
 
@@ -56,28 +56,29 @@ void measure_tracking(const ResultsBench& bench, Results& results) {
   results.fast_water = track_speeds(bench.wet, bench.controller, fast, smoothed, {});
 }
 
-void measure_own_gains(const ResultsBench& bench, ProgressLine& progress, Results& results) {
+void measure_own_gains(const ResultsBench& bench, harness::ProgressLine& progress,
+                       Results& results) {
   double done = 0;
   for (const char* name : {"bbmc-table-7.2", "bbmc-0.5", "bbmc-tuned"}) {
     progress.show("Tables 7.6 and 8.3 with " + std::string(name), done / 3);
-    SourceFiles sources;
+    harness::SourceFiles sources;
     results.own_gains.push_back(track_gains(
-        bench.dry,
-        load_controller(fixtures_directory() / "controllers" / (std::string(name) + ".toml"),
-                        sources)));
+        bench.dry, harness::load_controller(harness::fixtures_directory() / "controllers" /
+                                                (std::string(name) + ".toml"),
+                                            sources)));
     done += 1;
   }
 }
 
 void identify_machine(const ResultsBench& bench, const ResultsOptions& options,
-                      ProgressLine& progress, Results& results) {
+                      harness::ProgressLine& progress, Results& results) {
   const procedures::Machine machine(bench.dry, bench.controller, options.seed, bench.watchers);
   procedures::ChainOptions chain;
-  chain.settings = fixtures_directory() / "identification";
+  chain.settings = harness::fixtures_directory() / "identification";
   chain.out = options.work;
   chain.fingerprint = bench.fingerprint;
   chain.resume = true;
-  chain.stop = &stop_requested();
+  chain.stop = &harness::stop_requested();
   chain.progress = [&](const std::string& what, double share) { progress.show(what, share); };
   results.identified =
       procedures::run_chain(machine, procedures::identification_procedures(), chain);
@@ -86,12 +87,12 @@ void identify_machine(const ResultsBench& bench, const ResultsOptions& options,
 procedures::TowOutcome tow_once(const procedures::TowLoads& loads,
                                 const procedures::TowProcedure& procedure,
                                 const std::filesystem::path& file, const std::string& fingerprint,
-                                ProgressLine& progress) {
+                                harness::ProgressLine& progress) {
   if (const auto before = procedures::kept_outcome(file, fingerprint)) {
     return tow_from_json(*before);
   }
   const std::string id(procedure.id());
-  auto settings = fixtures_directory() / "tow" / (id + ".toml");
+  auto settings = harness::fixtures_directory() / "tow" / (id + ".toml");
   if (!std::filesystem::exists(settings)) {
     settings.clear();
   }
@@ -106,18 +107,18 @@ procedures::TowOutcome tow_once(const procedures::TowLoads& loads,
 }
 
 void tow_everything(const ResultsBench& bench, const ResultsOptions& options,
-                    ProgressLine& progress, Results& results) {
-  const auto rigs = fixtures_directory() / "rigs";
+                    harness::ProgressLine& progress, Results& results) {
+  const auto rigs = harness::fixtures_directory() / "rigs";
   const procedures::TowLoads loads(bench.dry, bench.controller, options.seed, rigs, bench.watchers);
   for (const auto& procedure : procedures::tow_procedures()) {
-    if (stop_requested()) {
+    if (harness::stop_requested()) {
       return;
     }
     const std::string id(procedure->id());
-    const auto fingerprint =
-        fmt::format("{}-{}-{}-{}", procedures::program_fingerprint(), bench.fingerprint,
-                    procedures::file_fingerprint(fixtures_directory() / "tow" / (id + ".toml")),
-                    procedures::file_fingerprint(rigs / (procedure->load().rig + ".toml")));
+    const auto fingerprint = fmt::format(
+        "{}-{}-{}-{}", procedures::program_fingerprint(), bench.fingerprint,
+        procedures::file_fingerprint(harness::fixtures_directory() / "tow" / (id + ".toml")),
+        procedures::file_fingerprint(rigs / (procedure->load().rig + ".toml")));
     auto outcome = tow_once(loads, *procedure,
                             std::filesystem::path(options.work) / "done" / ("tow-" + id + ".json"),
                             fingerprint, progress);
@@ -133,30 +134,30 @@ int code_of(const Results& results) {
   };
   for (const auto& step : results.identified.steps) {
     if (!is_done(step.outcome)) {
-      return kExitInvalid;
+      return harness::kExitInvalid;
     }
   }
   for (const auto& tow : results.tows) {
     if (!is_done(tow.outcome)) {
-      return kExitInvalid;
+      return harness::kExitInvalid;
     }
   }
-  return kExitPass;
+  return harness::kExitPass;
 }
 
 int execute_results(const ResultsOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  const auto fixtures = fixtures_directory();
-  SourceFiles sources;
+  const auto fixtures = harness::fixtures_directory();
+  harness::SourceFiles sources;
   ResultsBench bench{
-      .dry = load_rig(fixtures / "rigs" / "tow-dry.toml", sources),
-      .wet = load_rig(fixtures / "rigs" / "tow-cylinder.toml", sources),
-      .controller = load_controller(fixtures / "controllers" / "bbmc-tuned.toml", sources),
-      .watchers = {.stop = &stop_requested(), .progress = {}},
+      .dry = harness::load_rig(fixtures / "rigs" / "tow-dry.toml", sources),
+      .wet = harness::load_rig(fixtures / "rigs" / "tow-cylinder.toml", sources),
+      .controller = harness::load_controller(fixtures / "controllers" / "bbmc-tuned.toml", sources),
+      .watchers = {.stop = &harness::stop_requested(), .progress = {}},
       .fingerprint = {}};
   bench.fingerprint =
       fmt::format("{:016x}-{:016x}-{}", bench.dry.hash, bench.controller.hash, options.seed);
-  ProgressLine progress(true);
+  harness::ProgressLine progress(true);
   Results results;
   results.rig = bench.dry.name;
   results.truth = bench.dry.parameters;
@@ -166,13 +167,13 @@ int execute_results(const ResultsOptions& options) {
   identify_machine(bench, options, progress, results);
   tow_everything(bench, options, progress, results);
   progress.clear();
-  if (stop_requested()) {
+  if (harness::stop_requested()) {
     fmt::print("interrupted; the same command continues\n");
-    return kExitInvalid;
+    return harness::kExitInvalid;
   }
   const auto out = options.out.empty() ? std::filesystem::path(options.work) / "results.md"
                                        : std::filesystem::path(options.out);
-  write_atomically(out, results_page(results));
+  harness::write_atomically(out, results_page(results));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   fmt::print("{}\n{:.0f} s of wall clock\n", out.string(), took.count());
   return code_of(results);
@@ -187,11 +188,11 @@ void add_results(CLI::App& app, int& exit_code) {
   verb->add_option("--work", options->work, "folder of the identification; what is done stays")
       ->capture_default_str();
   verb->add_option("--seed", options->seed, "of the sensors' noise and of where things stand")
-      ->check(whole_number());
+      ->check(harness::whole_number());
   verb->footer(
       "Example: towbench results --out docs/measurements/results.md\n"
       "Exit: 0 written, 4 written, but an experiment was refused or its data are no good.");
   verb->callback([options, &exit_code] { exit_code = execute_results(*options); });
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

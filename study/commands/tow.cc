@@ -23,7 +23,7 @@
 #include "study/procedures/tow/tow_procedure.h"
 #include "study/recovery/tow/tow_recovery.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 using procedures::ProcedureOutcome;
@@ -63,35 +63,35 @@ void refuse_unknown(const std::vector<std::string>& only) {
       ids += (ids.empty() ? "" : " ") + std::string(each->id());
     }
     if (!known) {
-      throw FixtureError({.file = "--only"}, id, ids);
+      throw harness::FixtureError({.file = "--only"}, id, ids);
     }
   }
 }
 
 int code_of(const procedures::TowOutcome& outcome, const std::vector<Recovery>& judged) {
   if (outcome.status != ProcedureOutcome::Status::kDone) {
-    return kExitInvalid;
+    return harness::kExitInvalid;
   }
   for (const auto& each : judged) {
     if (!each.agrees || !each.narrow) {
-      return kExitFail;
+      return harness::kExitFail;
     }
   }
-  return kExitPass;
+  return harness::kExitPass;
 }
 
 int execute_drawn(const TowOptions& options, const TowSetup& setup) {
-  ProgressLine progress(!options.run.quiet);
+  harness::ProgressLine progress(!options.run.quiet);
   return execute_tow_set({.rig = setup.rig,
                           .controller = setup.controller,
-                          .rigs = fixtures_directory() / "rigs",
+                          .rigs = harness::fixtures_directory() / "rigs",
                           .settings = setup.settings,
                           .out = options.run.out,
                           .only = options.only,
                           .machines = options.drawn,
                           .seeds = options.seeds,
                           .workers = options.workers,
-                          .stop = &stop_requested(),
+                          .stop = &harness::stop_requested(),
                           .progress =
                               [&](std::size_t done, std::size_t all) {
                                 progress.show(fmt::format("{} of {} runs", done, all),
@@ -104,7 +104,7 @@ int execute_drawn(const TowOptions& options, const TowSetup& setup) {
 struct TowSession {
   procedures::ChainResult shown;
   std::vector<Recovery> recoveries;
-  int code = kExitPass;
+  int code = harness::kExitPass;
 };
 
 void run_one(const procedures::TowProcedure& procedure, const TowSetup& setup, TowSources& sources,
@@ -120,9 +120,10 @@ void run_one(const procedures::TowProcedure& procedure, const TowSetup& setup, T
   }
   const auto source = sources.of(id);
   const procedures::TowLoads loads(setup.rig, setup.controller, options.run.seed.value_or(1),
-                                   fixtures_directory() / "rigs",
-                                   {.stop = &stop_requested(), .progress = {}}, source.get());
-  ProgressLine progress(talks);
+                                   harness::fixtures_directory() / "rigs",
+                                   {.stop = &harness::stop_requested(), .progress = {}},
+                                   source.get());
+  harness::ProgressLine progress(talks);
   auto outcome =
       procedure.run({.loads = loads, .settings = settings, .progress = [&](double share) {
                        progress.show(id, share);
@@ -167,9 +168,9 @@ int execute_tow(const TowOptions& options) {
     }
   }
   identify::write_estimates(out / "estimates.json", session.shown.estimates);
-  write_atomically(out / "report.html",
-                   procedures::study_page("Tow experiments on " + setup.rig.name, session.shown,
-                                          session.recoveries));
+  harness::write_atomically(out / "report.html",
+                            procedures::study_page("Tow experiments on " + setup.rig.name,
+                                                   session.shown, session.recoveries));
   if (options.run.json) {
     fmt::print("{}\n", identify::to_json(session.shown.estimates).dump(2));
   } else {
@@ -196,14 +197,14 @@ void add_tow(CLI::App& app, int& exit_code) {
   verb->add_option("--drawn", options->drawn, "so many machines, the first the rig, the rest drawn")
       ->check(CLI::Range(1, 1000));
   verb->add_option("--seeds", options->seeds, "with --drawn: seeds of each")
-      ->check(whole_number())
+      ->check(harness::whole_number())
       ->check(CLI::Range(1, 10000));
   verb->add_option("--workers", options->workers, "with --drawn: processes at once")
-      ->check(whole_number())
+      ->check(harness::whole_number())
       ->check(CLI::Range(1, 256));
-  add_experiment_options(*verb, options->run);
+  harness::add_experiment_options(*verb, options->run);
   verb->get_option("--controller")
-      ->description(std::string("controller file, or ") + kControllerHelp);
+      ->description(std::string("controller file, or ") + harness::kControllerHelp);
   verb->footer(
       "Example: towbench tow --only EXP-1 --out tows\n"
       "         towbench tow --data tows --out again\n"
@@ -217,4 +218,4 @@ void add_tow(CLI::App& app, int& exit_code) {
   verb->callback([options, &exit_code] { exit_code = execute_tow(*options); });
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

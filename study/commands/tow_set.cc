@@ -5,21 +5,21 @@
 #include "harness/checks/check.h"
 #include "harness/record/line_writer.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 int code_of(const std::vector<TowSetRun>& runs) {
   for (const auto& run : runs) {
     if (!run.done || !run.not_done.empty()) {
-      return kExitInvalid;
+      return harness::kExitInvalid;
     }
   }
   for (const auto& each : coverage_of(runs)) {
     if (each.withheld.empty() && each.verdict() != TowCoverage::Verdict::kHeld) {
-      return kExitFail;
+      return harness::kExitFail;
     }
   }
-  return kExitPass;
+  return harness::kExitPass;
 }
 
 }  // namespace
@@ -28,9 +28,9 @@ int execute_tow_set(const TowSet& set, bool quiet) {
   const auto runs = run_tow_set(set);
   const auto page = tow_coverage_page(set, runs);
   const auto path = set.out / "set.md";
-  write_atomically(path, page);
+  harness::write_atomically(path, page);
   fmt::print("{}{}\n", quiet ? "" : page, path.string());
   return code_of(runs);
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -8,7 +8,7 @@
 #include "study/runs/kept_runs.h"
 #include "study/runs/recorded_runs.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 TowSources::TowSources(const TowOptions& options) : options_(options) {
   if (!options.data.empty()) {
@@ -34,7 +34,7 @@ std::unique_ptr<procedures::RunSource> TowSources::of(const std::string& id) {
   }
   auto kept = std::make_unique<KeptRuns>(
       id, options_.run.out,
-      [this](const ExperimentFixture& fixture, const std::filesystem::path& below,
+      [this](const harness::ExperimentFixture& fixture, const std::filesystem::path& below,
              std::uint64_t seed) {
         auto how = options_.run;
         how.out = below.string();
@@ -42,7 +42,7 @@ std::unique_ptr<procedures::RunSource> TowSources::of(const std::string& id) {
         how.quiet = true;
         how.json = false;
         how.controller = options_.names_another_controller() ? how.controller : "";
-        return run_with_options(fixture, how);
+        return harness::run_with_options(fixture, how);
       },
       tows_);
   return kept;
@@ -50,26 +50,27 @@ std::unique_ptr<procedures::RunSource> TowSources::of(const std::string& id) {
 
 void TowSources::write_list() const {
   if (!tows_.empty()) {
-    write_atomically(std::filesystem::path(options_.run.out) / kTowListFile, tow_list_toml(tows_));
+    harness::write_atomically(std::filesystem::path(options_.run.out) / kTowListFile,
+                              tow_list_toml(tows_));
   }
 }
 
 TowSetup setup_of(const TowOptions& options) {
   const std::filesystem::path data = options.data;
-  const auto fixtures = fixtures_directory();
+  const auto fixtures = harness::fixtures_directory();
   const auto named = [&](const std::string& given, const std::filesystem::path& of_record,
                          const std::filesystem::path& standard) {
     const bool recorded = !data.empty() && std::filesystem::exists(data / of_record);
     return !given.empty() ? std::filesystem::path(given) : recorded ? data / of_record : standard;
   };
   const auto controller = options.names_another_controller() ? "" : options.run.controller;
-  SourceFiles sources;
-  return {
-      load_rig(named(options.rig, "machine/rig.toml", fixtures / "rigs" / "tow-dry.toml"), sources),
-      load_controller(named(controller, "machine/controller.toml",
-                            fixtures / "controllers" / "bbmc-tuned.toml"),
-                      sources),
-      named(options.settings, "settings", fixtures / "tow")};
+  harness::SourceFiles sources;
+  return {harness::load_rig(
+              named(options.rig, "machine/rig.toml", fixtures / "rigs" / "tow-dry.toml"), sources),
+          harness::load_controller(named(controller, "machine/controller.toml",
+                                         fixtures / "controllers" / "bbmc-tuned.toml"),
+                                   sources),
+          named(options.settings, "settings", fixtures / "tow")};
 }
 
 void refuse_together(const TowOptions& options) {
@@ -77,18 +78,19 @@ void refuse_together(const TowOptions& options) {
                           !options.run.lines.empty() || !options.run.encoder_lines.empty() ||
                           options.names_another_controller();
   if (how_to_run && (!options.data.empty() || options.no_runs)) {
-    throw FixtureError({"command line", 0, options.no_runs ? "--no-runs" : "--data"},
-                       "beside a carrier, a clock or another controller",
-                       options.no_runs ? "tows in memory alone" : "tows that were made before");
+    throw harness::FixtureError(
+        {"command line", 0, options.no_runs ? "--no-runs" : "--data"},
+        "beside a carrier, a clock or another controller",
+        options.no_runs ? "tows in memory alone" : "tows that were made before");
   }
   if (options.drawn > 0 && (how_to_run || !options.data.empty())) {
-    throw FixtureError({"command line", 0, "--drawn"},
-                       "beside a record, a carrier, a clock or another controller",
-                       "drawn machines in this process");
+    throw harness::FixtureError({"command line", 0, "--drawn"},
+                                "beside a record, a carrier, a clock or another controller",
+                                "drawn machines in this process");
   }
   if (!options.run.console.empty()) {
-    throw FixtureError({"command line", 0, "--console"}, options.run.console,
-                       "none: the tow's script types");
+    throw harness::FixtureError({"command line", 0, "--console"}, options.run.console,
+                                "none: the tow's script types");
   }
 }
 
@@ -103,4 +105,4 @@ void keep_setup(const TowSetup& setup, const std::filesystem::path& settings,
   }
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

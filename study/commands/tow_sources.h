@@ -14,7 +14,7 @@
 #include "study/procedures/run_source.h"
 #include "study/runs/tow_list.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 struct TowOptions {
   std::string rig;
@@ -25,7 +25,7 @@ struct TowOptions {
   std::uint64_t drawn = 0;  // machines of a set; 0: this rig alone
   std::uint64_t seeds = 40;
   std::size_t workers = 1;
-  ExperimentOptions run;  // of each tow, as `run` has them
+  harness::ExperimentOptions run;  // of each tow, as `run` has them
 
   [[nodiscard]] bool names_another_controller() const {
     return run.controller.find(':') != std::string::npos;  // firmware:IMAGE.elf and the like
@@ -50,8 +50,8 @@ class TowSources {
 };
 
 struct TowSetup {
-  RigFixture rig;
-  ControllerFixture controller;
+  harness::RigFixture rig;
+  harness::ControllerFixture controller;
   std::filesystem::path settings;  // folder of the experiments' own files
 };
 
@@ -65,4 +65,4 @@ void keep_setup(const TowSetup& setup, const std::filesystem::path& settings,
 // Throws FixtureError for options that contradict each other.
 void refuse_together(const TowOptions& options);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

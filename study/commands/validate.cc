@@ -10,7 +10,7 @@
 #include "study/procedures/procedure.h"
 #include "study/procedures/tow/tow_procedure.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 // True when one of `all` is the experiment that the file's name says; it has read the file then.
@@ -30,16 +30,16 @@ void read_settings_file(const std::filesystem::path& path) {
   std::string ids;
   if (!one_reads(procedures::identification_procedures(), path, ids) &&
       !one_reads(procedures::tow_procedures(), path, ids)) {
-    throw FixtureError({path.string(), 0, "file name"}, path.stem().string(), ids);
+    throw harness::FixtureError({path.string(), 0, "file name"}, path.stem().string(), ids);
   }
 }
 
 }  // namespace
 
 void add_validate_all(CLI::App& app, int& exit_code) {
-  add_validate_verb(app, exit_code, [](const std::vector<std::string>& named) {
-    return validate_each(fixtures_named(named), read_settings_file);
+  harness::add_validate_verb(app, exit_code, [](const std::vector<std::string>& named) {
+    return harness::validate_each(harness::fixtures_named(named), read_settings_file);
   });
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

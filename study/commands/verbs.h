@@ -5,7 +5,7 @@ namespace CLI {
 class App;
 }
 
-namespace towbench::harness {
+namespace towbench::study {
 
 // `exit_code` outlives the parse.
 void add_diagnose(CLI::App& app, int& exit_code);
@@ -15,4 +15,4 @@ void add_tow(CLI::App& app, int& exit_code);
 // The bench's `validate` comes here where settings of the study are among the files.
 void add_validate_all(CLI::App& app, int& exit_code);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

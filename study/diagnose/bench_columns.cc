@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 logs::ColumnMap bench_columns(const logs::Table& table, const NominalModel& model,
                               const std::string& file, logs::Findings& findings) {
@@ -66,4 +66,4 @@ void use_model_units(logs::ColumnMap& map, const NominalModel& model, const std:
   }
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

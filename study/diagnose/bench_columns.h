@@ -9,7 +9,7 @@
 #include "study/logs/table.h"
 #include "study/prediction/nominal_model.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 // A log without time, position or input is the fatal finding columns_unusable.
 [[nodiscard]] logs::ColumnMap bench_columns(const logs::Table& table, const NominalModel& model,
@@ -20,4 +20,4 @@ namespace towbench::harness::diagnose {
 void use_model_units(logs::ColumnMap& map, const NominalModel& model, const std::string& file,
                      logs::Findings& findings);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Column = std::vector<double>;
@@ -299,4 +299,4 @@ std::vector<ColumnGuess> guess_columns(const logs::Table& table) {
   return Guesser(table).guess();
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -6,7 +6,7 @@
 
 #include "study/logs/table.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 enum class Role { kNone, kTime, kPosition, kReference, kVelocity, kInput };
 
@@ -22,4 +22,4 @@ struct ColumnGuess {
 // In the order of the header. At most one time, position, reference and input.
 [[nodiscard]] std::vector<ColumnGuess> guess_columns(const logs::Table& table);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

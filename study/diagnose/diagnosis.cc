@@ -10,7 +10,7 @@
 #include "study/diagnose/run_checks.h"
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
@@ -195,4 +195,4 @@ Diagnosis diagnose(const Request& given) {
   return d;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -16,7 +16,7 @@
 #include "study/logs/finding.h"
 #include "study/prediction/search.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 using Progress = std::function<void(const std::string&)>;
 
@@ -84,4 +84,4 @@ struct Diagnosis {
 
 [[nodiscard]] Diagnosis diagnose(const Request& request);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -206,4 +206,4 @@ void write_series(const Diagnosis& d, const std::filesystem::path& folder) {
   }
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

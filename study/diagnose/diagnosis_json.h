@@ -6,7 +6,7 @@
 
 #include "study/diagnose/diagnosis.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 // Gains in per cent, parameters with their unit in the name.
 [[nodiscard]] std::string diagnosis_json(const Diagnosis& diagnosis);
@@ -15,4 +15,4 @@ namespace towbench::harness::diagnose {
 // before and after, and what each cause takes away). unexplained.csv: the shape that is left.
 void write_series(const Diagnosis& diagnosis, const std::filesystem::path& folder);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

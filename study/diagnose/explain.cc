@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 std::string in_percent(const Interval& gain) {
@@ -82,4 +82,4 @@ std::string explain(const Diagnosis& d, const std::string& effect) {
   return fmt::format("{}: {}.\n", effect, why.empty() ? "not tried on this data" : why);
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -5,9 +5,9 @@
 
 #include "study/diagnose/diagnosis.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 // One or two lines for a person. `effect`: a name of the library.
 [[nodiscard]] std::string explain(const Diagnosis& diagnosis, const std::string& effect);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 constexpr int kKnots = 17;
@@ -305,4 +305,4 @@ ExtendedPlant extend_plant(const toml::table& plant, const Diagnosis& d) {
   return out;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -8,7 +8,7 @@
 
 #include "study/diagnose/diagnosis.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 struct ExtendedPlant {
   std::string text;                   // TOML, with what could not be said as comments on top
@@ -20,4 +20,4 @@ struct ExtendedPlant {
 // become keys; a chain keeps its stiffness.
 [[nodiscard]] ExtendedPlant extend_plant(const toml::table& plant, const Diagnosis& diagnosis);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

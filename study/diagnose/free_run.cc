@@ -8,7 +8,7 @@
 #include "study/prediction/axis.h"
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
@@ -111,4 +111,4 @@ FreeRun run_free(const Data& data, const Search& search) {
   return out;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

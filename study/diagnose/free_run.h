@@ -5,7 +5,7 @@
 #include "study/prediction/interval.h"
 #include "study/prediction/search.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 inline constexpr double kWindow_s = 0.5;
 inline constexpr double kBetweenStarts_s = 0.1;
@@ -24,4 +24,4 @@ struct FreeRun {
 
 [[nodiscard]] FreeRun run_free(const Data& data, const Search& search);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

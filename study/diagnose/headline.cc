@@ -7,7 +7,7 @@
 
 #include "study/prediction/units.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 std::string class_of(const NamedCause& cause) {
@@ -157,4 +157,4 @@ std::string headline(const Diagnosis& d) {
   return out;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

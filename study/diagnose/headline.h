@@ -5,8 +5,8 @@
 
 #include "study/diagnose/diagnosis.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 [[nodiscard]] std::string headline(const Diagnosis& diagnosis);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -6,7 +6,7 @@
 #include "study/prediction/fit.h"
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 constexpr int kPushRounds = 5;
@@ -51,4 +51,4 @@ Interval force_ratio(const NominalModel& model, const Run& run, const KnownForce
   return {ratio, ratio - half, ratio + half};
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -9,7 +9,7 @@
 #include "study/prediction/nominal_model.h"
 #include "study/prediction/run.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 struct KnownForce {
   double force_N = 0;  // on the carriage, + towards max
@@ -22,4 +22,4 @@ struct KnownForce {
 [[nodiscard]] Interval force_ratio(const NominalModel& model, const Run& run,
                                    const KnownForce& push);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

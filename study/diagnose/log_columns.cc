@@ -7,7 +7,7 @@
 
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Kind = logs::Finding::Kind;
@@ -160,4 +160,4 @@ LogColumns find_columns(const logs::Table& table, const logs::ColumnMap& map,
   return Finder(table, map, file, findings).find();
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

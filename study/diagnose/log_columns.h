@@ -9,7 +9,7 @@
 #include "study/logs/finding.h"
 #include "study/logs/table.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 struct LogColumns {
   const std::vector<double>* time = nullptr;
@@ -25,4 +25,4 @@ struct LogColumns {
 [[nodiscard]] LogColumns find_columns(const logs::Table& table, const logs::ColumnMap& map,
                                       const std::string& file, logs::Findings& findings);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 constexpr double kLongestShift_s = 0.25;
@@ -125,4 +125,4 @@ void check_against_model(const std::vector<Run>& runs, const NominalModel& model
   check_unit(model, fit, findings);
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -6,7 +6,7 @@
 
 #include "study/diagnose/motion.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
@@ -70,4 +70,4 @@ Momentum fit_momentum(const std::vector<Run>& runs, bool rotary, double shift_s)
   return out;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -8,7 +8,7 @@
 #include "study/prediction/nominal_model.h"
 #include "study/prediction/run.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 struct Momentum {
   double mass_kg = 0;
@@ -22,4 +22,4 @@ struct Momentum {
 // With the input moved by `shift_s` against the position.
 [[nodiscard]] Momentum fit_momentum(const std::vector<Run>& runs, bool rotary, double shift_s);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

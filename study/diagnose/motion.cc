@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
@@ -47,4 +47,4 @@ Motion motion_of(const Run& run, double window_s) {
   return m;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

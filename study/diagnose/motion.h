@@ -5,7 +5,7 @@
 
 #include "study/prediction/run.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 struct Motion {
   Eigen::VectorXd time_s;
@@ -21,4 +21,4 @@ inline constexpr double kSmooth_s = 0.01;
 // Each value over `window_s` either side: a line through the position, a mean of the input.
 [[nodiscard]] Motion motion_of(const Run& run, double window_s);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

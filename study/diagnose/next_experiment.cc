@@ -6,7 +6,7 @@
 
 #include "study/prediction/axis.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
@@ -93,4 +93,4 @@ std::optional<NextExperiment> separate(const Search& search, const Model& cause,
   return helps ? std::optional<NextExperiment>(best) : std::nullopt;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -11,7 +11,7 @@
 #include "study/diagnose/trial_motion.h"
 #include "study/prediction/search.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 struct NextExperiment {
   TrialMotion motion;         // of the menu
@@ -26,4 +26,4 @@ struct NextExperiment {
                                                      const State& other,
                                                      const std::string& alternative);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

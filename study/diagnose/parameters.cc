@@ -8,7 +8,7 @@
 #include "study/prediction/units.h"
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 constexpr double kMovedErrors = 4;    // standard errors
@@ -142,4 +142,4 @@ std::string common_cause(const std::vector<ParameterShift>& shifts) {
   return of_all ? common[kInertia] : std::string{};
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

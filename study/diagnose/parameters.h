@@ -7,7 +7,7 @@
 #include "study/prediction/interval.h"
 #include "study/prediction/search.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 struct ParameterShift {
   std::string name;     // inertia, viscous, coulomb, bias
@@ -31,4 +31,4 @@ enum BaseParameter : std::size_t { kInertia, kViscousFriction, kDryFriction, kCo
 // The one effect that stands behind several shifts, by name; empty when there is none.
 [[nodiscard]] std::string common_cause(const std::vector<ParameterShift>& shifts);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

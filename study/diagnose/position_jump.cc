@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 constexpr double kFastestShare = 0.995;  // of the samples that move: what the body does at most
@@ -48,4 +48,4 @@ void join_position_jumps(Run& run, logs::Findings& findings) {
   }
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

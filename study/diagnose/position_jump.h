@@ -5,10 +5,10 @@
 #include "study/logs/finding.h"
 #include "study/prediction/run.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 // Joins the pieces: what lies before a jump is moved into the frame of what follows. The sample at
 // the jump counts as missing. Tells where.
 void join_position_jumps(Run& run, logs::Findings& findings);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

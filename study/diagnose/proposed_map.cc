@@ -14,7 +14,7 @@
 #include "study/diagnose/column_guess.h"
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 const ColumnGuess* of_role(const std::vector<ColumnGuess>& guesses, Role role) {
@@ -175,4 +175,4 @@ std::string explain_columns(const logs::Table& table, const std::string& file) {
          "plant file.\n";
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -6,7 +6,7 @@
 
 #include "study/logs/table.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 // TOML with a comment behind each line that is a guess; a column that was not found stands as a
 // comment.
@@ -16,4 +16,4 @@ namespace towbench::harness::diagnose {
 // what is estimated.
 [[nodiscard]] std::string explain_columns(const logs::Table& table, const std::string& file);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

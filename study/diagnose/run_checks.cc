@@ -8,7 +8,7 @@
 
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Kind = logs::Finding::Kind;
@@ -116,4 +116,4 @@ void check_run(Run& run, const NominalModel& model, logs::Findings& findings) {
   check_reference(run, window, findings);
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

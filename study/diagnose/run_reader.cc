@@ -8,7 +8,7 @@
 #include "study/diagnose/position_jump.h"
 #include "study/diagnose/time_grid.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 // The smallest step between values that differ, when all differences are multiples of it; else 0.
@@ -69,4 +69,4 @@ Run make_run(const logs::Table& table, const logs::ColumnMap& map, std::string n
   return run;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

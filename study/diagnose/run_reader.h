@@ -7,11 +7,11 @@
 #include "study/logs/table.h"
 #include "study/prediction/run.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 // Named findings: those of log_columns.h, time_grid.h and position_jump.h. After a fatal one the
 // run is unusable.
 [[nodiscard]] Run make_run(const logs::Table& table, const logs::ColumnMap& map, std::string name,
                            logs::Findings& findings);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -5,7 +5,7 @@
 #include "study/diagnose/series.h"
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
@@ -123,4 +123,4 @@ Scored score_on(const std::vector<Run>& holdout, const Data& fitted, const Searc
   return s;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -11,7 +11,7 @@
 #include "study/prediction/interval.h"
 #include "study/prediction/search.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 struct Scored {
   double before_rms_N = 0;  // the stated structure refitted
@@ -28,4 +28,4 @@ struct Scored {
 [[nodiscard]] Scored score_on(const std::vector<Run>& holdout, const Data& fitted,
                               const Search& search);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

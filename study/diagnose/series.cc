@@ -7,7 +7,7 @@
 #include "study/diagnose/motion.h"
 #include "study/prediction/in_parallel.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
@@ -84,4 +84,4 @@ Series make_series(const Data& data, const Search& search) {
   return s;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

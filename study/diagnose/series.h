@@ -7,7 +7,7 @@
 
 #include "study/prediction/search.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 struct Series {
   double bandwidth = 0;
@@ -22,4 +22,4 @@ struct Series {
 [[nodiscard]] double force_bandwidth(const Context& context, double mass_kg);
 [[nodiscard]] Series make_series(const Data& data, const Search& search);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -7,7 +7,7 @@
 
 #include "study/prediction/units.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 constexpr double kMatters = 0.05;
@@ -70,4 +70,4 @@ std::vector<NotTestable> find_not_testable(const Search& s) {
   return out;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

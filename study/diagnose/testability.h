@@ -6,7 +6,7 @@
 
 #include "study/prediction/search.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 // Standard errors of an effect's size at which it is seen: alpha 1e-3 over some hundred groups.
 inline constexpr double kDetection = 5;
@@ -21,4 +21,4 @@ struct NotTestable {
 // is below 5 %; or an effect must exceed 5 % of the force's rms to be detected.
 [[nodiscard]] std::vector<NotTestable> find_not_testable(const Search& search);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -7,7 +7,7 @@
 
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Kind = logs::Finding::Kind;
@@ -196,4 +196,4 @@ Eigen::VectorXd TimeGrid::resampled(const std::vector<double>& column, double sc
   return out;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

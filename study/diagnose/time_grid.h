@@ -11,7 +11,7 @@
 #include "study/diagnose/log_columns.h"
 #include "study/logs/finding.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 class TimeGrid {
  public:
@@ -45,4 +45,4 @@ class TimeGrid {
   std::vector<char> missing_;
 };
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

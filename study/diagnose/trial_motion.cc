@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
@@ -105,4 +105,4 @@ std::vector<TrialMotion> motion_menu(const Context& c, double logged_m_per_s2) {
   return motions;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

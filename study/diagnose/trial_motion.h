@@ -8,7 +8,7 @@
 
 #include "study/prediction/context.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 struct TrialMotion {
   enum class Kind { kToAndFro, kSine };
@@ -30,4 +30,4 @@ struct TrialMotion {
 // `logged_m_per_s2` is the acceleration that the data used.
 [[nodiscard]] std::vector<TrialMotion> motion_menu(const Context& context, double logged_m_per_s2);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

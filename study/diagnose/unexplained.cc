@@ -6,7 +6,7 @@
 #include "study/diagnose/motion.h"
 #include "study/prediction/whiteness.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
@@ -148,4 +148,4 @@ std::optional<Unexplained> find_unexplained(Data& data, const Search& search) {
   return Seeker(data, search).seek();
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -8,7 +8,7 @@
 
 #include "study/prediction/search.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 struct Unexplained {
   std::string coordinate;
@@ -22,4 +22,4 @@ struct Unexplained {
 
 [[nodiscard]] std::optional<Unexplained> find_unexplained(Data& data, const Search& search);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

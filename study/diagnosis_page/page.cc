@@ -12,13 +12,13 @@
 #include "study/prediction/units.h"
 #include "study/procedures/svg_plot.h"
 
-namespace towbench::harness::diagnosis_page {
+namespace towbench::study::diagnosis_page {
 namespace {
 
 using diagnose::Diagnosis;
 using diagnose::NamedCause;
-using report::escaped;
-using report::heading;
+using harness::report::escaped;
+using harness::report::heading;
 
 constexpr const char* kStyle =
     "body{font-family:sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}"
@@ -148,4 +148,4 @@ std::string page(const std::string& title, const Diagnosis& d) {
   return out + "</body></html>\n";
 }
 
-}  // namespace towbench::harness::diagnosis_page
+}  // namespace towbench::study::diagnosis_page

@@ -5,9 +5,9 @@
 
 #include "study/diagnose/diagnosis.h"
 
-namespace towbench::harness::diagnosis_page {
+namespace towbench::study::diagnosis_page {
 
 // `title`: what was judged against what. With a fatal finding the page says why there is nothing.
 [[nodiscard]] std::string page(const std::string& title, const diagnose::Diagnosis& d);
 
-}  // namespace towbench::harness::diagnosis_page
+}  // namespace towbench::study::diagnosis_page

@@ -12,7 +12,7 @@
 
 #include "study/prediction/units.h"
 
-namespace towbench::harness::diagnosis_page {
+namespace towbench::study::diagnosis_page {
 namespace {
 
 using diagnose::Diagnosis;
@@ -201,4 +201,4 @@ std::vector<Figure> pictures(const Diagnosis& d) {
   return figures;
 }
 
-}  // namespace towbench::harness::diagnosis_page
+}  // namespace towbench::study::diagnosis_page

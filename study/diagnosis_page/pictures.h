@@ -7,9 +7,9 @@
 #include "study/diagnose/diagnosis.h"
 #include "study/procedures/figure.h"
 
-namespace towbench::harness::diagnosis_page {
+namespace towbench::study::diagnosis_page {
 
 // In the order of the page. `d` has no fatal finding.
 [[nodiscard]] std::vector<procedures::Figure> pictures(const diagnose::Diagnosis& d);
 
-}  // namespace towbench::harness::diagnosis_page
+}  // namespace towbench::study::diagnosis_page

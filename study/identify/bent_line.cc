@@ -6,7 +6,7 @@
 
 #include "study/identify/linear_algebra.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 struct Solved {
@@ -156,4 +156,4 @@ BentLine fit_bent_line(std::vector<LinePoint> points, int most_bends) {
   return line;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

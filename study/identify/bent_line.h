@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct LinePoint {
   double x = 0;
@@ -27,4 +27,4 @@ struct BentLine {
 // `points` in any order, at least six of them; at most `most_bends` bends.
 [[nodiscard]] BentLine fit_bent_line(std::vector<LinePoint> points, int most_bends);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 constexpr std::uint8_t kOpenLoop = 1;  // bbmc::AxisMode
@@ -75,4 +75,4 @@ std::vector<BreakAway> find_break_aways(const Recording& data, core::Axis axis,
   return found;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

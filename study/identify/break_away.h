@@ -11,7 +11,7 @@
 
 #include "study/identify/recording.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct BreakAway {
   double position_m = 0;
@@ -23,4 +23,4 @@ struct BreakAway {
 [[nodiscard]] std::vector<BreakAway> find_break_aways(const Recording& data, core::Axis axis,
                                                       double threshold_m_per_s);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -9,7 +9,7 @@
 
 #include "study/identify/linear_algebra.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 // Residuals of all spans for given logarithms of J/B, swing frequency and swing decay.
@@ -139,4 +139,4 @@ CoastFit fit_coasts(const Recording& data, core::Axis axis, const std::vector<Co
   return fit;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -12,7 +12,7 @@
 
 #include "study/identify/recording.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct CoastSpan {
   std::size_t from = 0;
@@ -43,4 +43,4 @@ struct CoastFit {
                                   const std::vector<CoastSpan>& spans, double first_s,
                                   double first_Hz);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

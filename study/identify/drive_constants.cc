@@ -8,7 +8,7 @@
 
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 struct Slope {
@@ -145,4 +145,4 @@ DriveConstants find_drive_constants(const std::vector<PushedRun>& runs, double m
   return constants;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -18,7 +18,7 @@
 
 #include "study/identify/window_means.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct PushedRun {
   bool towards_max = true;
@@ -47,4 +47,4 @@ struct DriveConstants {
 [[nodiscard]] DriveConstants find_drive_constants(const std::vector<PushedRun>& runs,
                                                   double metres_per_rad);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -10,7 +10,7 @@
 #include "study/identify/linear_algebra.h"
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 constexpr std::size_t kFewestFrames = 30;
@@ -149,4 +149,4 @@ ElasticError elastic_error(const ElasticInput& input) {
   return error;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

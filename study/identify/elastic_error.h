@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 // Of one axis; the motor's columns at ascending times, the camera's likewise.
 struct ElasticInput {
@@ -49,4 +49,4 @@ struct ElasticError {
 
 [[nodiscard]] ElasticError elastic_error(const ElasticInput& input);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

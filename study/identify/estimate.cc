@@ -8,7 +8,7 @@
 
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 constexpr const char* kSchema = "towbench/estimates/1";
@@ -92,4 +92,4 @@ void write_estimates(const std::filesystem::path& path, const Estimates& estimat
   std::filesystem::rename(half, path);
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -12,7 +12,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct Estimate {
   std::string quantity;  // ends in its unit, as keys of fixtures do
@@ -49,4 +49,4 @@ using Estimates = std::vector<Estimate>;
 // Writes `path` by rename. Throws std::runtime_error.
 void write_estimates(const std::filesystem::path& path, const Estimates& estimates);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -6,7 +6,7 @@
 
 #include "study/identify/linear_algebra.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 double shape(double ratio, bool lorentz) {
@@ -126,4 +126,4 @@ FrictionLaw fit_friction_law(const std::vector<SteadyRun>& runs, double first_sp
   return law;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct SteadyRun {
   double speed_rad_per_s = 0;  // of the motor, signed
@@ -40,4 +40,4 @@ struct FrictionLaw {
 [[nodiscard]] FrictionLaw fit_friction_law(const std::vector<SteadyRun>& runs, double first_speed,
                                            std::optional<double> excess_Nm = std::nullopt);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <unsupported/Eigen/MatrixFunctions>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -42,4 +42,4 @@ std::vector<std::complex<double>> eigenvalues(const MatrixView& a) {
   return {solver.eigenvalues().begin(), solver.eigenvalues().end()};
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

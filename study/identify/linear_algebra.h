@@ -6,7 +6,7 @@
 
 // Eigen's decompositions as functions of matrices of dynamic size. Each takes seconds to compile,
 // so it is compiled here, and not once for each size that a caller has.
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 using MatrixView = Eigen::Ref<const Eigen::MatrixXd>;
 using VectorView = Eigen::Ref<const Eigen::VectorXd>;
@@ -33,4 +33,4 @@ struct LeastSquares {
 [[nodiscard]] Eigen::MatrixXd exponential(const MatrixView& a);
 [[nodiscard]] std::vector<std::complex<double>> eigenvalues(const MatrixView& a);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

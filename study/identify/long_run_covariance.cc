@@ -5,7 +5,7 @@
 
 #include "study/identify/linear_algebra.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 Eigen::MatrixXd long_run_covariance(const Eigen::MatrixXd& scores, Eigen::Index lags) {
   const Eigen::Index n = scores.rows();
@@ -28,4 +28,4 @@ Eigen::MatrixXd sandwich(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd&
   return solve_symmetric(information, left.transpose());
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

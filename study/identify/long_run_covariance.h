@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 // `scores`: one row a sample, mean near zero. `lags` >= 0.
 [[nodiscard]] Eigen::MatrixXd long_run_covariance(const Eigen::MatrixXd& scores, Eigen::Index lags);
@@ -16,4 +16,4 @@ namespace towbench::harness::identify {
                                        const Eigen::VectorXd& residual,
                                        const Eigen::MatrixXd& prior, Eigen::Index lags);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

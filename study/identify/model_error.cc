@@ -6,7 +6,7 @@
 
 #include "study/identify/linear_algebra.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 double structure_error(const Eigen::VectorXd& residual, double right_rms) {
   const double right = static_cast<double>(residual.size()) * right_rms * right_rms;
@@ -22,4 +22,4 @@ Eigen::VectorXd most_bent(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd
   return structure_error(residual, right_rms) * variance.cwiseMax(0.0).cwiseSqrt();
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

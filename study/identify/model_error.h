@@ -14,7 +14,7 @@
 
 #include <Eigen/Core>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 // |d|^2: squares left beyond those of a right model, which leaves `right_rms` a row. 0 where there
 // are none.
@@ -25,4 +25,4 @@ namespace towbench::harness::identify {
                                         const Eigen::VectorXd& residual,
                                         const Eigen::MatrixXd& prior, double right_rms);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

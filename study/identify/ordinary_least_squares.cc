@@ -10,7 +10,7 @@
 #include "study/identify/linear_algebra.h"
 #include "study/identify/zero_phase_filter.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 struct Signals {
@@ -119,4 +119,4 @@ OlsFit fit_ordinary_least_squares(const Recording& data, core::Axis axis, const 
   return fit;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -11,7 +11,7 @@
 
 #include "study/identify/recording.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct OlsInput {
   double torque_per_duty_Nm = 0;  // at 1 %
@@ -41,4 +41,4 @@ struct OlsFit {
                                                 const OlsInput& input,
                                                 const std::vector<double>* counts = nullptr);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

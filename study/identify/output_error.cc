@@ -10,7 +10,7 @@
 #include "study/identify/secant_cost.h"
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 enum Index : int {
@@ -347,4 +347,4 @@ TwoMassFit fit_two_mass(const TwoMassStart& start, const Recording& data, core::
   return best;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -18,7 +18,7 @@
 
 #include "study/identify/two_mass_simulation.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct TwoMassStart {
   emulator::AxisParameters axis;  // documents, and first guesses of what is estimated
@@ -60,4 +60,4 @@ struct TwoMassFit {
 [[nodiscard]] TwoMassFit fit_two_mass(const TwoMassStart& start, const Recording& data,
                                       core::Axis axis);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -9,7 +9,7 @@
 #include "study/identify/linear_algebra.h"
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 constexpr Eigen::Index kUnknown = 3;  // dC, dB, dv
@@ -105,4 +105,4 @@ LawShift find_law_shift(const FrictionLaw& of_reference, double excess_deviation
   return shift;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -16,7 +16,7 @@
 
 #include "study/identify/friction_law.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct LawShift {
   double coulomb_Nm = 0;  // machine less simulated reference
@@ -34,4 +34,4 @@ struct LawShift {
                                       const std::vector<SteadyRun>& machine,
                                       const std::vector<SteadyRun>& reference);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

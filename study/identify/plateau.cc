@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 struct Line {
@@ -71,4 +71,4 @@ std::vector<Plateau> find_plateaus(const Recording& data, core::Axis axis, doubl
   return found;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

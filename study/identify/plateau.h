@@ -5,7 +5,7 @@
 
 #include "study/identify/recording.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct Plateau {
   double speed_m_per_s = 0;       // signed; slope of a straight line through the counts
@@ -19,4 +19,4 @@ struct Plateau {
 [[nodiscard]] std::vector<Plateau> find_plateaus(const Recording& data, core::Axis axis,
                                                  double duty_pct);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -7,7 +7,7 @@
 
 #include "study/identify/linear_algebra.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 using Complex = std::complex<double>;
@@ -152,4 +152,4 @@ std::optional<PlacedLoop> fastest_loop(const TwoMassAxis& axis, const SampledLoo
   return fastest;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -18,7 +18,7 @@
 #include <optional>
 #include <vector>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 // At the motor's shaft, SI.
 struct TwoMassAxis {
@@ -73,4 +73,4 @@ struct PlacedLoop {
                                                      const SampledLoop& loop,
                                                      const LoopDemands& demands);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

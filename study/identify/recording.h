@@ -11,7 +11,7 @@
 
 #include "core/axis.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 // AxisRecording::mode while the position loop follows its reference: bbmc::AxisMode::kPosition.
 inline constexpr std::uint8_t kFollowsReference = 2;
@@ -44,4 +44,4 @@ struct Recording {
   }
 };
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

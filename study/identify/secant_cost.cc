@@ -4,7 +4,7 @@
 
 #include <ceres/ceres.h>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 // A step that changed the residuals by less than this share of themselves teaches nothing: what J
@@ -141,4 +141,4 @@ bool minimise(SecantCost& cost, const Search& search, Eigen::VectorXd& parameter
   return true;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

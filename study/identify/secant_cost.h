@@ -18,7 +18,7 @@
 
 #include <ceres/cost_function.h>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct Bounds {
   Eigen::VectorXd low;
@@ -75,4 +75,4 @@ class SecantCost final : public ceres::CostFunction {
 [[nodiscard]] bool minimise(SecantCost& cost, const Search& search, Eigen::VectorXd& parameters,
                             std::string& message);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

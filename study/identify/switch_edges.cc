@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 // A stretch of rows whose reference runs at one speed.
@@ -98,4 +98,4 @@ std::vector<double> counts_in_one_frame(const Recording& data, core::Axis axis,
   return counts;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

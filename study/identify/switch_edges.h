@@ -7,7 +7,7 @@
 
 #include "study/identify/recording.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct SwitchApproach {
   double outward = 1;  // towards max: 1, min: -1
@@ -28,4 +28,4 @@ struct SwitchApproach {
 [[nodiscard]] std::vector<double> counts_in_one_frame(const Recording& data, core::Axis axis,
                                                       const std::vector<SwitchApproach>& all);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

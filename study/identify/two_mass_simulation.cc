@@ -4,7 +4,7 @@
 
 #include "emulator/plant/axis_plant.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 std::optional<std::vector<double>> simulate_counts(const emulator::AxisParameters& parameters,
                                                    const DrivePath& path, const Recording& data,
@@ -39,4 +39,4 @@ std::optional<std::vector<double>> simulate_counts(const emulator::AxisParameter
   return counts;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

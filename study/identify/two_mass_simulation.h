@@ -11,7 +11,7 @@
 #include "emulator/plant/axis_parameters.h"
 #include "study/identify/recording.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 // What is not the axis itself.
 struct DrivePath {
@@ -26,4 +26,4 @@ struct DrivePath {
     const emulator::AxisParameters& parameters, const DrivePath& path, const Recording& data,
     core::Axis axis);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

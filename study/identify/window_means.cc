@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 Mean mean_of(const std::vector<double>& column, std::size_t from, std::size_t to) {
   constexpr std::size_t kBlocks = 10;
@@ -49,4 +49,4 @@ std::size_t row_at(const Recording& data, double time_s) {
                                   data.time_s.begin());
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -5,7 +5,7 @@
 
 #include "study/identify/recording.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct Mean {
   double value = 0;
@@ -23,4 +23,4 @@ struct Mean {
 // The first row at or after a time.
 [[nodiscard]] std::size_t row_at(const Recording& data, double time_s);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -7,7 +7,7 @@
 
 #include "core/check.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 constexpr double kChebyshevRippleDecibel = 0.05;
@@ -132,4 +132,4 @@ Eigen::VectorXd central_difference(const Eigen::Ref<const Eigen::VectorXd>& x, d
   return d;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -17,7 +17,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 class ZeroPhaseFilter {
  public:
@@ -48,4 +48,4 @@ class ZeroPhaseFilter {
 [[nodiscard]] Eigen::VectorXd central_difference(const Eigen::Ref<const Eigen::VectorXd>& x,
                                                  double period_s);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

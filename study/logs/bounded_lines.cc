@@ -1,6 +1,6 @@
 #include "study/logs/bounded_lines.h"
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 namespace {
 
 constexpr std::size_t kBlock = 1 << 20;
@@ -45,4 +45,4 @@ bool BoundedLines::next(std::string_view& line) {
   return !too_long_;
 }
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

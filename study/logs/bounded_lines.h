@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 
 inline constexpr std::size_t kLongestLine = 1 << 16;
 
@@ -34,4 +34,4 @@ class BoundedLines {
   bool too_long_ = false;
 };
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

@@ -8,7 +8,7 @@
 #include "harness/files/regular_file.h"
 #include "harness/files/toml_nesting.h"
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 namespace {
 
 void fatal(Findings& findings, std::string sentence) {
@@ -68,12 +68,12 @@ ColumnMap read_column_map(const std::filesystem::path& path, Findings& findings)
   ColumnMap map;
   try {
     constexpr std::uint64_t kLargestMap_bytes = 1U << 20U;
-    const auto text = read_regular_file(path, kLargestMap_bytes);
-    if (const auto* refused = std::get_if<Unreadable>(&text)) {
+    const auto text = harness::read_regular_file(path, kLargestMap_bytes);
+    if (const auto* refused = std::get_if<harness::Unreadable>(&text)) {
       fatal(findings, fmt::format("{}: {}, no column map", path.string(), refused->what));
       return map;
     }
-    if (const auto line = line_nested_too_deep(std::get<std::string>(text)); line != 0) {
+    if (const auto line = harness::line_nested_too_deep(std::get<std::string>(text)); line != 0) {
       fatal(findings, fmt::format("{}:{}: keys nested too deep", path.string(), line));
       return map;
     }
@@ -99,4 +99,4 @@ ColumnMap read_column_map(const std::filesystem::path& path, Findings& findings)
   return map;
 }
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

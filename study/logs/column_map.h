@@ -19,7 +19,7 @@
 
 #include "study/logs/finding.h"
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 
 struct ColumnMap {
   std::string time = "time_s";
@@ -43,4 +43,4 @@ struct ColumnMap {
 // Reads a map; unknown keys and wrong types are fatal findings.
 [[nodiscard]] ColumnMap read_column_map(const std::filesystem::path& path, Findings& findings);
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

@@ -7,7 +7,7 @@
 #include "harness/files/csv_row.h"
 #include "study/logs/bounded_lines.h"
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -82,7 +82,7 @@ class Reader {
       return false;
     }
     if (std::all_of(cells_.begin(), cells_.end(),
-                    [](std::string_view cell) { return csv_number(cell).has_value(); })) {
+                    [](std::string_view cell) { return harness::csv_number(cell).has_value(); })) {
       refuse("header_unusable", where + ": numbers where the columns should be named");
       return false;
     }
@@ -118,7 +118,7 @@ class Reader {
     }
   }
 
-  void split(std::string_view line) { split_csv_row(line, separator_, kPadding, cells_); }
+  void split(std::string_view line) { harness::split_csv_row(line, separator_, kPadding, cells_); }
 
   void add_row(std::string_view line) {
     if (separator_ != ',' && line.find(',') != std::string_view::npos) {
@@ -139,7 +139,7 @@ class Reader {
       return;
     }
     for (std::size_t i = 0; i < cells_.size(); ++i) {
-      table_.columns[i].push_back(csv_number(cells_[i]).value_or(kNoNumber));
+      table_.columns[i].push_back(harness::csv_number(cells_[i]).value_or(harness::kNoNumber));
     }
     table_.line.push_back(static_cast<std::uint32_t>(lines_.number()));
   }
@@ -160,4 +160,4 @@ Table read_csv_table(const std::filesystem::path& path, Findings& findings, Line
   return Reader(path, findings, span).read();
 }
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

@@ -11,11 +11,11 @@
 #include "study/logs/finding.h"
 #include "study/logs/table.h"
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 
 // Streams the file. What cannot be used at all (no file, no header, no rows, rows unlike the
 // header, too many rows) is a fatal finding with its line. Only the lines of `span` are looked at.
 [[nodiscard]] Table read_csv_table(const std::filesystem::path& path, Findings& findings,
                                    LineSpan span = {});
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

@@ -4,7 +4,7 @@
 
 #include "study/logs/bounded_lines.h"
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 namespace {
 
 constexpr std::string_view kBegin = "DATALOG_BEGIN: ";
@@ -42,4 +42,4 @@ DatalogSpan find_datalog(const std::filesystem::path& path, std::string_view axi
   return found;
 }
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

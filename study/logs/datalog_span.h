@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 
 // Lines of a file, the first is 1; `last` belongs to them.
 struct LineSpan {
@@ -23,4 +23,4 @@ struct DatalogSpan {
 
 [[nodiscard]] DatalogSpan find_datalog(const std::filesystem::path& path, std::string_view axis);
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

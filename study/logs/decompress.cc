@@ -5,7 +5,7 @@
 #include <lz4frame.h>
 #include <zstd.h>
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 namespace {
 
 bool from_lz4(std::string_view data, std::string& out) {
@@ -48,4 +48,4 @@ std::optional<std::string> decompressed(std::string_view method, std::string_vie
   return whole ? std::optional(std::move(out)) : std::nullopt;
 }
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

@@ -6,11 +6,11 @@
 #include <string>
 #include <string_view>
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 
 // `method` is "", "lz4" or "zstd". Nothing for another one, for damaged data, or when the result is
 // not `size` bytes long.
 [[nodiscard]] std::optional<std::string> decompressed(std::string_view method,
                                                       std::string_view data, std::size_t size);
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 
 struct Finding {
   enum class Kind { kNote, kFatal };
@@ -24,4 +24,4 @@ using Findings = std::vector<Finding>;
   return false;
 }
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

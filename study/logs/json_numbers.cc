@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 namespace {
 
 using Json = nlohmann::json;
@@ -42,4 +42,4 @@ bool for_each_number(std::string_view json, const Take& take) {
   return true;
 }
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

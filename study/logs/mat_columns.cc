@@ -9,7 +9,7 @@
 
 #include "study/logs/table.h"
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 namespace {
 
 constexpr std::size_t kMostSeriesOfAMatrix = 64;
@@ -158,4 +158,4 @@ bool read_mat_columns(const char* path, std::vector<MatColumn>& columns) {
   return true;
 }
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 
 struct MatColumn {
   std::string name;
@@ -19,4 +19,4 @@ struct MatColumn {
 // that from the caller. False when matio does not take the file.
 [[nodiscard]] bool read_mat_columns(const char* path, std::vector<MatColumn>& columns);
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

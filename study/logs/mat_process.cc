@@ -12,7 +12,7 @@
 
 #include "study/logs/table.h"
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 namespace {
 
 constexpr rlim_t kLongestReading_s = 60;
@@ -92,4 +92,4 @@ std::string read_mat_apart(const std::filesystem::path& path, std::vector<MatCol
   return told_by(status);
 }
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

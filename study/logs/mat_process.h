@@ -7,10 +7,10 @@
 
 #include "study/logs/mat_columns.h"
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 
 // What went wrong, for a person; empty when `columns` holds the file.
 [[nodiscard]] std::string read_mat_apart(const std::filesystem::path& path,
                                          std::vector<MatColumn>& columns);
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

@@ -8,7 +8,7 @@
 
 #include "study/logs/mat_process.h"
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 namespace {
 
 // The most common length; of two equally common ones the longer.
@@ -67,4 +67,4 @@ Table read_mat_table(const std::filesystem::path& path, Findings& findings) {
   return table;
 }
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

@@ -7,7 +7,7 @@
 #include "study/logs/finding.h"
 #include "study/logs/table.h"
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 
 // Whether the first 16 bytes are those of a MAT file of version 5 or 7.3.
 [[nodiscard]] bool is_mat(std::string_view first_bytes) noexcept;
@@ -15,4 +15,4 @@ namespace towbench::harness::logs {
 // Fatal: mat_unreadable, no_rows. Note: mat_left_out, with each variable that is no column.
 [[nodiscard]] Table read_mat_table(const std::filesystem::path& path, Findings& findings);
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

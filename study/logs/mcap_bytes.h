@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 
 class McapBytes {
  public:
@@ -40,4 +40,4 @@ class McapBytes {
   bool ok_ = true;
 };
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

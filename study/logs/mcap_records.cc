@@ -8,7 +8,7 @@
 #include "study/logs/decompress.h"
 #include "study/logs/mcap_bytes.h"
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 namespace {
 
 enum class Op : std::uint8_t { kChannel = 0x04, kMessage = 0x05, kChunk = 0x06, kDataEnd = 0x0F };
@@ -145,4 +145,4 @@ McapEnd read_mcap(const std::filesystem::path& path, const McapVisitor& visit) {
   return McapReader(path, visit).read();
 }
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

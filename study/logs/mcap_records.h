@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 
 struct McapChannel {
   std::string topic;
@@ -37,4 +37,4 @@ inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
 
 [[nodiscard]] McapEnd read_mcap(const std::filesystem::path& path, const McapVisitor& visit);
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

@@ -9,7 +9,7 @@
 #include "study/logs/json_numbers.h"
 #include "study/logs/mcap_records.h"
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -162,4 +162,4 @@ Table read_mcap_table(const std::filesystem::path& path, Findings& findings) {
   return table;
 }
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

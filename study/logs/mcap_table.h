@@ -11,7 +11,7 @@
 #include "study/logs/finding.h"
 #include "study/logs/table.h"
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 
 [[nodiscard]] bool is_mcap(std::string_view first_bytes) noexcept;
 
@@ -19,4 +19,4 @@ namespace towbench::harness::logs {
 // there), mcap_left_out (channels that are no JSON), topics_joined.
 [[nodiscard]] Table read_mcap_table(const std::filesystem::path& path, Findings& findings);
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

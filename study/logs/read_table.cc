@@ -8,7 +8,7 @@
 #include "study/logs/mat_table.h"
 #include "study/logs/mcap_table.h"
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 
 Table read_table(const std::filesystem::path& path, Findings& findings) {
   std::array<char, 16> first{};
@@ -25,4 +25,4 @@ Table read_table(const std::filesystem::path& path, Findings& findings) {
   return read_csv_table(path, findings);
 }
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

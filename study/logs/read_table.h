@@ -6,9 +6,9 @@
 #include "study/logs/finding.h"
 #include "study/logs/table.h"
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 
 // What cannot be used at all is a fatal finding that names the file and the place in it.
 [[nodiscard]] Table read_table(const std::filesystem::path& path, Findings& findings);
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 
 const std::vector<double>* Table::find(std::string_view name) const noexcept {
   const auto at = std::find(names.begin(), names.end(), name);
@@ -13,4 +13,4 @@ std::size_t Table::count(std::string_view name) const noexcept {
   return static_cast<std::size_t>(std::count(names.begin(), names.end(), name));
 }
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace towbench::harness::logs {
+namespace towbench::study::logs {
 
 struct Table {
   std::vector<std::string> names;
@@ -27,4 +27,4 @@ struct Table {
 inline constexpr std::size_t kMostRows = 2'000'000;
 inline constexpr std::size_t kMostColumns = 512;
 
-}  // namespace towbench::harness::logs
+}  // namespace towbench::study::logs

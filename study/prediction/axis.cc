@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <numbers>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
@@ -314,4 +314,4 @@ void Axis::follow_reversals() {
   }
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

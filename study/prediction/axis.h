@@ -7,7 +7,7 @@
 #include "study/prediction/parameters.h"
 #include "study/prediction/scene.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 class Axis {
  public:
@@ -80,4 +80,4 @@ class Axis {
   double farthest_m_ = 0;
 };
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

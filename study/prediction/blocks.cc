@@ -9,7 +9,7 @@
 
 #include "study/prediction/in_parallel.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
@@ -199,4 +199,4 @@ Comparison compare(const VectorXd& worse, const VectorXd& better, double errors)
           std::max(mean / std::max(1e-300, spread), quiet)};
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

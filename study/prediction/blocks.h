@@ -11,7 +11,7 @@
 
 #include "study/prediction/predictor.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 using Columns = std::vector<Eigen::Index>;
 
@@ -75,4 +75,4 @@ struct Comparison {
 [[nodiscard]] Comparison compare(const Eigen::VectorXd& worse, const Eigen::VectorXd& better,
                                  double errors);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

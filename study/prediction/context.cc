@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 Context make_context(const NominalModel& stated, const Data& data) {
   Context c;
   c.stated = stated;
@@ -46,4 +46,4 @@ Parameters parameters_of(const NominalModel& stated) {
   return p;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -6,7 +6,7 @@
 #include "study/prediction/nominal_model.h"
 #include "study/prediction/predictor.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 struct Context {
   NominalModel stated;
@@ -30,4 +30,4 @@ struct Context {
 // The stated model as parameters of the axis.
 [[nodiscard]] Parameters parameters_of(const NominalModel& stated);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

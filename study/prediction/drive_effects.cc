@@ -6,7 +6,7 @@
 
 #include "study/prediction/effect_steps.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 // A gain, or counts, off by more than that is a wrong unit.
@@ -111,4 +111,4 @@ void add_drive_effects(std::vector<Effect>& library) {
                      .step = whole_step});
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -9,7 +9,7 @@
 
 #include "study/prediction/context.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 using Scales = std::vector<double>;
 
@@ -51,4 +51,4 @@ void add_periodic_effects(std::vector<Effect>& library);
 [[nodiscard]] const std::vector<Effect>& effects();
 [[nodiscard]] const Effect* find_effect(std::string_view name);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

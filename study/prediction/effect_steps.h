@@ -7,7 +7,7 @@
 
 #include "study/prediction/effect.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 // A fiftieth of the input's rms, as a force and as what makes it at top speed.
 inline double force_step(const Context& c) {
@@ -44,4 +44,4 @@ void set_scale(Parameters& p, const Context& /*c*/, std::span<const double> scal
   p[key] = scales[0];
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -2,7 +2,7 @@
 
 #include "study/prediction/effect.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 const std::vector<Effect>& effects() {
   static const std::vector<Effect> kAll = [] {
@@ -23,4 +23,4 @@ const Effect* find_effect(std::string_view name) {
   return found == effects().end() ? nullptr : &*found;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::VectorXd;
@@ -80,4 +80,4 @@ bool accept_clip(const Frame& frame, const Model& start, double least_errors, St
   return true;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -4,7 +4,7 @@
 
 #include "study/prediction/screening.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 inline constexpr double kFresh = 0.3;  // gain at which they are believed whatever screening says
 
@@ -14,4 +14,4 @@ void accept_structural(Frame& frame, const Model& start, double least_errors, St
 [[nodiscard]] bool accept_clip(const Frame& frame, const Model& start, double least_errors,
                                State& now);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

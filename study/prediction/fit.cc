@@ -6,7 +6,7 @@
 
 #include "study/prediction/in_parallel.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
@@ -158,4 +158,4 @@ double best_bandwidth(const Data& data, const Context& context, const Model& mod
   return best > 0 ? best : kFastest_per_sample / context.period_s;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

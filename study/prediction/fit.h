@@ -7,7 +7,7 @@
 #include "study/prediction/blocks.h"
 #include "study/prediction/context.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 // What a fit may move: a key, or what one run has of its own.
 struct Freedom {
@@ -43,4 +43,4 @@ struct Fitted {
 // Of the correction, where the innovations are least; rad/s.
 [[nodiscard]] double best_bandwidth(const Data& data, const Context& context, const Model& model);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -6,7 +6,7 @@
 
 #include "study/prediction/effect_steps.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 std::vector<Scales> low_speeds(const Context& c) {
@@ -143,4 +143,4 @@ void add_friction_effects(std::vector<Effect>& library) {
                      .step = share_step});
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next{0};
@@ -23,4 +23,4 @@ void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work
   take();
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -1,7 +1,7 @@
 // A value with the limits that it lies between.
 #pragma once
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 struct Interval {
   double value = 0;
@@ -9,4 +9,4 @@ struct Interval {
   double high = 0;
 };
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
@@ -81,4 +81,4 @@ void find_lines(const Data& data, const VectorXd& e, Context& c) {
   std::erase_if(c.lines_Hz, [&](double f) { return f * c.duration_s < 4; });
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

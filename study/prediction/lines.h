@@ -4,9 +4,9 @@
 
 #include "study/prediction/context.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 // Sets lines_per_m, lines_Hz and searched.
 void find_lines(const Data& data, const Eigen::VectorXd& e, Context& context);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -6,7 +6,7 @@
 
 #include "study/prediction/effect_steps.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 constexpr double kFrictionAtLoad = 0.65;  // of all friction, where nothing is stated
@@ -118,4 +118,4 @@ void add_mechanical_effects(std::vector<Effect>& library) {
                      .step = force_step});
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

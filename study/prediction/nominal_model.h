@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 // Motor and load as two bodies, (3.37)-(3.38): mass_kg and friction of the model are of both.
 struct ElasticChain {
@@ -47,4 +47,4 @@ struct NominalModel {
   bool rotary = false;  // a joint: read rad for m and Nm for N
 };
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 enum class Key : std::uint8_t {
   kMass,     // kg, of everything that moves
@@ -109,4 +109,4 @@ class Parameters {
   return static_cast<Key>(static_cast<int>(first) + by);
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -6,7 +6,7 @@
 
 #include "study/prediction/effect_steps.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 constexpr double kFullTurn = 2 * std::numbers::pi;
@@ -127,4 +127,4 @@ void add_periodic_effects(std::vector<Effect>& library) {
                      .step = force_step});
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -6,7 +6,7 @@
 
 #include "study/prediction/effect_steps.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 std::vector<Key> shapes(Key from) {
@@ -85,4 +85,4 @@ void add_place_effects(std::vector<Effect>& library) {
                      .step = viscous_step});
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

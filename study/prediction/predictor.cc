@@ -7,7 +7,7 @@
 #include "study/prediction/axis.h"
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
@@ -123,4 +123,4 @@ VectorXd innovations(const Data& data, const Model& model, double bandwidth) {
   return e;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -12,7 +12,7 @@
 #include "study/prediction/parameters.h"
 #include "study/prediction/scene.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 // What one run has of its own: its level of friction and its offset.
 struct OfRun {
@@ -54,4 +54,4 @@ struct Data {
 [[nodiscard]] Eigen::VectorXd innovations_of(const Data& data, std::size_t run,
                                              const Parameters& parameters, double bandwidth);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 struct Run {
   std::string name;
@@ -23,4 +23,4 @@ struct Run {
   [[nodiscard]] Eigen::Index size() const noexcept { return position_m.size(); }
 };
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
@@ -83,4 +83,4 @@ double stated_friction_N(const NominalModel& stated, double at_m) noexcept {
   return force[i - 1] + share * (force[i] - force[i - 1]);
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -6,7 +6,7 @@
 #include "study/prediction/nominal_model.h"
 #include "study/prediction/run.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 // Dry friction that the stated model has at a place, (3.34); zero where it has none.
 [[nodiscard]] double stated_friction_N(const NominalModel& stated, double at_m) noexcept;
@@ -42,4 +42,4 @@ struct Scene {
   [[nodiscard]] double impulse_at(double at_s) const noexcept;
 };
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

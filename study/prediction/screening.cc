@@ -5,7 +5,7 @@
 #include "study/prediction/in_parallel.h"
 #include "study/prediction/lines.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
@@ -191,4 +191,4 @@ State with(const Frame& frame, const State& s, const Candidate& c, const Model& 
   return here;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -7,7 +7,7 @@
 
 #include "study/prediction/state.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 struct Candidate {
   const Effect* effect = nullptr;
@@ -37,4 +37,4 @@ struct Screened {
 [[nodiscard]] State with(const Frame& frame, const State& state, const Candidate& candidate,
                          const Model& start);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -6,7 +6,7 @@
 #include "study/prediction/first_fits.h"
 #include "study/prediction/whiteness.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
@@ -316,4 +316,4 @@ Search search_causes(const Data& data, const Context& context, const Model& star
   return Searcher(data, context, limits).run(start);
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

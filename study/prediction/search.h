@@ -6,7 +6,7 @@
 
 #include "study/prediction/screening.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 // What predicts as well in a cause's place, fitted.
 struct Alternative {
@@ -45,4 +45,4 @@ struct Limits {
 [[nodiscard]] Search search_causes(const Data& data, const Context& context, const Model& start,
                                    const Limits& limits);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

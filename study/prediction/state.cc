@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
@@ -58,4 +58,4 @@ State without(const Frame& frame, const State& s, std::size_t i) {
   return make_state(frame, rest, model);
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -6,7 +6,7 @@
 #include "study/prediction/effect.h"
 #include "study/prediction/fit.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 // What a search looks at, and how: the same for all models that are compared.
 struct Frame {
@@ -44,4 +44,4 @@ struct State {
 // 0 .. n - 1
 [[nodiscard]] Columns up_to(Eigen::Index n);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

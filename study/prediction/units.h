@@ -5,7 +5,7 @@
 
 #include "study/prediction/nominal_model.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 struct Units {
   std::string_view length = "m";
@@ -19,4 +19,4 @@ struct Units {
   return model.rotary ? Units{"rad", "Nm", "mrad", "kg m2", "Nm s/rad"} : Units{};
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

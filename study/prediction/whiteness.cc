@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -33,4 +33,4 @@ double predicted_by_past(const Data& data, const VectorXd& e, const std::vector<
   return compare(blocks.squared({}, VectorXd(0)), blocks.predicted(past), 2).gain;
 }
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

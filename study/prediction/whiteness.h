@@ -3,7 +3,7 @@
 
 #include "study/prediction/blocks.h"
 
-namespace towbench::harness::diagnose {
+namespace towbench::study::diagnose {
 
 inline constexpr int kLags = 5;
 // Encoder steps rms that rounding alone leaves, with a reserve over 1 / sqrt(12).
@@ -15,4 +15,4 @@ inline constexpr double kRounding = 0.35;
 [[nodiscard]] double predicted_by_past(const Data& data, const Eigen::VectorXd& e,
                                        const std::vector<Span>& spans, double bandwidth);
 
-}  // namespace towbench::harness::diagnose
+}  // namespace towbench::study::diagnose

@@ -6,7 +6,7 @@
 #include "study/procedures/procedures.h"
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 emulator::AxisParameters believed_axis(const ProcedureContext& context) {
   const auto& plate = context.machine.nameplate(context.axis);
@@ -109,4 +109,4 @@ TorqueScale torque_scale(const ProcedureContext& context) {
   return scale;
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

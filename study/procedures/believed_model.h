@@ -5,7 +5,7 @@
 #include "study/identify/two_mass_simulation.h"
 #include "study/procedures/procedure.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 [[nodiscard]] emulator::AxisParameters believed_axis(const ProcedureContext& context);
 [[nodiscard]] identify::DrivePath believed_path(const ProcedureContext& context);
@@ -23,4 +23,4 @@ struct TorqueScale {
 };
 [[nodiscard]] TorqueScale torque_scale(const ProcedureContext& context);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

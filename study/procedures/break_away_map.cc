@@ -10,7 +10,7 @@
 #include "study/procedures/settings.h"
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 struct BreakAwayMapSettings {
@@ -182,4 +182,4 @@ std::unique_ptr<Procedure> break_away_map() {
   return std::make_unique<BreakAwayMap>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -13,7 +13,7 @@
 #include "study/procedures/recording_frames.h"
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 logs::ColumnMap columns_of(const LogFile& log, const std::filesystem::path& given,
@@ -28,8 +28,8 @@ logs::ColumnMap columns_of(const LogFile& log, const std::filesystem::path& give
   map = logs::read_column_map(given, findings);
   refuse_fatal(findings, given.string());
   if (map.duty.empty()) {
-    throw FixtureError({.file = given.string(), .key = "duty"}, "nothing",
-                       "the column of the drive's duty");
+    throw harness::FixtureError({.file = given.string(), .key = "duty"}, "nothing",
+                                "the column of the drive's duty");
   }
   return map;
 }
@@ -131,4 +131,4 @@ BroughtLog read_brought_log(const std::filesystem::path& data, const std::filesy
   return log;
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

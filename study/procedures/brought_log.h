@@ -14,7 +14,7 @@
 #include "study/identify/recording.h"
 #include "study/procedures/machine.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 struct BroughtLog {
   identify::Recording recording;
@@ -28,4 +28,4 @@ struct BroughtLog {
                                           const std::filesystem::path& columns, core::Axis axis,
                                           const Nameplate& plate);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

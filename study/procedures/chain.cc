@@ -10,7 +10,7 @@
 #include "study/procedures/kept_outcome.h"
 #include "study/procedures/outcome_json.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 std::filesystem::path kept_file(const ChainOptions& options, const Procedure& procedure,
@@ -99,4 +99,4 @@ ChainResult run_chain(const Machine& machine,
   return result;
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

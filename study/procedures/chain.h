@@ -11,7 +11,7 @@
 
 #include "study/procedures/procedure.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 struct ChainOptions {
   std::vector<std::string> only;  // ids; empty: all
@@ -45,4 +45,4 @@ struct ChainResult {
                                     const std::vector<std::unique_ptr<Procedure>>& procedures,
                                     const ChainOptions& options);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -5,7 +5,7 @@
 #include "study/procedures/pulse_start.h"
 #include "study/procedures/two_mass_report.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 ProcedureOutcome study_log(const ProcedureContext& context, const BroughtLog& log) {
   identify::TwoMassFit best;
@@ -36,4 +36,4 @@ ProcedureOutcome study_log(const ProcedureContext& context, const BroughtLog& lo
   return outcome;
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

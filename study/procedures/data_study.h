@@ -5,10 +5,10 @@
 #include "study/procedures/brought_log.h"
 #include "study/procedures/procedure.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 // `context.known` is empty or holds what else is known of the machine. Fails, with the reason, when
 // the model does not explain the log: estimates are then withheld.
 [[nodiscard]] ProcedureOutcome study_log(const ProcedureContext& context, const BroughtLog& log);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -11,7 +11,7 @@
 #include "study/procedures/procedures.h"
 #include "study/procedures/settings.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 struct DriveCalibrationSettings {
@@ -212,4 +212,4 @@ std::unique_ptr<Procedure> drive_calibration() {
   return std::make_unique<DriveCalibration>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 constexpr double kMean_s = 0.02;
@@ -90,4 +90,4 @@ double duty_rms_pct(const identify::Recording& log, core::Axis axis) {
   return duty.root();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

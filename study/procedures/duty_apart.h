@@ -7,7 +7,7 @@
 
 #include "study/identify/recording.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 // RMS over the motions that both have, % duty, of means over 20 ms: rounding is no model.
 [[nodiscard]] double duty_apart_pct(const identify::Recording& one,
@@ -15,4 +15,4 @@ namespace towbench::harness::procedures {
 // Of the duty itself, likewise.
 [[nodiscard]] double duty_rms_pct(const identify::Recording& log, core::Axis axis);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 enum class Mark { kLine, kDots };
 
@@ -31,4 +31,4 @@ struct ResultTable {
   std::vector<std::vector<std::string>> rows{};
 };
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

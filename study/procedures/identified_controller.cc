@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 using identify::Estimate;
@@ -15,7 +15,7 @@ using identify::Estimates;
 class AxisSetUp {
  public:
   AxisSetUp(bbmc::AxisConfiguration& axis, const Estimates& estimates, core::Axis which,
-            SourcesByKey& sources)
+            harness::SourcesByKey& sources)
       : axis_(axis), estimates_(estimates), name_(core::name_of(which)), sources_(sources) {}
 
   void apply() {
@@ -156,7 +156,7 @@ class AxisSetUp {
   bbmc::AxisConfiguration& axis_;
   const Estimates& estimates_;
   std::string_view name_;
-  SourcesByKey& sources_;
+  harness::SourcesByKey& sources_;
 };
 
 }  // namespace
@@ -177,7 +177,7 @@ std::string identified_controller(const Machine& machine, const Estimates& estim
   return made.sources.empty()
              ? std::string{}
              : "# Written by `towbench identify`: what BBMC believes is what was found.\n" +
-                   controller_text(made.configuration, "identified", made.sources);
+                   harness::controller_text(made.configuration, "identified", made.sources);
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -7,11 +7,11 @@
 #include "study/identify/estimate.h"
 #include "study/procedures/machine.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 struct SetUpController {
   bbmc::Configuration configuration;
-  SourcesByKey sources;  // of the values that were estimated
+  harness::SourcesByKey sources;  // of the values that were estimated
 };
 
 // `before` with every belief replaced that an estimate speaks of; what nothing was found of stays.
@@ -37,4 +37,4 @@ struct SetUpController {
 [[nodiscard]] std::string identified_controller(const Machine& machine,
                                                 const identify::Estimates& estimates);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -8,7 +8,7 @@
 
 #include "harness/fixtures/rig_fixture.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 using identify::Estimate;
@@ -185,9 +185,9 @@ std::string identified_plant(const Machine& machine, const Estimates& estimates)
 std::string contradiction(const std::string& plant) {
   std::string why;
   try {
-    (void)read_plant(FixtureFile::parse(plant, "identified_plant.toml"));
+    (void)harness::read_plant(harness::FixtureFile::parse(plant, "identified_plant.toml"));
     return why;
-  } catch (const FixtureError& error) {
+  } catch (const harness::FixtureError& error) {
     why = error.allowed();
   }
   // Each value that the reason names, with its source.
@@ -204,4 +204,4 @@ std::string contradiction(const std::string& plant) {
   return why + given;
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -6,7 +6,7 @@
 #include "study/identify/estimate.h"
 #include "study/procedures/machine.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 // TOML of schema 1. Each value has beside it where it comes from: an experiment, a document, or
 // the controller's belief where nothing was found. Axes that were not studied are left out; empty
@@ -18,4 +18,4 @@ namespace towbench::harness::procedures {
 // come from: what is found may lie beyond a data sheet or a belief. Empty: it takes it.
 [[nodiscard]] std::string contradiction(const std::string& plant);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

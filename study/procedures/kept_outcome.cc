@@ -8,7 +8,7 @@
 
 #include "harness/record/line_writer.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 std::string file_fingerprint(const std::filesystem::path& path) {
   std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
@@ -49,7 +49,8 @@ std::optional<nlohmann::json> kept_outcome(const std::filesystem::path& path,
 void keep_outcome(const std::filesystem::path& path, const std::string& fingerprint,
                   const nlohmann::json& outcome) {
   std::filesystem::create_directories(path.parent_path());
-  write_atomically(path, nlohmann::json{{"fingerprint", fingerprint}, {"outcome", outcome}}.dump());
+  harness::write_atomically(
+      path, nlohmann::json{{"fingerprint", fingerprint}, {"outcome", outcome}}.dump());
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 // Sixteen hex digits of this very program: what another build found is not taken for its own.
 [[nodiscard]] const std::string& program_fingerprint();
@@ -21,4 +21,4 @@ namespace towbench::harness::procedures {
 void keep_outcome(const std::filesystem::path& path, const std::string& fingerprint,
                   const nlohmann::json& outcome);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -12,7 +12,7 @@
 #include "study/procedures/believed_model.h"
 #include "study/procedures/procedures.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 // 7.2.1 filters the chain's oscillation out before (4.9), by a Gaussian whose width it does not
@@ -123,4 +123,4 @@ void report_least_squares(const TwoMassReport& report, ProcedureOutcome& outcome
   outcome.tables.push_back(std::move(criteria));
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

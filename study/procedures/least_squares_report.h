@@ -3,8 +3,8 @@
 
 #include "study/procedures/two_mass_report.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 void report_least_squares(const TwoMassReport& report, ProcedureOutcome& outcome);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

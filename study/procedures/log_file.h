@@ -9,7 +9,7 @@
 #include "study/logs/finding.h"
 #include "study/logs/table.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 struct LogFile {
   std::string path;  // as messages name it
@@ -28,4 +28,4 @@ struct LogFile {
 // Throws for the first fatal finding.
 void refuse_fatal(const logs::Findings& findings, const std::string& file);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -13,7 +13,7 @@
 #include "study/procedures/memory_recorder.h"
 #include "study/procedures/recording_frames.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 constexpr const char* kSeedOfReference = "twin";  // kept word: another would change the noise
@@ -46,8 +46,8 @@ std::uint64_t seed_of(std::uint64_t session, const std::string& name) {
 
 }  // namespace
 
-Machine::Machine(RigFixture rig, ControllerFixture controller, std::uint64_t seed,
-                 LoopWatchers watchers, RunSource* source)
+Machine::Machine(harness::RigFixture rig, harness::ControllerFixture controller, std::uint64_t seed,
+                 harness::LoopWatchers watchers, RunSource* source)
     : rig_(std::move(rig)),
       controller_(std::move(controller)),
       seed_(seed),
@@ -89,7 +89,7 @@ identify::Recording Machine::play(const Conversation& conversation,
       rig.parameters.axes[axis].start_m = conversation.start_m[axis] + off_m;
     }
   }
-  Experiment experiment;
+  harness::Experiment experiment;
   experiment.name = conversation.name;
   experiment.duration_limit_s = conversation.limit_s;
   experiment.console = conversation.steps;
@@ -115,11 +115,13 @@ identify::Recording Machine::play(const Conversation& conversation,
 }
 
 identify::Recording Machine::play_in_memory(const PlannedRun& planned, bool keeps_idle_rows) const {
-  UnrecordedPlant nobody;
-  InProcessPlant plant(planned.rig.parameters, planned.seed, planned.experiment.events, nobody);
+  harness::UnrecordedPlant nobody;
+  harness::InProcessPlant plant(planned.rig.parameters, planned.seed, planned.experiment.events,
+                                nobody);
   MemoryRecorder recorder(keeps_idle_rows);
   SensorTap tapped(plant, recorder);
-  LockstepBench bench(planned.controller.configuration, planned.rig.hash, tapped, &recorder);
+  harness::LockstepBench bench(planned.controller.configuration, planned.rig.hash, tapped,
+                               &recorder);
   const auto outcome = harness::play(planned.experiment, bench, recorder, watchers_);
   auto recording = recorder.take();
   simulated_s_ += core::seconds(outcome.end_ns);
@@ -136,15 +138,15 @@ identify::Recording Machine::play_in_memory(const PlannedRun& planned, bool keep
   return recording;
 }
 
-ConsoleStep say(std::string text, std::string expect) {
-  ConsoleStep step;
+harness::ConsoleStep say(std::string text, std::string expect) {
+  harness::ConsoleStep step;
   step.send = std::move(text);
   step.expect = std::move(expect);
   return step;
 }
 
-ConsoleStep move(std::string text, double timeout_s) {
-  ConsoleStep step;
+harness::ConsoleStep move(std::string text, double timeout_s) {
+  harness::ConsoleStep step;
   step.send = std::move(text);
   step.expect = "done";
   step.wait_idle = true;
@@ -152,9 +154,9 @@ ConsoleStep move(std::string text, double timeout_s) {
   return step;
 }
 
-std::vector<ConsoleStep> declare_position(const Conversation& conversation,
-                                          const Machine& machine) {
-  std::vector<ConsoleStep> steps;
+std::vector<harness::ConsoleStep> declare_position(const Conversation& conversation,
+                                                   const Machine& machine) {
+  std::vector<harness::ConsoleStep> steps;
   for (const auto axis : core::kAxes) {
     if (machine.nameplate(axis).exists) {
       steps.push_back(say(fmt::format("reset poscalib {} {:.6f}m", core::name_of(axis),
@@ -164,4 +166,4 @@ std::vector<ConsoleStep> declare_position(const Conversation& conversation,
   return steps;
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

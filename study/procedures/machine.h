@@ -12,7 +12,7 @@
 #include "study/identify/recording.h"
 #include "study/procedures/run_source.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 // What documents say of an axis: drawings and data sheets. No estimate of them is made.
 struct Nameplate {
@@ -36,7 +36,7 @@ struct Nameplate {
 struct Conversation {
   std::string name;
   core::PerAxis<double> start_m{};  // where the carriage stands, about
-  std::vector<ConsoleStep> steps{};
+  std::vector<harness::ConsoleStep> steps{};
   std::vector<emulator::ScheduledEvent> events{};  // sorted by time
   double limit_s = 60;
   bool keeps_idle_rows = true;  // false: only rows in which an axis is driven or moves are kept
@@ -47,8 +47,8 @@ class Machine {
   // `seed` feeds the sensors' noise and biases, and where exactly the carriage is put: within a
   // millimetre of where it is meant to be, as a hand does it. Without `source` runs are played in
   // memory; it outlives this.
-  Machine(RigFixture rig, ControllerFixture controller, std::uint64_t seed,
-          LoopWatchers watchers = {}, RunSource* source = nullptr);
+  Machine(harness::RigFixture rig, harness::ControllerFixture controller, std::uint64_t seed,
+          harness::LoopWatchers watchers = {}, RunSource* source = nullptr);
 
   [[nodiscard]] identify::Recording play(const Conversation& conversation) const;
   // The same with other gains, rate or law.
@@ -76,10 +76,10 @@ class Machine {
   [[nodiscard]] identify::Recording play_in_memory(const PlannedRun& planned,
                                                    bool keeps_idle_rows) const;
 
-  RigFixture rig_;
-  ControllerFixture controller_;
+  harness::RigFixture rig_;
+  harness::ControllerFixture controller_;
   std::uint64_t seed_;
-  LoopWatchers watchers_;
+  harness::LoopWatchers watchers_;
   RunSource* source_;
   core::PerAxis<Nameplate> nameplates_;
   bool has_force_sensor_;
@@ -87,10 +87,10 @@ class Machine {
 };
 
 // "reset poscalib y 0.449m" and the like: tells the controller where it stands.
-[[nodiscard]] std::vector<ConsoleStep> declare_position(const Conversation& conversation,
-                                                        const Machine& machine);
-[[nodiscard]] ConsoleStep say(std::string text, std::string expect = "ok");
+[[nodiscard]] std::vector<harness::ConsoleStep> declare_position(const Conversation& conversation,
+                                                                 const Machine& machine);
+[[nodiscard]] harness::ConsoleStep say(std::string text, std::string expect = "ok");
 // A motion: types it and waits until it is over.
-[[nodiscard]] ConsoleStep move(std::string text, double timeout_s = 120);
+[[nodiscard]] harness::ConsoleStep move(std::string text, double timeout_s = 120);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 void MemoryRecorder::drain(bbmc::ControllerNode& controller) noexcept {
   bbmc::TelemetryRow row;
@@ -69,4 +69,4 @@ identify::Recording MemoryRecorder::take() {
   return std::move(recording_);
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -8,9 +8,9 @@
 #include "protocol/tee_sink.h"
 #include "study/identify/recording.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
-class MemoryRecorder final : public BenchRecorder, public protocol::MessageSink {
+class MemoryRecorder final : public harness::BenchRecorder, public protocol::MessageSink {
  public:
   explicit MemoryRecorder(bool keeps_idle_rows) : keeps_idle_rows_(keeps_idle_rows) {}
 
@@ -43,10 +43,10 @@ class MemoryRecorder final : public BenchRecorder, public protocol::MessageSink 
 };
 
 // A plant whose sensors are also heard by the recorder: the controller has no use for them.
-class SensorTap final : public PlantEnd {
+class SensorTap final : public harness::PlantEnd {
  public:
   // Both outlive this.
-  SensorTap(PlantEnd& plant, protocol::MessageSink& recorder)
+  SensorTap(harness::PlantEnd& plant, protocol::MessageSink& recorder)
       : plant_(plant), recorder_(recorder) {}
 
   [[nodiscard]] protocol::MessageSink& sink() noexcept override { return plant_.sink(); }
@@ -59,9 +59,9 @@ class SensorTap final : public PlantEnd {
   }
 
  private:
-  PlantEnd& plant_;
+  harness::PlantEnd& plant_;
   protocol::MessageSink& recorder_;
   std::optional<protocol::TeeSink> tee_;
 };
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -14,7 +14,7 @@
 #include "study/procedures/procedures.h"
 #include "study/procedures/settings.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 struct ModelTuningSettings {
@@ -239,4 +239,4 @@ std::unique_ptr<Procedure> model_tuning() {
   return std::make_unique<ModelTuning>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

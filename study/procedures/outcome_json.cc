@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 constexpr std::array<const char*, 3> kStatusNames{"done", "refused", "failed"};
@@ -103,4 +103,4 @@ ProcedureOutcome outcome_from_json(const nlohmann::json& json) {
   return outcome;
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

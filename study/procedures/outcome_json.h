@@ -5,10 +5,10 @@
 
 #include "study/procedures/procedure.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 [[nodiscard]] nlohmann::json to_json(const ProcedureOutcome& outcome);
 // Throws nlohmann::json::exception.
 [[nodiscard]] ProcedureOutcome outcome_from_json(const nlohmann::json& json);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -16,7 +16,7 @@
 #include "study/procedures/figure.h"
 #include "study/procedures/machine.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 struct ProcedureContext {
   const Machine& machine;
@@ -83,4 +83,4 @@ class Procedure {
 // Of the identification, in the order in which they build on one another.
 [[nodiscard]] std::vector<std::unique_ptr<Procedure>> identification_procedures();
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 std::vector<std::unique_ptr<Procedure>> identification_procedures() {
   std::vector<std::unique_ptr<Procedure>> all;
@@ -65,4 +65,4 @@ Figure speed_figure(const identify::Recording& data, core::Axis axis, std::strin
           .caption = {}};
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

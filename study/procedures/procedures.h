@@ -5,7 +5,7 @@
 
 #include "study/procedures/procedure.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 [[nodiscard]] std::unique_ptr<Procedure> drive_calibration();  // EXP-P-1
 [[nodiscard]] std::unique_ptr<Procedure> time_constant();      // EXP-P-2
@@ -38,4 +38,4 @@ struct Track {
 [[nodiscard]] Figure speed_figure(const identify::Recording& data, core::Axis axis,
                                   std::string title);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -9,7 +9,7 @@
 #include "study/procedures/believed_model.h"
 #include "study/procedures/procedures.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 // Speed gained is a (D - D0) t: a in m/s^2 per % duty, D0 what friction eats.
@@ -140,4 +140,4 @@ PulsePlan plan_pulses(const ProcedureContext& context, const PulseLimits& limits
   return plan;
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -4,7 +4,7 @@
 
 #include "study/procedures/procedure.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 struct PulsePlan {
   double duty_pct = 0;
@@ -26,4 +26,4 @@ struct PulseLimits {
 [[nodiscard]] PulsePlan plan_pulses(const ProcedureContext& context, const PulseLimits& limits,
                                     double start_m);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -13,7 +13,7 @@
 #include "study/procedures/settings.h"
 #include "study/procedures/two_mass_report.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 struct PulseResponsesSettings {
@@ -149,4 +149,4 @@ std::unique_ptr<Procedure> pulse_responses() {
   return std::make_unique<PulseResponses>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -7,7 +7,7 @@
 #include "study/procedures/believed_model.h"
 #include "study/procedures/procedures.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 // Estimates of a map along this axis, in order of place.
@@ -99,4 +99,4 @@ identify::TwoMassStart pulse_start(const ProcedureContext& context, const identi
   return start;
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -6,10 +6,10 @@
 #include "study/identify/output_error.h"
 #include "study/procedures/procedure.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 // `spacing_m`: of the knots where no map was made.
 [[nodiscard]] identify::TwoMassStart pulse_start(const ProcedureContext& context,
                                                  const identify::Recording& data, double spacing_m);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

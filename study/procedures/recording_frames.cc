@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 template <typename T>
@@ -38,4 +38,4 @@ void drop_other_frames(identify::Recording& recording) {
   drop_front(recording.time_s, from);
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

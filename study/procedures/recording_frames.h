@@ -3,9 +3,9 @@
 
 #include "study/identify/recording.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 // Drops the rows before the last such jump: they are in another frame and nothing was driven yet.
 void drop_other_frames(identify::Recording& recording);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -16,7 +16,7 @@
 #include "study/procedures/procedures.h"
 #include "study/procedures/settings.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 constexpr double kSmallest_m = 2e-4;  // 89 counts of Y: below, friction is all there is
@@ -279,4 +279,4 @@ std::unique_ptr<Procedure> relay_tuning() {
   return std::make_unique<RelayTuning>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

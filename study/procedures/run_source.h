@@ -9,13 +9,13 @@
 #include "harness/lockstep/script_loop.h"
 #include "study/identify/recording.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 // `experiment.name` is the conversation's, in words: what is done, unique in a procedure.
 struct PlannedRun {
-  const RigFixture& rig;  // with the carriage where it starts
-  const ControllerFixture& controller;
-  const Experiment& experiment;
+  const harness::RigFixture& rig;  // with the carriage where it starts
+  const harness::ControllerFixture& controller;
+  const harness::Experiment& experiment;
   std::uint64_t seed = 0;
 };
 
@@ -31,4 +31,4 @@ class RunSource {
   [[nodiscard]] virtual identify::Recording run(const PlannedRun& planned) = 0;
 };
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

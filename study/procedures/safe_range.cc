@@ -17,7 +17,7 @@
 #include "study/procedures/switch_study.h"
 #include "study/procedures/two_mass_report.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 struct SafeRangeSettings {
@@ -187,4 +187,4 @@ std::unique_ptr<Procedure> safe_range() {
   return std::make_unique<SafeRange>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -13,7 +13,7 @@
 #include "study/procedures/procedures.h"
 #include "study/procedures/settings.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 struct SaturationSpeedSettings {
@@ -142,4 +142,4 @@ std::unique_ptr<Procedure> saturation_speed() {
   return std::make_unique<SaturationSpeed>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -8,7 +8,7 @@
 #include "core/axis.h"
 #include "harness/fixtures/table_reader.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 // Keys at the top hold for both axes, those of [axis.y] and [axis.x] over them. No file: defaults.
 // Throws FixtureError.
@@ -18,8 +18,8 @@ template <typename Settings>
   if (path.empty()) {
     return settings;
   }
-  const auto file = FixtureFile::load(path);
-  TableReader reader(file, file.table());
+  const auto file = harness::FixtureFile::load(path);
+  harness::TableReader reader(file, file.table());
   std::string ignored;
   reader.text("name", ignored, "the experiment's id");
   reader.text("title", ignored, "one line for a person");
@@ -36,4 +36,4 @@ template <typename Settings>
   return settings;
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

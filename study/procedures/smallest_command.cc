@@ -12,7 +12,7 @@
 #include "study/procedures/procedures.h"
 #include "study/procedures/settings.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 struct SmallestCommandSettings {
@@ -178,4 +178,4 @@ std::unique_ptr<Procedure> smallest_command() {
   return std::make_unique<SmallestCommand>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 std::vector<double> speeds_up_to(double top) {
   std::vector<double> speeds;
@@ -37,4 +37,4 @@ bool sticks(const identify::Recording& data, core::Axis axis, std::size_t from, 
   return false;
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -6,7 +6,7 @@
 
 #include "study/identify/recording.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 // 1-10 mm/s by 1, 1-10 cm/s by 1, 10-40 cm/s by 10 (EXP-CL-1), in m/s, none above `top`.
 [[nodiscard]] std::vector<double> speeds_up_to(double top);
@@ -15,4 +15,4 @@ namespace towbench::harness::procedures {
 [[nodiscard]] bool sticks(const identify::Recording& data, core::Axis axis, std::size_t from,
                           std::size_t to, double speed);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -5,11 +5,11 @@
 #include "harness/report/html.h"
 #include "study/procedures/svg_plot.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
-using report::escaped;
-using report::heading;
+using harness::report::escaped;
+using harness::report::heading;
 
 constexpr const char* kStyle =
     "body{font-family:sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}"
@@ -82,12 +82,13 @@ std::string step_section(const ChainStep& step) {
   std::string text =
       heading(3, fmt::format("{} {}, axis {}", step.id, step.title, core::name_of(step.axis)));
   if (outcome.status != ProcedureOutcome::Status::kDone) {
-    text += report::missing_note(
+    text += harness::report::missing_note(
         (outcome.status == ProcedureOutcome::Status::kRefused ? "Refused: " : "Failed: ") +
         outcome.reason);
   }
   for (const auto& each : outcome.withheld) {
-    text += report::missing_note(fmt::format("Withheld: {}: {}", each.quantity, each.no_interval));
+    text += harness::report::missing_note(
+        fmt::format("Withheld: {}: {}", each.quantity, each.no_interval));
   }
   for (const auto& table : outcome.tables) {
     text += table_of(table);
@@ -116,4 +117,4 @@ std::string study_page(const std::string& title, const ChainResult& result,
   return page + "</body></html>\n";
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

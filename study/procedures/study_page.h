@@ -7,10 +7,10 @@
 #include "study/procedures/chain.h"
 #include "study/recovery/recovery.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 // `recoveries` empty: the machine's own parameters are not set beside.
 [[nodiscard]] std::string study_page(const std::string& title, const ChainResult& result,
                                      const std::vector<Recovery>& recoveries);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

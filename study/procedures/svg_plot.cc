@@ -9,10 +9,10 @@
 
 #include "harness/report/html.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
-using report::escaped;
+using harness::report::escaped;
 
 constexpr double kWidth = 760;
 constexpr double kHeight = 340;
@@ -178,4 +178,4 @@ std::string svg_plot(const Figure& figure) {
   return Plot(figure).text();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

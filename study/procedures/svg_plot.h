@@ -5,9 +5,9 @@
 
 #include "study/procedures/figure.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 // Points that are not finite break a line. A figure without any finite point says so.
 [[nodiscard]] std::string svg_plot(const Figure& figure);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

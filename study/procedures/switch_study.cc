@@ -8,7 +8,7 @@
 #include "study/procedures/procedures.h"
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 double stiffness_Nm_per_rad(const Chain& chain) {
@@ -189,4 +189,4 @@ SwitchStudy::Lead SwitchStudy::lead(const Chain& chain, const identify::SwitchAp
           .hidden_counts = std::hypot(kLeast_counts, kLeftOut_rows * data_.period_s * changes)};
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -17,7 +17,7 @@
 #include "study/identify/switch_edges.h"
 #include "study/procedures/procedure.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 // What the chain does between motor and carriage, as far as it is known.
 struct Chain {
@@ -104,4 +104,4 @@ class SwitchStudy {
   std::vector<double> counts_;  // in one frame
 };
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -14,7 +14,7 @@
 #include "study/procedures/settings.h"
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 struct TimeConstantSettings {
@@ -179,4 +179,4 @@ std::unique_ptr<Procedure> time_constant() {
   return std::make_unique<TimeConstant>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -23,7 +23,7 @@
 #include "study/procedures/settings.h"
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 struct TorquePlaceMapSettings {
@@ -273,4 +273,4 @@ std::unique_ptr<Procedure> torque_place_map() {
   return std::make_unique<TorquePlaceMap>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -25,7 +25,7 @@
 #include "study/procedures/steady_speeds.h"
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 using identify::SteadyRun;
@@ -151,7 +151,8 @@ class TorqueSpeedMap final : public Procedure {
     if (!contradiction(text).empty()) {
       return std::nullopt;
     }
-    const auto plant = read_plant(FixtureFile::parse(text, "identified_plant.toml"));
+    const auto plant =
+        harness::read_plant(harness::FixtureFile::parse(text, "identified_plant.toml"));
     const auto& of_reference = plant.parameters.axes[context.axis].plant;
     const auto reference = context.machine.reference(context.axis, of_reference);
     const auto seen = collect({.machine = reference, .axis = context.axis, .known = context.known},
@@ -337,4 +338,4 @@ std::unique_ptr<Procedure> torque_speed_map() {
   return std::make_unique<TorqueSpeedMap>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

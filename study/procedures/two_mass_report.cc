@@ -11,7 +11,7 @@
 #include "study/procedures/least_squares_report.h"
 #include "study/procedures/procedures.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 // The origin of a log is where a hand put the axis: evenly spread over 1 mm to each side.
@@ -132,4 +132,4 @@ void report_two_mass(const TwoMassReport& report, ProcedureOutcome& outcome) {
   add_figures(report, outcome);
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -8,7 +8,7 @@
 #include "study/identify/output_error.h"
 #include "study/procedures/procedure.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 // What the model leaves, an estimate of its own: later experiments rest on that model.
 inline constexpr const char* kLeftByPulses = "model_left_counts";
@@ -29,4 +29,4 @@ struct TwoMassReport {
 
 void report_two_mass(const TwoMassReport& report, ProcedureOutcome& outcome);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -21,7 +21,7 @@
 #include "study/procedures/procedures.h"
 #include "study/procedures/settings.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 struct ValidationSettings {
@@ -123,7 +123,8 @@ class Validation final : public Procedure {
     if (const auto why = contradiction(text); !why.empty()) {
       return ProcedureOutcome::refused("the identified plant contradicts itself: " + why);
     }
-    const auto plant = read_plant(FixtureFile::parse(text, "identified_plant.toml"));
+    const auto plant =
+        harness::read_plant(harness::FixtureFile::parse(text, "identified_plant.toml"));
     auto identified = plant.parameters.axes[context.axis].plant;
     identified.hard_ends.fitted = false;
     const ProcedureContext before{.machine = context.machine, .axis = context.axis};
@@ -244,4 +245,4 @@ std::unique_ptr<Procedure> validation() {
   return std::make_unique<Validation>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

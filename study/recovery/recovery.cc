@@ -8,7 +8,7 @@
 
 #include "core/axis.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 using emulator::RigAxisParameters;
@@ -223,4 +223,4 @@ PooledCoverage pooled(const std::vector<Recovery>& recoveries) {
   return coverage;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

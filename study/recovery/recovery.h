@@ -13,7 +13,7 @@
 #include "emulator/rig_parameters.h"
 #include "study/identify/estimate.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 struct Recovery {
   identify::Estimate estimate;
@@ -44,4 +44,4 @@ struct PooledCoverage {
 };
 [[nodiscard]] PooledCoverage pooled(const std::vector<Recovery>& recoveries);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 using emulator::AxisParameters;
@@ -79,4 +79,4 @@ emulator::RigParameters built(emulator::RigParameters rig, const ForeignStructur
   return rig;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

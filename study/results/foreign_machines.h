@@ -8,7 +8,7 @@
 
 #include "emulator/rig_parameters.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 struct ForeignStructure {
   std::string_view name;
@@ -26,4 +26,4 @@ struct ForeignStructure {
 [[nodiscard]] emulator::RigParameters built(emulator::RigParameters rig,
                                             const ForeignStructure& structure);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

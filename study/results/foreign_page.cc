@@ -12,7 +12,7 @@
 #include "study/procedures/kept_outcome.h"
 #include "study/results/identification_set.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 struct Column {
@@ -105,7 +105,7 @@ std::string structures_table(const IdentificationSet& set) {
 
 // What differs from the shipped settings, in one line; empty: nothing.
 std::string other_settings(const IdentificationSet& set) {
-  const auto shipped = fixtures_directory() / "identification";
+  const auto shipped = harness::fixtures_directory() / "identification";
   std::string text;
   for (const auto& file : std::filesystem::directory_iterator(set.settings)) {
     const auto name = file.path().filename();
@@ -225,4 +225,4 @@ std::string foreign_page(const IdentificationSet& set, const std::vector<SetRun>
   return text;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

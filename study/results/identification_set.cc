@@ -10,7 +10,7 @@
 #include "study/procedures/kept_outcome.h"
 #include "study/results/worker_processes.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 using procedures::ProcedureOutcome;
@@ -20,7 +20,7 @@ std::filesystem::path folder_of(const IdentificationSet& set, std::uint64_t mach
   return set.out / fmt::format("machine-{}", machine) / fmt::format("seed-{}", seed);
 }
 
-std::string fingerprint_of(const IdentificationSet& set, const RigFixture& rig,
+std::string fingerprint_of(const IdentificationSet& set, const harness::RigFixture& rig,
                            std::uint64_t machine, std::uint64_t seed) {
   return fmt::format("{:016x}-{:016x}-{}-{}-{}{}", rig.hash, set.controller.hash, machine,
                      set.spread, seed,
@@ -104,7 +104,7 @@ SetRun read_run(const IdentificationSet& set, std::uint64_t machine, std::uint64
 
 }  // namespace
 
-RigFixture drawn_machine(RigFixture rig, std::uint64_t number, double spread) {
+harness::RigFixture drawn_machine(harness::RigFixture rig, std::uint64_t number, double spread) {
   if (number == 0) {
     return rig;
   }
@@ -127,13 +127,13 @@ RigFixture drawn_machine(RigFixture rig, std::uint64_t number, double spread) {
   return rig;
 }
 
-procedures::Machine DrawnRig::machine(const ControllerFixture& controller, std::uint64_t seed,
-                                      LoopWatchers watchers) const {
+procedures::Machine DrawnRig::machine(const harness::ControllerFixture& controller,
+                                      std::uint64_t seed, harness::LoopWatchers watchers) const {
   return procedures::Machine(truth, controller, seed, std::move(watchers))
       .documented_by(documents.parameters);
 }
 
-DrawnRig drawn_rig(const RigFixture& rig, std::uint64_t number, double spread,
+DrawnRig drawn_rig(const harness::RigFixture& rig, std::uint64_t number, double spread,
                    const ForeignStructure* structure) {
   DrawnRig drawn{.documents = drawn_machine(rig, number, spread), .truth = {}};
   drawn.truth = drawn.documents;
@@ -181,4 +181,4 @@ std::vector<SetRun> run_set(const IdentificationSet& set) {
   return runs;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

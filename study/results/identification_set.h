@@ -15,25 +15,27 @@
 #include "study/recovery/recovery.h"
 #include "study/results/foreign_machines.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 // A machine like `rig` in which what no data sheet says is off by up to `spread`, the same for the
 // same number; 0 is `rig` itself.
-[[nodiscard]] RigFixture drawn_machine(RigFixture rig, std::uint64_t number, double spread);
+[[nodiscard]] harness::RigFixture drawn_machine(harness::RigFixture rig, std::uint64_t number,
+                                                double spread);
 
 // A machine of a set as it is, under the documents that it has; structure: null is its own.
 struct DrawnRig {
-  RigFixture documents;
-  RigFixture truth;
-  [[nodiscard]] procedures::Machine machine(const ControllerFixture& controller, std::uint64_t seed,
-                                            LoopWatchers watchers) const;
+  harness::RigFixture documents;
+  harness::RigFixture truth;
+  [[nodiscard]] procedures::Machine machine(const harness::ControllerFixture& controller,
+                                            std::uint64_t seed,
+                                            harness::LoopWatchers watchers) const;
 };
-[[nodiscard]] DrawnRig drawn_rig(const RigFixture& rig, std::uint64_t number, double spread,
-                                 const ForeignStructure* structure);
+[[nodiscard]] DrawnRig drawn_rig(const harness::RigFixture& rig, std::uint64_t number,
+                                 double spread, const ForeignStructure* structure);
 
 struct IdentificationSet {
-  RigFixture rig;
-  ControllerFixture controller;
+  harness::RigFixture rig;
+  harness::ControllerFixture controller;
   std::filesystem::path settings;
   std::filesystem::path out;  // machine-<i>/seed-<j>: what is done there stays
   // Empty: `machines` of the rig's own structure. Else one machine of each structure, drawn anew
@@ -67,4 +69,4 @@ struct SetRun {
 [[nodiscard]] std::string foreign_page(const IdentificationSet& set,
                                        const std::vector<SetRun>& runs);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

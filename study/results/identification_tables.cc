@@ -7,7 +7,7 @@
 
 #include "study/recovery/recovery.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 using core::Axis;
@@ -189,4 +189,4 @@ std::string identification_tables(const emulator::RigParameters& truth,
   return text;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -7,10 +7,10 @@
 #include "emulator/rig_parameters.h"
 #include "study/procedures/chain.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 // Markdown. Estimates that were not made say so.
 [[nodiscard]] std::string identification_tables(const emulator::RigParameters& truth,
                                                 const procedures::ChainResult& identified);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -2,7 +2,7 @@
 
 #include "study/procedures/outcome_json.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 nlohmann::json stretches(const std::vector<identify::TowStretch>& list) {
@@ -45,4 +45,4 @@ procedures::TowOutcome tow_from_json(const nlohmann::json& json) {
   return outcome;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -5,10 +5,10 @@
 
 #include "study/procedures/tow/tow_procedure.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 [[nodiscard]] nlohmann::json tow_to_json(const procedures::TowOutcome& outcome);
 // Throws nlohmann::json::exception.
 [[nodiscard]] procedures::TowOutcome tow_from_json(const nlohmann::json& json);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

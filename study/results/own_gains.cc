@@ -2,7 +2,7 @@
 
 #include "study/results/thesis_tracking.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 // 131,072 rows of 1 kHz hold what BBMC 0.5 recorded, 0.5 s of rest and both ramps included.
@@ -10,7 +10,7 @@ constexpr double kLongestSteady_s = 131.072 - 0.5 - 2 * 0.8;
 
 }  // namespace
 
-OwnGains track_gains(const RigFixture& rig, const ControllerFixture& controller) {
+OwnGains track_gains(const harness::RigFixture& rig, const harness::ControllerFixture& controller) {
   const auto& y = controller.configuration.axes[core::Axis::kY];
   OwnGains own;
   own.controller = controller.name;
@@ -31,4 +31,4 @@ OwnGains track_gains(const RigFixture& rig, const ControllerFixture& controller)
   return own;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

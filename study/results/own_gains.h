@@ -7,7 +7,7 @@
 
 #include "study/results/tracked_run.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 struct OwnGains {
   std::string controller;  // name of its fixture
@@ -25,6 +25,7 @@ struct OwnGains {
   }
 };
 
-[[nodiscard]] OwnGains track_gains(const RigFixture& rig, const ControllerFixture& controller);
+[[nodiscard]] OwnGains track_gains(const harness::RigFixture& rig,
+                                   const harness::ControllerFixture& controller);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -11,7 +11,7 @@
 #include "study/results/thesis_tracking.h"
 #include "study/statistics/statistics.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 constexpr double kBreakaway_Nm = 3.7e-3;  // (7.2)
@@ -198,4 +198,4 @@ std::string own_gains_tables(const std::vector<OwnGains>& all) {
   return text;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -7,9 +7,9 @@
 
 #include "study/results/own_gains.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 // Markdown.
 [[nodiscard]] std::string own_gains_tables(const std::vector<OwnGains>& all);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

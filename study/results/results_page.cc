@@ -9,7 +9,7 @@
 #include "study/results/own_gains_tables.h"
 #include "study/results/thesis_tracking.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 std::string tracking(const Results& results) {
@@ -203,4 +203,4 @@ std::string results_page(const Results& results) {
   return text;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

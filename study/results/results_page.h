@@ -13,7 +13,7 @@
 #include "study/results/own_gains.h"
 #include "study/results/tracked_run.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 struct TowResult {
   std::string id;
@@ -37,4 +37,4 @@ struct Results {
 
 [[nodiscard]] std::string results_page(const Results& results);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

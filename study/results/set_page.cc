@@ -6,7 +6,7 @@
 
 #include "study/results/identification_set.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 struct Pool {
@@ -84,4 +84,4 @@ std::string set_page(const IdentificationSet& set, const std::vector<SetRun>& ru
   return text;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

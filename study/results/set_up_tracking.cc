@@ -8,10 +8,10 @@
 #include "study/procedures/identified_controller.h"
 #include "study/results/thesis_tracking.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
-TrapezoidRun profile_of(const ControllerFixture& controller, PlaceKnown place) {
+TrapezoidRun profile_of(const harness::ControllerFixture& controller, PlaceKnown place) {
   const auto& y = controller.configuration.axes[core::Axis::kY];
   TrapezoidRun run{.place = place};
   if (y.chain.enabled) {
@@ -20,7 +20,7 @@ TrapezoidRun profile_of(const ControllerFixture& controller, PlaceKnown place) {
   return run;
 }
 
-SetUpTracking track(const RigFixture& rig, ControllerFixture controller,
+SetUpTracking track(const harness::RigFixture& rig, harness::ControllerFixture controller,
                     const procedures::Machine& machine, const identify::Estimates& estimates) {
   const auto speeds = speeds_of(kTable7_6);
   SetUpTracking tracking{.controller = controller.name, .told = {}, .set_up = {}, .trouble = {}};
@@ -47,16 +47,17 @@ std::string cells(const TrackedRun& run) {
 
 }  // namespace
 
-std::vector<SetUpTracking> track_set_up(const RigFixture& rig, const procedures::Machine& machine,
+std::vector<SetUpTracking> track_set_up(const harness::RigFixture& rig,
+                                        const procedures::Machine& machine,
                                         const identify::Estimates& estimates) {
   std::vector<SetUpTracking> all;
   for (const char* name : {"bbmc-tuned", "bbmc-best"}) {
-    SourceFiles sources;
-    all.push_back(
-        track(rig,
-              load_controller(fixtures_directory() / "controllers" / (std::string(name) + ".toml"),
-                              sources),
-              machine, estimates));
+    harness::SourceFiles sources;
+    all.push_back(track(
+        rig,
+        harness::load_controller(
+            harness::fixtures_directory() / "controllers" / (std::string(name) + ".toml"), sources),
+        machine, estimates));
   }
   return all;
 }
@@ -85,4 +86,4 @@ std::string set_up_section(const std::string& name, const std::vector<SetUpTrack
   return text;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -9,7 +9,7 @@
 #include "study/procedures/machine.h"
 #include "study/results/tracked_run.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 struct SetUpTracking {
   std::string controller;            // name of its fixture
@@ -20,7 +20,7 @@ struct SetUpTracking {
 
 // With bbmc-tuned on trapezoids and bbmc-best on S-curves, each averaged over a period of the chain
 // as the controller believes it. Throws FixtureError.
-[[nodiscard]] std::vector<SetUpTracking> track_set_up(const RigFixture& rig,
+[[nodiscard]] std::vector<SetUpTracking> track_set_up(const harness::RigFixture& rig,
                                                       const procedures::Machine& machine,
                                                       const identify::Estimates& estimates);
 
@@ -28,4 +28,4 @@ struct SetUpTracking {
 [[nodiscard]] std::string set_up_section(const std::string& name,
                                          const std::vector<SetUpTracking>& all);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

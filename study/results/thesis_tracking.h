@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace towbench::harness {
+namespace towbench::study {
 
 struct ThesisTracking {
   double speed_mm_per_s;
@@ -44,4 +44,4 @@ template <std::size_t Rows>
   return speeds_m_per_s;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -7,7 +7,7 @@
 
 #include "study/results/tow_set.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 std::string name_of(const identify::Estimate& estimate) {
@@ -123,4 +123,4 @@ std::string tow_coverage_page(const TowSet& set, const std::vector<TowSetRun>& r
   return text;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -12,7 +12,7 @@
 #include "study/recovery/tow/tow_recovery.h"
 #include "study/results/worker_processes.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 using procedures::ProcedureOutcome;
@@ -100,7 +100,7 @@ TowSetRun read_run(const TowSet& set, std::uint64_t machine, std::uint64_t seed)
 
 }  // namespace
 
-RigFixture drawn_for_towing(RigFixture rig, std::uint64_t number) {
+harness::RigFixture drawn_for_towing(harness::RigFixture rig, std::uint64_t number) {
   if (number == 0) {
     return rig;
   }
@@ -150,4 +150,4 @@ std::vector<TowSetRun> run_tow_set(const TowSet& set) {
   return runs;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

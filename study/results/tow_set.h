@@ -14,16 +14,16 @@
 #include "harness/fixtures/rig_fixture.h"
 #include "study/recovery/recovery.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 // A machine like `rig` with other friction, inertia, motor and chain, the same for the same number;
 // 0 is `rig` itself. The motor constant is only ever lower: a higher one could not reach the
 // thesis's 0.55 m/s at 10.8 V.
-[[nodiscard]] RigFixture drawn_for_towing(RigFixture rig, std::uint64_t number);
+[[nodiscard]] harness::RigFixture drawn_for_towing(harness::RigFixture rig, std::uint64_t number);
 
 struct TowSet {
-  RigFixture rig;
-  ControllerFixture controller;
+  harness::RigFixture rig;
+  harness::ControllerFixture controller;
   std::filesystem::path rigs;      // folder of the loads' rig files
   std::filesystem::path settings;  // folder of the experiments' own files
   std::filesystem::path out;       // machine-<i>/seed-<j>.json: what is done there stays
@@ -73,4 +73,4 @@ struct TowCoverage {
 // Markdown: a row a quantity.
 [[nodiscard]] std::string tow_coverage_page(const TowSet& set, const std::vector<TowSetRun>& runs);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

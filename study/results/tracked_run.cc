@@ -10,15 +10,15 @@
 #include "harness/fault_cases/case_run.h"
 #include "study/procedures/machine.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 using core::Axis;
 
 constexpr double kLongestHoming_s = 300;
 
-std::vector<ConsoleStep> find_place(const RigFixture& rig, PlaceKnown place) {
-  std::vector<ConsoleStep> steps;
+std::vector<harness::ConsoleStep> find_place(const harness::RigFixture& rig, PlaceKnown place) {
+  std::vector<harness::ConsoleStep> steps;
   const auto start_m = [&](Axis axis) { return rig.parameters.axes[axis].start_m; };
   if (place == PlaceKnown::kHomed) {
     steps.push_back(procedures::move("poscalib", kLongestHoming_s));
@@ -35,10 +35,12 @@ std::vector<ConsoleStep> find_place(const RigFixture& rig, PlaceKnown place) {
 }
 
 // One motion from where the rig stands.
-std::unique_ptr<CaseRecord> record_of(const RigFixture& rig, const ControllerFixture& controller,
-                                      const std::string& motion, double longest_s,
-                                      std::uint64_t seed, PlaceKnown place = PlaceKnown::kTold) {
-  ExperimentFixture fixture;
+std::unique_ptr<harness::CaseRecord> record_of(const harness::RigFixture& rig,
+                                               const harness::ControllerFixture& controller,
+                                               const std::string& motion, double longest_s,
+                                               std::uint64_t seed,
+                                               PlaceKnown place = PlaceKnown::kTold) {
+  harness::ExperimentFixture fixture;
   fixture.rig = rig;
   fixture.controller = controller;
   fixture.experiment.name = "tracked motion";
@@ -47,7 +49,7 @@ std::unique_ptr<CaseRecord> record_of(const RigFixture& rig, const ControllerFix
   steps.push_back(procedures::move(motion, longest_s));
   fixture.experiment.duration_limit_s =
       longest_s + 10 + (place == PlaceKnown::kHomed ? 2 * kLongestHoming_s : 0);
-  return run_case(fixture, fixture.rig.parameters, {}, {.seed = seed});
+  return harness::run_case(fixture, fixture.rig.parameters, {}, {.seed = seed});
 }
 
 // Its first row: what was driven before, to find its place, is none of it.
@@ -65,7 +67,7 @@ auto last_motion(const std::vector<bbmc::TelemetryRow>& log) {
   return at;
 }
 
-std::string trouble_of(const CaseRecord& record) {
+std::string trouble_of(const harness::CaseRecord& record) {
   if (const auto* fault = record.first_fault(); fault != nullptr) {
     return std::string(core::describe(fault->code));
   }
@@ -74,8 +76,9 @@ std::string trouble_of(const CaseRecord& record) {
 
 }  // namespace
 
-TrackedRun track_trapezoid(const RigFixture& rig, const ControllerFixture& controller,
-                           const TrapezoidRun& run, std::uint64_t seed) {
+TrackedRun track_trapezoid(const harness::RigFixture& rig,
+                           const harness::ControllerFixture& controller, const TrapezoidRun& run,
+                           std::uint64_t seed) {
   const double longest_s = run.distance_m / run.speed_m_per_s + 20;
   const auto record = record_of(
       rig, controller,
@@ -130,7 +133,8 @@ TrackedRun track_trapezoid(const RigFixture& rig, const ControllerFixture& contr
   return tracked;
 }
 
-std::vector<TrackedSpeed> track_speeds(const RigFixture& rig, const ControllerFixture& controller,
+std::vector<TrackedSpeed> track_speeds(const harness::RigFixture& rig,
+                                       const harness::ControllerFixture& controller,
                                        std::span<const double> speeds_m_per_s, TrapezoidRun run,
                                        const SteadyPart& steady) {
   std::vector<TrackedSpeed> all;
@@ -143,8 +147,8 @@ std::vector<TrackedSpeed> track_speeds(const RigFixture& rig, const ControllerFi
   return all;
 }
 
-TrackedCircle track_circle(const RigFixture& rig, const ControllerFixture& controller,
-                           std::uint64_t seed) {
+TrackedCircle track_circle(const harness::RigFixture& rig,
+                           const harness::ControllerFixture& controller, std::uint64_t seed) {
   const auto record =
       record_of(rig, controller, "run -circle --radius 0.2m --period 7s --turns 2", 40, seed);
   TrackedCircle tracked;
@@ -179,4 +183,4 @@ TrackedCircle track_circle(const RigFixture& rig, const ControllerFixture& contr
   return tracked;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

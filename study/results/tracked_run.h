@@ -10,7 +10,7 @@
 #include "harness/fixtures/controller_fixture.h"
 #include "harness/fixtures/rig_fixture.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 // How BBMC comes to know where it stands.
 enum class PlaceKnown : std::uint8_t {
@@ -41,7 +41,8 @@ struct TrackedRun {
   double carriage_peak_m = 0;
 };
 
-[[nodiscard]] TrackedRun track_trapezoid(const RigFixture& rig, const ControllerFixture& controller,
+[[nodiscard]] TrackedRun track_trapezoid(const harness::RigFixture& rig,
+                                         const harness::ControllerFixture& controller,
                                          const TrapezoidRun& run, std::uint64_t seed);
 
 struct TrackedSpeed {
@@ -56,8 +57,8 @@ struct SteadyPart {
 };
 
 // `run` at each speed, one after the other.
-[[nodiscard]] std::vector<TrackedSpeed> track_speeds(const RigFixture& rig,
-                                                     const ControllerFixture& controller,
+[[nodiscard]] std::vector<TrackedSpeed> track_speeds(const harness::RigFixture& rig,
+                                                     const harness::ControllerFixture& controller,
                                                      std::span<const double> speeds_m_per_s,
                                                      TrapezoidRun run, const SteadyPart& steady);
 
@@ -74,7 +75,8 @@ struct TrackedCircle {
 };
 
 // Two turns of the thesis's circle, Figs 7.14, 7.15: radius 0.2 m, period 7 s (7.3.2).
-[[nodiscard]] TrackedCircle track_circle(const RigFixture& rig, const ControllerFixture& controller,
+[[nodiscard]] TrackedCircle track_circle(const harness::RigFixture& rig,
+                                         const harness::ControllerFixture& controller,
                                          std::uint64_t seed);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -7,7 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 [[noreturn]] void work_on(const std::function<void(std::size_t)>& job, std::size_t number) {
@@ -58,4 +58,4 @@ void run_in_processes(std::size_t jobs, const WorkerProcesses& with,
   }
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <functional>
 
-namespace towbench::harness {
+namespace towbench::study {
 
 struct WorkerProcesses {
   std::size_t workers = 1;
@@ -18,4 +18,4 @@ struct WorkerProcesses {
 void run_in_processes(std::size_t jobs, const WorkerProcesses& with,
                       const std::function<void(std::size_t)>& job);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -9,7 +9,7 @@
 #include "study/procedures/log_file.h"
 #include "study/runs/run_columns.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 using core::Axis;
@@ -52,7 +52,7 @@ double period_of(const LogFile& log, const std::vector<double>& time_s) {
   return period_s;
 }
 
-AxisColumns read_axis_columns(TableReader& reader) {
+AxisColumns read_axis_columns(harness::TableReader& reader) {
   AxisColumns axis;
   axis.named = true;
   reader.text("position", axis.position, "column of position");
@@ -67,8 +67,8 @@ AxisColumns read_axis_columns(TableReader& reader) {
   reader.value("current_scale_A", axis.current_scale_A, core::any_finite(), "amperes a unit");
   reader.finish();
   if (axis.position.empty() == axis.count.empty()) {
-    throw FixtureError(reader.place_of("position"), "neither or both of position and count",
-                       "one of them");
+    throw harness::FixtureError(reader.place_of("position"),
+                                "neither or both of position and count", "one of them");
   }
   return axis;
 }
@@ -152,8 +152,8 @@ void read_force(const LogFile& whole, const ListedTow& tow, const LogColumns& co
 }  // namespace
 
 LogColumns read_log_columns(const std::filesystem::path& path) {
-  const auto file = FixtureFile::load(path);
-  TableReader reader(file, file.table());
+  const auto file = harness::FixtureFile::load(path);
+  harness::TableReader reader(file, file.table());
   LogColumns columns;
   columns.file = path;
   reader.text("time", columns.time, "column of time");
@@ -198,4 +198,4 @@ identify::Recording read_foreign_log(const ListedTow& tow, const LogColumns& col
   return data;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

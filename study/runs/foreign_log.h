@@ -22,7 +22,7 @@
 #include "study/identify/recording.h"
 #include "study/runs/tow_list.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 struct AxisColumns {
   bool named = false;
@@ -58,4 +58,4 @@ struct LogColumns {
                                                    const std::filesystem::path& folder,
                                                    const emulator::RigParameters& rig);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -14,7 +14,7 @@
 #include "harness/record/temporary_folder.h"
 #include "study/runs/run_columns.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 constexpr const char* kRigFile = "rig.toml";
@@ -40,32 +40,34 @@ std::string plain_name(const std::string& words) {
 }
 
 // The first thing that went wrong, in words.
-std::string trouble_of(const RunResult& result) {
+std::string trouble_of(const harness::RunResult& result) {
   if (!result.complete) {
     return result.reason;
   }
   for (const auto& check : result.judgement.checks) {
-    if (check.verdict != Verdict::kPass) {
+    if (check.verdict != harness::Verdict::kPass) {
       return check.reason.empty() ? check.name : check.reason;
     }
   }
-  return result.exit_code == kExitPass ? "" : "the run's report contradicts its record";
+  return result.exit_code == harness::kExitPass ? "" : "the run's report contradicts its record";
 }
 
 }  // namespace
 
-void write_machine(const RigFixture& rig, const ControllerFixture& controller,
+void write_machine(const harness::RigFixture& rig, const harness::ControllerFixture& controller,
                    const std::filesystem::path& folder) {
-  write_atomically(folder / kPlantFile, plant_toml(rig));
-  write_atomically(folder / kRigFile, fmt::format("schema = 1\nname = {}\nplants = [\"{}\"]\n",
-                                                  toml_string(rig.name), kPlantFile));
-  write_atomically(folder / kControllerFile, controller_toml(controller));
+  harness::write_atomically(folder / kPlantFile, harness::plant_toml(rig));
+  harness::write_atomically(folder / kRigFile,
+                            fmt::format("schema = 1\nname = {}\nplants = [\"{}\"]\n",
+                                        harness::toml_string(rig.name), kPlantFile));
+  harness::write_atomically(folder / kControllerFile, harness::controller_toml(controller));
 }
 
-ExperimentFixture as_experiment(const procedures::PlannedRun& planned, const std::string& id,
-                                const std::filesystem::path& folder) {
+harness::ExperimentFixture as_experiment(const procedures::PlannedRun& planned,
+                                         const std::string& id,
+                                         const std::filesystem::path& folder) {
   write_machine(planned.rig, planned.controller, folder);
-  ExperimentFixture fixture;
+  harness::ExperimentFixture fixture;
   fixture.experiment = planned.experiment;
   fixture.experiment.name = plain_name(planned.experiment.name);
   fixture.experiment.title = fmt::format("{}: {}", id, planned.experiment.name);
@@ -75,21 +77,23 @@ ExperimentFixture as_experiment(const procedures::PlannedRun& planned, const std
   fixture.experiment.windows.resize(1);
   fixture.experiment.budgets = {{.metric = "fault_number", .max = 0.0, .source = "TOW-10"}};
   fixture.rig = planned.rig;
-  write_atomically(folder / kExperimentFile, to_toml(fixture, kRigFile, kControllerFile));
-  auto read = load_experiment(folder / kExperimentFile);
+  harness::write_atomically(folder / kExperimentFile,
+                            harness::to_toml(fixture, kRigFile, kControllerFile));
+  auto read = harness::load_experiment(folder / kExperimentFile);
   const auto same = [&](const char* file, std::uint64_t given, std::uint64_t wanted) {
     if (given != wanted) {
-      throw FixtureError({(folder / file).string()}, "other values than were planned",
-                         "a file that reads back as what was written");
+      throw harness::FixtureError({(folder / file).string()}, "other values than were planned",
+                                  "a file that reads back as what was written");
     }
   };
-  same(kRigFile, read.rig.hash, canonical_hash(planned.rig.parameters));
-  same(kControllerFile, read.controller.hash, canonical_hash(planned.controller.configuration));
+  same(kRigFile, read.rig.hash, harness::canonical_hash(planned.rig.parameters));
+  same(kControllerFile, read.controller.hash,
+       harness::canonical_hash(planned.controller.configuration));
   return read;
 }
 
 identify::Recording KeptRuns::run(const procedures::PlannedRun& planned) {
-  const TemporaryFolder files;
+  const harness::TemporaryFolder files;
   const auto fixture = as_experiment(planned, id_, files.path());
   const auto result = play_(fixture, out_ / id_, planned.seed);
   made_.push_back({.experiment = id_,
@@ -102,4 +106,4 @@ identify::Recording KeptRuns::run(const procedures::PlannedRun& planned) {
   return recording;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

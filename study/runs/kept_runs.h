@@ -11,13 +11,13 @@
 #include "study/procedures/run_source.h"
 #include "study/runs/tow_list.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 class KeptRuns final : public procedures::RunSource {
  public:
   // Runs one experiment below a folder, with a seed.
-  using Play = std::function<RunResult(const ExperimentFixture&, const std::filesystem::path& below,
-                                       std::uint64_t seed)>;
+  using Play = std::function<harness::RunResult(
+      const harness::ExperimentFixture&, const std::filesystem::path& below, std::uint64_t seed)>;
 
   // `id`: the procedure's; its run folders lie below `out`/`id` and are added to `made`, which
   // outlives this.
@@ -34,13 +34,13 @@ class KeptRuns final : public procedures::RunSource {
 };
 
 // Writes rig.toml, the plant.toml that it names, and controller.toml.
-void write_machine(const RigFixture& rig, const ControllerFixture& controller,
+void write_machine(const harness::RigFixture& rig, const harness::ControllerFixture& controller,
                    const std::filesystem::path& folder);
 
 // The planned run as an experiment whose files lie in `folder`. Throws FixtureError when they do
 // not read back as what was planned.
-[[nodiscard]] ExperimentFixture as_experiment(const procedures::PlannedRun& planned,
-                                              const std::string& id,
-                                              const std::filesystem::path& folder);
+[[nodiscard]] harness::ExperimentFixture as_experiment(const procedures::PlannedRun& planned,
+                                                       const std::string& id,
+                                                       const std::filesystem::path& folder);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -6,7 +6,7 @@
 
 #include "study/runs/run_columns.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 RecordedRuns::RecordedRuns(std::string id, const TowList& list) : id_(std::move(id)), list_(list) {
   if (!list.columns.empty()) {
@@ -29,4 +29,4 @@ identify::Recording RecordedRuns::run(const procedures::PlannedRun& planned) {
                                : read_run_columns(folder / found->folder);
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

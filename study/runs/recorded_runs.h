@@ -7,7 +7,7 @@
 #include "study/procedures/run_source.h"
 #include "study/runs/foreign_log.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 class RecordedRuns final : public procedures::RunSource {
  public:
@@ -25,4 +25,4 @@ class RecordedRuns final : public procedures::RunSource {
   std::optional<LogColumns> columns_;
 };
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -11,7 +11,7 @@
 #include "harness/files/csv_table.h"
 #include "study/procedures/recording_frames.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 // The recorder writes the sensors' own floats.
@@ -24,10 +24,10 @@ std::vector<double> as_floats(std::span<const double> values) {
   return floats;
 }
 
-std::span<const double> column_of(const CsvTable& table, const std::filesystem::path& file,
+std::span<const double> column_of(const harness::CsvTable& table, const std::filesystem::path& file,
                                   const std::string& name) {
   if (!table.has(name)) {
-    throw CsvError(fmt::format("{}: no column {}", file.string(), name));
+    throw harness::CsvError(fmt::format("{}: no column {}", file.string(), name));
   }
   return table.column(name);
 }
@@ -42,7 +42,7 @@ std::vector<T> whole_numbers(std::span<const double> values) {
   return numbers;
 }
 
-void read_axis(const CsvTable& log, const std::filesystem::path& file, core::Axis which,
+void read_axis(const harness::CsvTable& log, const std::filesystem::path& file, core::Axis which,
                identify::AxisRecording& axis) {
   const auto column = [&](const char* name) {
     return column_of(log, file, fmt::format("{}_{}", core::name_of(which), name));
@@ -65,7 +65,7 @@ std::vector<double> sensor_at(const std::filesystem::path& file, const std::stri
   if (!std::filesystem::exists(file)) {
     return {};
   }
-  const auto table = CsvTable::load(file);
+  const auto table = harness::CsvTable::load(file);
   return held(column_of(table, file, "time_s"), as_floats(column_of(table, file, name)), at_s);
 }
 
@@ -97,7 +97,7 @@ std::vector<double> held(std::span<const double> time_s, std::span<const double>
 
 identify::Recording read_run_columns(const std::filesystem::path& folder) {
   const auto file = folder / "log.csv";
-  const auto log = CsvTable::load(file);
+  const auto log = harness::CsvTable::load(file);
   identify::Recording recording;
   const auto time_s = column_of(log, file, "time_s");
   for (const double time : time_s) {
@@ -107,12 +107,13 @@ identify::Recording read_run_columns(const std::filesystem::path& folder) {
     const auto name = std::string(core::name_of(axis));
     read_axis(log, file, axis, recording.axes[axis]);
     recording.axes[axis].current_A =
-        sensor_at(folder / current_file(axis), name + "_current_A", time_s);
-    recording.force_N[axis] = sensor_at(folder / kForceFile, "force_" + name + "_N", time_s);
+        sensor_at(folder / harness::current_file(axis), name + "_current_A", time_s);
+    recording.force_N[axis] =
+        sensor_at(folder / harness::kForceFile, "force_" + name + "_N", time_s);
   }
   recording.trouble = latched(column_of(log, file, "fault"));
   procedures::drop_other_frames(recording);
   return recording;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -8,7 +8,7 @@
 
 #include "study/identify/recording.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 // Throws CsvError, naming the file. A latched fault is the recording's trouble.
 [[nodiscard]] identify::Recording read_run_columns(const std::filesystem::path& folder);
@@ -18,4 +18,4 @@ namespace towbench::harness {
                                        std::span<const double> values,
                                        std::span<const double> at_s);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -7,10 +7,10 @@
 #include "harness/fixtures/table_reader.h"
 #include "harness/fixtures/toml_string.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
-ListedTow read_tow(TableReader& reader, bool has_columns) {
+ListedTow read_tow(harness::TableReader& reader, bool has_columns) {
   ListedTow tow;
   reader.text("experiment", tow.experiment, "id of the tow experiment");
   reader.text("name", tow.name, "name of the run in that experiment");
@@ -23,16 +23,16 @@ ListedTow read_tow(TableReader& reader, bool has_columns) {
   reader.require("name");
   reader.finish();
   if (tow.folder.empty() == tow.log.empty()) {
-    throw FixtureError(reader.place_of(tow.log.empty() ? "name" : "log"),
-                       tow.log.empty() ? "neither folder nor log" : "folder and log",
-                       "folder = \"RUN FOLDER\" or log = \"FILE.csv\"");
+    throw harness::FixtureError(reader.place_of(tow.log.empty() ? "name" : "log"),
+                                tow.log.empty() ? "neither folder nor log" : "folder and log",
+                                "folder = \"RUN FOLDER\" or log = \"FILE.csv\"");
   }
   if (!tow.log.empty() && !has_columns) {
-    throw FixtureError(reader.place_of("log"), "a log without columns",
-                       "columns = \"FILE.toml\" at the top: which column is what");
+    throw harness::FixtureError(reader.place_of("log"), "a log without columns",
+                                "columns = \"FILE.toml\" at the top: which column is what");
   }
   if (tow.steady_from_s.size() != tow.steady_to_s.size()) {
-    throw FixtureError(
+    throw harness::FixtureError(
         reader.place_of("steady_to_s"),
         fmt::format("{} ends of {} beginnings", tow.steady_to_s.size(), tow.steady_from_s.size()),
         "an end for each beginning");
@@ -44,8 +44,8 @@ ListedTow read_tow(TableReader& reader, bool has_columns) {
 
 TowList read_tow_list(const std::filesystem::path& folder) {
   TowList list{.file = folder / kTowListFile, .columns = {}, .tows = {}};
-  const auto file = FixtureFile::load(list.file);
-  TableReader reader(file, file.table());
+  const auto file = harness::FixtureFile::load(list.file);
+  harness::TableReader reader(file, file.table());
   std::string ignored;
   reader.text("title", ignored, "one line for a person");
   reader.text("columns", list.columns, "file that names the logs' columns");
@@ -55,14 +55,15 @@ TowList read_tow_list(const std::filesystem::path& folder) {
       return other.experiment == tow.experiment && other.name == tow.name;
     });
     if (twice) {
-      throw FixtureError(each.place_of("name"), '"' + tow.name + '"',
-                         "each run of an experiment once");
+      throw harness::FixtureError(each.place_of("name"), '"' + tow.name + '"',
+                                  "each run of an experiment once");
     }
     list.tows.push_back(std::move(tow));
   }
   reader.finish();
   if (list.tows.empty()) {
-    throw FixtureError({.file = list.file.string()}, "no [[tow]]", "one for each recorded run");
+    throw harness::FixtureError({.file = list.file.string()}, "no [[tow]]",
+                                "one for each recorded run");
   }
   return list;
 }
@@ -70,11 +71,11 @@ TowList read_tow_list(const std::filesystem::path& folder) {
 std::string tow_list_toml(const std::vector<ListedTow>& tows) {
   std::string text = "schema = 1\n";
   for (const auto& tow : tows) {
-    text +=
-        fmt::format("\n[[tow]]\nexperiment = {}\nname = {}\nfolder = {}\n",
-                    toml_string(tow.experiment), toml_string(tow.name), toml_string(tow.folder));
+    text += fmt::format("\n[[tow]]\nexperiment = {}\nname = {}\nfolder = {}\n",
+                        harness::toml_string(tow.experiment), harness::toml_string(tow.name),
+                        harness::toml_string(tow.folder));
   }
   return text;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -18,7 +18,7 @@
 
 #include "core/bounded_vector.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 inline constexpr const char* kTowListFile = "tows.toml";
 
@@ -44,4 +44,4 @@ struct TowList {
 // Of run folders.
 [[nodiscard]] std::string tow_list_toml(const std::vector<ListedTow>& tows);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

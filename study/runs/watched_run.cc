@@ -9,33 +9,35 @@
 #include "harness/files/csv_table.h"
 #include "harness/fixtures/fixture_error.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
-std::vector<double> copied(const CsvTable& table, std::string_view file, const std::string& name) {
+std::vector<double> copied(const harness::CsvTable& table, std::string_view file,
+                           const std::string& name) {
   if (!table.has(name)) {
-    throw CsvError(fmt::format("{}: no column {}", file, name));
+    throw harness::CsvError(fmt::format("{}: no column {}", file, name));
   }
   const auto column = table.column(name);
   return {column.begin(), column.end()};
 }
 
-identify::ElasticInput input_of(const CsvTable& log, const CsvTable& camera, core::Axis axis) {
+identify::ElasticInput input_of(const harness::CsvTable& log, const harness::CsvTable& camera,
+                                core::Axis axis) {
   const auto of_axis = [&](const char* name) {
     return copied(log, "log.csv", fmt::format("{}_{}", core::name_of(axis), name));
   };
   return {.time_s = copied(log, "log.csv", "time_s"),
           .motor_m = of_axis("position_m"),
           .speed_m_per_s = of_axis("reference_velocity_m_per_s"),
-          .frame_s = copied(camera, kCameraFile, "time_s"),
-          .seen_m = copied(camera, kCameraFile, camera_column(axis))};
+          .frame_s = copied(camera, harness::kCameraFile, "time_s"),
+          .seen_m = copied(camera, harness::kCameraFile, harness::camera_column(axis))};
 }
 
 void refuse_unwatched(const std::filesystem::path& folder) {
-  for (const auto file : {std::string_view("log.csv"), kCameraFile}) {
+  for (const auto file : {std::string_view("log.csv"), harness::kCameraFile}) {
     if (!std::filesystem::exists(folder / file)) {
-      throw FixtureError({.file = (folder / file).string()}, "no such file",
-                         "the folder of a run whose rig has camera.fitted = true");
+      throw harness::FixtureError({.file = (folder / file).string()}, "no such file",
+                                  "the folder of a run whose rig has camera.fitted = true");
     }
   }
 }
@@ -44,17 +46,18 @@ void refuse_unwatched(const std::filesystem::path& folder) {
 
 std::vector<WatchedAxis> read_watched_run(const std::filesystem::path& folder) try {
   refuse_unwatched(folder);
-  const auto log = CsvTable::load(folder / "log.csv");
-  const auto camera = CsvTable::load(folder / kCameraFile);
+  const auto log = harness::CsvTable::load(folder / "log.csv");
+  const auto camera = harness::CsvTable::load(folder / harness::kCameraFile);
   std::vector<WatchedAxis> axes;
   for (const auto axis : core::kAxes) {
-    if (camera.has(camera_column(axis))) {
+    if (camera.has(harness::camera_column(axis))) {
       axes.push_back({axis, identify::elastic_error(input_of(log, camera, axis))});
     }
   }
   return axes;
-} catch (const CsvError& error) {
-  throw FixtureError({.file = folder.string()}, error.what(), "log.csv and camera.csv of a run");
+} catch (const harness::CsvError& error) {
+  throw harness::FixtureError({.file = folder.string()}, error.what(),
+                              "log.csv and camera.csv of a run");
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -8,7 +8,7 @@
 #include "core/axis.h"
 #include "study/identify/elastic_error.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 struct WatchedAxis {
   core::Axis axis = core::Axis::kY;
@@ -18,4 +18,4 @@ struct WatchedAxis {
 // Throws FixtureError for a folder without the two files and for a damaged one.
 [[nodiscard]] std::vector<WatchedAxis> read_watched_run(const std::filesystem::path& folder);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

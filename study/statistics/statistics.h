@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace towbench::harness::statistics {
+namespace towbench::study::statistics {
 
 // A normal deviate is within +- so many standard deviations in 95 % of the cases: the 97.5 %
 // quantile of the standard normal distribution.
@@ -38,4 +38,4 @@ namespace detail {
   return detail::nth_of(std::move(values), middle);
 }
 
-}  // namespace towbench::harness::statistics
+}  // namespace towbench::study::statistics

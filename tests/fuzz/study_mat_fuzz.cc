@@ -11,7 +11,7 @@
 #include "study/logs/mat_table.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace towbench::harness::logs;
+  using namespace towbench::study::logs;
   static const auto path = std::filesystem::temp_directory_path() /
                            ("towbench_fuzz_" + std::to_string(getpid()) + ".mat");
   std::ofstream(path, std::ios::binary | std::ios::trunc)

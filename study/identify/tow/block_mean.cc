@@ -7,7 +7,7 @@
 
 #include <boost/math/distributions/students_t.hpp>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 UncertainMean mean_of_repeats(std::span<const double> repeats) {
   const auto n = static_cast<double>(repeats.size());
@@ -156,4 +156,4 @@ double student_factor(double freedom) {
       boost::math::students_t_distribution<double>(std::clamp(freedom, 1.0, kMany)), kUpper);
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

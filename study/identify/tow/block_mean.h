@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct UncertainMean {
   double value = 0;
@@ -48,4 +48,4 @@ inline constexpr double kSwing_s = 0.243;
 // Half width of the two-sided 95 % interval over the deviation: Student's t.
 [[nodiscard]] double student_factor(double freedom);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -6,7 +6,7 @@
 
 #include "study/identify/linear_algebra.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 using Complex = std::complex<double>;
@@ -187,4 +187,4 @@ double doubt_by_chain(const CarriageChain& chain, double rate_rad_per_s) noexcep
   return 4 * std::pow(rate_rad_per_s / chain.rate_rad_per_s, 2) * chain.deviation;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -24,7 +24,7 @@
 #include "core/axis.h"
 #include "study/identify/recording.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 // Of an axis: `rate_rad_per_s` is sqrt(k/M), the carriage's swing behind a motor that is held.
 struct CarriageChain {
@@ -97,4 +97,4 @@ inline constexpr double kChainFreedom = 100;
 // motion's.
 [[nodiscard]] double doubt_by_chain(const CarriageChain& chain, double rate_rad_per_s) noexcept;
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

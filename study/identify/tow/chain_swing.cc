@@ -8,7 +8,7 @@
 #include "study/identify/linear_algebra.h"
 #include "study/identify/secant_cost.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
@@ -141,4 +141,4 @@ std::optional<ChainSwing> chain_swing(const Recording& run, core::Axis axis, dou
   return ChainSwing{p(0), std::sqrt(covariance(0, 0)), p(1)};
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

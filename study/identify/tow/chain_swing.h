@@ -14,7 +14,7 @@
 
 #include "study/identify/recording.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct ChainSwing {
   double rate_rad_per_s = 0;  // w
@@ -28,4 +28,4 @@ struct ChainSwing {
 [[nodiscard]] std::optional<ChainSwing> chain_swing(const Recording& run, core::Axis axis,
                                                     double from_s, double to_s);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -9,7 +9,7 @@
 
 #include "study/identify/linear_algebra.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 using core::Axis;
@@ -273,4 +273,4 @@ std::optional<CurvedDrag> curved_force(const Recording& with, const Recording& w
   return result;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -19,7 +19,7 @@
 #include "study/identify/tow/block_mean.h"
 #include "study/identify/tow/carriage_turn.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct HeadingForce {
   double heading_deg = 0;  // of the carriage, from +Y counter-clockwise, middle of the stretch
@@ -52,4 +52,4 @@ struct CurvedDriveSettings {
                                                      const core::PerAxis<CarriageChain>& chain,
                                                      std::size_t headings = 12);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 UncertainMean quadratic_drag(std::span<const DragPoint> points) {
   double forces = 0;
@@ -68,4 +68,4 @@ Estimates drag_curve(std::span<const DragPoint> points, const std::string& quant
   return curve;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

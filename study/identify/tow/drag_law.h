@@ -7,7 +7,7 @@
 #include "study/identify/estimate.h"
 #include "study/identify/tow/block_mean.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct DragPoint {
   double speed_m_per_s = 0;  // > 0
@@ -31,4 +31,4 @@ struct DragPoint {
 [[nodiscard]] Estimates drag_curve(std::span<const DragPoint> points, const std::string& quantity,
                                    const std::string& axis, const std::string& rests_on);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 // Mean of pulled - plain over a stretch of time; both recordings have one row a period.
@@ -63,4 +63,4 @@ std::optional<DriveScale> drive_scale(const Recording& pulled, const Recording& 
   return scale;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -11,7 +11,7 @@
 #include "study/identify/recording.h"
 #include "study/identify/tow/block_mean.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 // N / %, of an axis.
 struct DriveScale {
@@ -31,4 +31,4 @@ struct PullTimes {
 [[nodiscard]] std::optional<DriveScale> drive_scale(const Recording& pulled, const Recording& plain,
                                                     core::Axis axis, const PullTimes& times);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

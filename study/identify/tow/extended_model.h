@@ -16,7 +16,7 @@
 #include "study/identify/recording.h"
 #include "study/identify/tow/drag_law.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct ExtendedModelSettings {
   double from_m = 0;  // of the places, reference frame
@@ -58,4 +58,4 @@ class ExtendedModel {
                                                       double scale, const ExtendedModel& model,
                                                       double settle_s);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 struct OneWay {
@@ -83,4 +83,4 @@ std::optional<DragPoint> both_ways(const Recording& recording, std::span<const d
   return average(there, back, speed);
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -15,7 +15,7 @@
 #include "study/identify/tow/drag_law.h"
 #include "study/identify/tow/steady_span.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 // Rows of a mean's blocks: 0.2 s of them, two periods of the chain and ten of the sensor's memory.
 [[nodiscard]] std::size_t block_rows(const Recording& recording) noexcept;
@@ -31,4 +31,4 @@ namespace towbench::harness::identify {
                                                  std::span<const double> column, core::Axis axis,
                                                  double scale, double settle_s);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -7,7 +7,7 @@
 #include "study/identify/tow/paired_difference.h"
 #include "study/identify/tow/steady_span.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 struct SteadyForce {
@@ -119,4 +119,4 @@ std::optional<DragPoint> predicted_drag(const Recording& tow, core::Axis axis, d
   return point;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

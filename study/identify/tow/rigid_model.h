@@ -16,7 +16,7 @@
 #include "study/identify/recording.h"
 #include "study/identify/tow/drag_law.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 // Where and how fast one steady span ran; what a closed form of the model's bias needs.
 struct TowStretch {
@@ -48,4 +48,4 @@ struct RigidModel {
 [[nodiscard]] std::vector<TowStretch> stretches(const Recording& tow, core::Axis axis,
                                                 double settle_s);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -8,7 +8,7 @@
 
 #include "study/identify/linear_algebra.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 std::size_t first_moving(const Recording& run, core::Axis axis) {
@@ -107,4 +107,4 @@ std::optional<SinusoidalDrag> sinusoidal_tow(const Recording& with,
                         .quadratic_drag_N_s2_per_m2 = mean_of_repeats(drags)};
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

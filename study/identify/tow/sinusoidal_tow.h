@@ -17,7 +17,7 @@
 #include "study/identify/tow/block_mean.h"
 #include "study/identify/tow/carriage_turn.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct SinusoidalDrag {
   std::size_t periods = 0;
@@ -44,4 +44,4 @@ struct SinusoidalTowSettings {
     const Recording& with, std::span<const double> column_with, const Recording& without,
     std::span<const double> column_without, core::Axis axis, const SinusoidalTowSettings& settings);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

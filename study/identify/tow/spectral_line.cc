@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 constexpr double kTurn_rad = 2 * std::numbers::pi;
@@ -178,4 +178,4 @@ std::optional<UncertainMean> mean_over_periods(std::span<const double> samples, 
   return mean_of_repeats(means);
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -11,7 +11,7 @@
 
 #include "study/identify/tow/block_mean.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct SpectralLine {
   UncertainMean frequency_Hz;
@@ -31,4 +31,4 @@ struct SpectralLine {
 [[nodiscard]] std::optional<UncertainMean> mean_over_periods(std::span<const double> samples,
                                                              double period_s, double frequency_Hz);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 constexpr double kShortest_s = 0.3;
@@ -41,4 +41,4 @@ std::vector<SteadySpan> steady_spans(const Recording& recording, core::Axis axis
   return spans;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

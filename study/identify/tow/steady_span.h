@@ -7,7 +7,7 @@
 
 #include "study/identify/recording.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct SteadySpan {
   std::size_t first = 0;
@@ -25,4 +25,4 @@ struct SteadySpan {
 [[nodiscard]] std::vector<SteadySpan> steady_spans(const Recording& recording, core::Axis axis,
                                                    double settle_s);
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

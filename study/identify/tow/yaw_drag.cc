@@ -7,7 +7,7 @@
 
 #include "study/identify/linear_algebra.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 struct Direction {
@@ -75,4 +75,4 @@ std::optional<YawDrag> yaw_drag(std::span<const YawPoint> points, const CommonDo
   return drag;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

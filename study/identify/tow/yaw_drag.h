@@ -14,7 +14,7 @@
 
 #include "study/identify/tow/block_mean.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 struct YawPoint {
   double yaw_deg = 0;   // as the body was turned, counter-clockwise from +Y
@@ -42,4 +42,4 @@ struct CommonDoubt {
 [[nodiscard]] std::optional<YawDrag> yaw_drag(std::span<const YawPoint> points,
                                               const CommonDoubt& common = {});
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -11,7 +11,7 @@
 #include "study/procedures/tow/tow_procedure.h"
 #include "study/procedures/tow/weigh_drive.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 using core::Axis;
@@ -177,4 +177,4 @@ std::unique_ptr<TowProcedure> added_mass() {
   return std::make_unique<AddedMass>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

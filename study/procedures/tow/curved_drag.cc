@@ -10,7 +10,7 @@
 #include "study/procedures/tow/tow_procedure.h"
 #include "study/procedures/tow/weigh_drive.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 using core::Axis;
@@ -180,4 +180,4 @@ std::unique_ptr<TowProcedure> curved_drag() {
   return std::make_unique<CurvedDragTow>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

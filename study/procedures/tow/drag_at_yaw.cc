@@ -8,7 +8,7 @@
 #include "study/procedures/tow/straight_tow.h"
 #include "study/procedures/tow/tow_procedure.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 using core::Axis;
@@ -164,4 +164,4 @@ std::unique_ptr<TowProcedure> drag_at_yaw() {
   return std::make_unique<DragAtYaw>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

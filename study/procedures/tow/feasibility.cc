@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 std::string too_fast(const Machine& machine, core::Axis axis, double speed_m_per_s,
                      double acceleration_m_per_s2, double drag_N) {
@@ -65,4 +65,4 @@ std::string not_in_water(const TowLoads& loads, const Load& load) {
                               : fmt::format("{}: nothing of it is in the water", load.rig);
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -5,7 +5,7 @@
 
 #include "study/procedures/tow/tow_loads.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 // Above what controller or supply allow. The voltage a motor needs at a speed is K_T w + R i, with
 // i from what the controller believes of friction, inertia and K_T, and `drag_N` on top.
@@ -25,4 +25,4 @@ namespace towbench::harness::procedures {
 [[nodiscard]] std::string no_axis(const Machine& machine, core::Axis axis);
 [[nodiscard]] std::string not_in_water(const TowLoads& loads, const Load& load);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -9,7 +9,7 @@
 #include "study/procedures/tow/feasibility.h"
 #include "study/procedures/tow/tow_procedure.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 using core::Axis;
@@ -190,4 +190,4 @@ std::unique_ptr<TowProcedure> fin_thrust() {
   return std::make_unique<FinThrustTow>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

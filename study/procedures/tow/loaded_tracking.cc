@@ -11,7 +11,7 @@
 #include "study/procedures/tow/tracking_errors.h"
 #include "study/procedures/tow/weigh_drive.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 using core::Axis;
@@ -184,4 +184,4 @@ std::unique_ptr<TowProcedure> loaded_tracking() {
   return std::make_unique<LoadedTracking>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -11,7 +11,7 @@
 #include "study/procedures/tow/tracking_errors.h"
 #include "study/procedures/tow/weigh_drive.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 using core::Axis;
@@ -165,4 +165,4 @@ std::unique_ptr<TowProcedure> manoeuvres() {
   return std::make_unique<Manoeuvres>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -11,7 +11,7 @@
 #include "study/procedures/tow/straight_drag_tables.h"
 #include "study/procedures/tow/tow_procedure.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 using core::Axis;
@@ -237,4 +237,4 @@ std::unique_ptr<TowProcedure> straight_drag() {
   return std::make_unique<StraightDrag>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -4,7 +4,7 @@
 #include "study/procedures/tow/straight_tow.h"
 #include "study/procedures/tow/weigh_drive.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 // Tows in air from which a model is identified.
 struct IdentificationSettings {
@@ -42,4 +42,4 @@ struct Exp1Settings {
   }
 };
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -9,7 +9,7 @@
 #include "study/identify/tow/steady_span.h"
 #include "study/procedures/tow/tracking_errors.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 using core::Axis;
 
@@ -136,4 +136,4 @@ ResultTable drag_table(const identify::Estimates& estimates) {
   return table;
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -11,7 +11,7 @@
 #include "study/procedures/figure.h"
 #include "study/procedures/machine.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 [[nodiscard]] identify::Estimate scale_estimate(const identify::DriveScale& scale,
                                                 const Machine& machine);
@@ -28,4 +28,4 @@ namespace towbench::harness::procedures {
 // Table 8.4.
 [[nodiscard]] ResultTable drag_table(const identify::Estimates& estimates);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -4,7 +4,7 @@
 
 #include "study/procedures/tow/feasibility.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 StraightTowSettings::StraightTowSettings() noexcept
     : StraightTowSettings({0.05, 0.15, 0.25, 0.35, 0.45, 0.55}) {}  // 8.4.1
@@ -71,4 +71,4 @@ Tows tow(const Machine& machine, const std::string& name, const StraightTowSetti
   return tows;
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -9,7 +9,7 @@
 #include "core/parameter.h"
 #include "study/procedures/tow/tow_loads.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 struct StraightTowSettings {
   core::BoundedVector<double, 32> speeds_m_per_s;
@@ -51,4 +51,4 @@ struct Tows {
 [[nodiscard]] Tows tow(const Machine& machine, const std::string& name,
                        const StraightTowSettings& settings);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

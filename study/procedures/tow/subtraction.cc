@@ -5,7 +5,7 @@
 #include "study/procedures/tow/straight_tow.h"
 #include "study/procedures/tow/tow_procedure.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 using core::Axis;
@@ -83,4 +83,4 @@ std::unique_ptr<TowProcedure> subtraction() {
   return std::make_unique<Subtraction>();
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

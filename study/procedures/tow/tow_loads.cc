@@ -2,10 +2,11 @@
 
 #include <utility>
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
-TowLoads::TowLoads(RigFixture machine, ControllerFixture controller, std::uint64_t seed,
-                   std::filesystem::path rigs, LoopWatchers watchers, RunSource* source)
+TowLoads::TowLoads(harness::RigFixture machine, harness::ControllerFixture controller,
+                   std::uint64_t seed, std::filesystem::path rigs, harness::LoopWatchers watchers,
+                   RunSource* source)
     : machine_(std::move(machine)),
       controller_(std::move(controller)),
       seed_(seed),
@@ -13,10 +14,10 @@ TowLoads::TowLoads(RigFixture machine, ControllerFixture controller, std::uint64
       watchers_(std::move(watchers)),
       source_(source) {}
 
-RigFixture TowLoads::fixture(const Load& load) const {
-  SourceFiles sources;
-  const auto named = load_rig(rigs_ / (load.rig + ".toml"), sources).parameters;
-  RigFixture rig = machine_;
+harness::RigFixture TowLoads::fixture(const Load& load) const {
+  harness::SourceFiles sources;
+  const auto named = harness::load_rig(rigs_ / (load.rig + ".toml"), sources).parameters;
+  harness::RigFixture rig = machine_;
   rig.parameters.water = named.water;
   rig.parameters.force_sensor.load_mass_kg = named.force_sensor.load_mass_kg;
   rig.parameters.force_sensor.lever_m = named.force_sensor.lever_m;
@@ -39,4 +40,4 @@ emulator::RigParameters TowLoads::truth(const Load& load) const {
   return fixture(load).parameters;
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

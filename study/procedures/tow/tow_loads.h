@@ -11,7 +11,7 @@
 
 #include "study/procedures/machine.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 struct Load {
   std::string rig = "tow-dry";
@@ -23,8 +23,9 @@ class TowLoads {
  public:
   // `rigs`: the folder of the rig files. The machine's own water is not looked at. `source`: where
   // the runs come from (machine.h).
-  TowLoads(RigFixture machine, ControllerFixture controller, std::uint64_t seed,
-           std::filesystem::path rigs, LoopWatchers watchers = {}, RunSource* source = nullptr);
+  TowLoads(harness::RigFixture machine, harness::ControllerFixture controller, std::uint64_t seed,
+           std::filesystem::path rigs, harness::LoopWatchers watchers = {},
+           RunSource* source = nullptr);
 
   // Throws FixtureError.
   [[nodiscard]] Machine with(const Load& load) const;
@@ -34,14 +35,14 @@ class TowLoads {
   [[nodiscard]] emulator::RigParameters truth(const Load& load) const;
 
  private:
-  [[nodiscard]] RigFixture fixture(const Load& load) const;
+  [[nodiscard]] harness::RigFixture fixture(const Load& load) const;
 
-  RigFixture machine_;
-  ControllerFixture controller_;
+  harness::RigFixture machine_;
+  harness::ControllerFixture controller_;
   std::uint64_t seed_;
   std::filesystem::path rigs_;
-  LoopWatchers watchers_;
+  harness::LoopWatchers watchers_;
   RunSource* source_;
 };
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -12,7 +12,7 @@
 #include "study/procedures/procedure.h"
 #include "study/procedures/tow/tow_loads.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 struct TowContext {
   const TowLoads& loads;
@@ -79,4 +79,4 @@ inline TowOutcome tow_failed(std::string how) {
   return outcome;
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -1,6 +1,6 @@
 #include "study/procedures/tow/tow_procedure.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 std::vector<std::unique_ptr<TowProcedure>> tow_procedures() {
   std::vector<std::unique_ptr<TowProcedure>> all;
@@ -11,4 +11,4 @@ std::vector<std::unique_ptr<TowProcedure>> tow_procedures() {
   return all;
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 TrackingErrors tracking_errors(const identify::Recording& run, core::Axis axis, std::size_t first,
                                std::size_t last) {
@@ -32,4 +32,4 @@ TrackingErrors tracking_errors(const identify::Recording& run, core::Axis axis, 
   return errors;
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

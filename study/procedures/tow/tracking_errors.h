@@ -5,7 +5,7 @@
 
 #include "study/identify/recording.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 // Rows in which the axis follows a reference, in [first, last).
 struct TrackingErrors {
@@ -24,4 +24,4 @@ struct TrackingErrors {
   return tracking_errors(run, axis, 0, run.rows());
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

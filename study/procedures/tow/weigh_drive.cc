@@ -7,7 +7,7 @@
 #include "study/identify/tow/chain_swing.h"
 #include "study/procedures/tow/feasibility.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 constexpr double kWeighTyped_s = 1.0;  // the motion is asked for then
@@ -131,4 +131,4 @@ WeighedDrive weigh_drive(const Machine& machine, core::Axis axis, const WeighSet
   return found;
 }
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

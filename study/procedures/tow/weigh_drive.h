@@ -11,7 +11,7 @@
 #include "study/identify/tow/drive_scale.h"
 #include "study/procedures/tow/tow_loads.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 
 // On Y the tow is faster than the weight makes the carriage swing, 16 N over mass and rate, at most
 // 0.11 m/s: a carriage that turns round for a moment reads its chain's rate 8 % low. X has no room
@@ -54,4 +54,4 @@ struct WeighedDrive {
 // A machine's own configuration, with the controller told to expect a load.
 [[nodiscard]] bbmc::Configuration expecting_load(const Machine& machine, double load_N);
 
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

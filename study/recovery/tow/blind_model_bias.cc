@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 using identify::TowStretch;
@@ -102,4 +102,4 @@ double blind_model_drag_bias(const emulator::AxisParameters& axis,
   return moment / square;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -25,7 +25,7 @@
 #include "emulator/plant/axis_parameters.h"
 #include "study/identify/tow/rigid_model.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 // N s2/m2. Stretches of the same speed (there and back) count once each, as in the fits.
 [[nodiscard]] double blind_model_drag_bias(const emulator::AxisParameters& axis,
@@ -36,4 +36,4 @@ namespace towbench::harness {
 [[nodiscard]] double mean_position_friction_Nm(const emulator::AxisParameters& axis, double from_m,
                                                double to_m);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

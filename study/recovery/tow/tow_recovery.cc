@@ -8,7 +8,7 @@
 #include "emulator/water/water.h"
 #include "study/recovery/tow/blind_model_bias.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 using emulator::RigParameters;
@@ -143,4 +143,4 @@ std::vector<Recovery> judge_tow(const RigParameters& towed, const procedures::To
   return judged;
 }
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

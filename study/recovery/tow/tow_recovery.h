@@ -7,7 +7,7 @@
 #include "study/procedures/tow/tow_procedure.h"
 #include "study/recovery/recovery.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 
 // Of every estimate that has a truth, in their order; a tolerance of 0: docs/requirements.md (TOW)
 // makes no demand on it. `towed`: the rig with the load whose drag was sought. Drag that a
@@ -16,4 +16,4 @@ namespace towbench::harness {
 [[nodiscard]] std::vector<Recovery> judge_tow(const emulator::RigParameters& towed,
                                               const procedures::TowOutcome& outcome);
 
-}  // namespace towbench::harness
+}  // namespace towbench::study

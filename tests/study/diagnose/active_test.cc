@@ -14,7 +14,7 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness;
+using namespace study;
 using ::testing::HasSubstr;
 
 constexpr const char* kNominal = "fixtures/plants/macs-nominal.toml";
@@ -111,7 +111,7 @@ TEST(ActiveDiagnosis, AnotherMachineThanTheLogsIsRefused) {
   try {
     (void)ask(tilted, weak.log_of(kExercise).string(), kNominal);
     FAIL() << "ran on another machine";
-  } catch (const FixtureError& error) {
+  } catch (const harness::FixtureError& error) {
     EXPECT_THAT(error.what(), HasSubstr("another machine than the log was recorded on"));
   }
 }
@@ -119,7 +119,7 @@ TEST(ActiveDiagnosis, AnotherMachineThanTheLogsIsRefused) {
 TEST(ActiveDiagnosis, ALogWithoutItsRunFolderIsRefused) {
   const HiddenRig weak(kNominal, kWeakAmplifier);
   const auto log = weak.log_of(kExercise) / "log.csv";
-  EXPECT_THROW((void)ask(weak, log.string(), kNominal), FixtureError);
+  EXPECT_THROW((void)ask(weak, log.string(), kNominal), harness::FixtureError);
 }
 
 }  // namespace

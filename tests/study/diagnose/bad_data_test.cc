@@ -15,7 +15,7 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness::diagnose;
+using namespace study::diagnose;
 
 bool has(const logs::Findings& findings, const std::string& name) {
   for (const logs::Finding& finding : findings) {
@@ -120,7 +120,7 @@ Diagnosis with_input(double scale, Eigen::Index shift) {
     run.input_N.tail(n - shift) = run.input_N.head(n - shift).eval();
   }
   request.runs = {run};
-  return harness::diagnose::diagnose(request);
+  return study::diagnose::diagnose(request);
 }
 
 // A bench's log begins before its counter is preset.

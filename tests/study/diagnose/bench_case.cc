@@ -16,7 +16,7 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness;
+using namespace study;
 using emulator::RigAxisParameters;
 
 constexpr core::Axis kY = core::Axis::kY;
@@ -128,12 +128,12 @@ std::vector<std::string> bench_effects(bool alone) {
 }
 
 diagnose::Run bench_run(const BenchCase& one) {
-  SourceFiles sources;
-  RigFixture rig = load_rig(kRig, sources);
+  harness::SourceFiles sources;
+  harness::RigFixture rig = harness::load_rig(kRig, sources);
   if (!one.effect.empty()) {
     hideouts().at(one.effect).hide(rig.parameters.axes[kY], one.strength);
   }
-  const procedures::Machine machine(rig, load_controller(kController, sources), one.seed);
+  const procedures::Machine machine(rig, harness::load_controller(kController, sources), one.seed);
   procedures::Conversation talk = drawn_motions(one.seed);
   auto steps = procedures::declare_position(talk, machine);
   talk.steps.insert(talk.steps.begin(), steps.begin(), steps.end());

@@ -23,7 +23,7 @@ struct BenchCase {
 // `alone`: only those that are named with nothing beside them.
 [[nodiscard]] std::vector<std::string> bench_effects(bool alone = false);
 // Trapezoids both ways along Y, speeds and ways drawn from the seed, about 50 s.
-[[nodiscard]] harness::diagnose::Run bench_run(const BenchCase& one);
-[[nodiscard]] harness::diagnose::Diagnosis diagnose_bench(const BenchCase& one);
+[[nodiscard]] study::diagnose::Run bench_run(const BenchCase& one);
+[[nodiscard]] study::diagnose::Diagnosis diagnose_bench(const BenchCase& one);
 
 }  // namespace towbench::tests

@@ -22,16 +22,16 @@ namespace towbench::tests {
 }
 
 // Force = 35.15065 N/V times the controller's output.
-[[nodiscard]] inline harness::diagnose::Run emps_run(const std::string& file) {
-  harness::logs::ColumnMap map;
+[[nodiscard]] inline study::diagnose::Run emps_run(const std::string& file) {
+  study::logs::ColumnMap map;
   map.time = "t_s";
   map.position = "qm_m";
   map.input = "vir_V";
   map.reference = "qg_m";
   map.input_scale_N = 35.15065;
-  harness::logs::Findings findings;
-  const auto table = harness::logs::read_table(emps_folder() / file, findings);
-  return harness::diagnose::make_run(table, map, file, findings);
+  study::logs::Findings findings;
+  const auto table = study::logs::read_table(emps_folder() / file, findings);
+  return study::diagnose::make_run(table, map, file, findings);
 }
 
 }  // namespace towbench::tests

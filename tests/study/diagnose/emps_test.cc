@@ -13,12 +13,12 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness::diagnose;
+using namespace study::diagnose;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using harness::identify::central_difference;
-using harness::identify::ZeroPhaseFilter;
+using study::identify::central_difference;
+using study::identify::ZeroPhaseFilter;
 
 class Emps : public testing::Test {
  protected:
@@ -107,7 +107,7 @@ Diagnosis diagnose_emps() {
   request.model.input_is_held = false;  // the published baseline has no hold
   request.runs = {emps_run("DATA_EMPS.csv")};
   request.holdout = {emps_run("DATA_EMPS_PULSES.csv")};
-  return harness::diagnose::diagnose(request);
+  return study::diagnose::diagnose(request);
 }
 
 bool names(const NamedCause& cause, const std::set<std::string>& wanted) {

@@ -9,7 +9,7 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness::diagnose;
+using namespace study::diagnose;
 using testing::HasSubstr;
 using testing::StartsWith;
 

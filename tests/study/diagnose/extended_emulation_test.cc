@@ -20,7 +20,7 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness;
+using namespace study;
 namespace fs = std::filesystem;
 
 constexpr const char* kPlant = "fixtures/plants/macs-nominal.toml";
@@ -31,13 +31,13 @@ constexpr const char* kMotion = "fixtures/diagnosis/exercise-y.toml";
 // `first_m`: how far its first motion goes.
 fs::path brisk_exercise(const fs::path& folder, const char* name, const char* first_m = "0.9m") {
   constexpr double kSlidesThroughout_m_per_s = 0.1;
-  ExperimentFixture fixture = load_experiment(kMotion);
-  std::erase_if(fixture.experiment.console, [](const ConsoleStep& step) {
+  harness::ExperimentFixture fixture = harness::load_experiment(kMotion);
+  std::erase_if(fixture.experiment.console, [](const harness::ConsoleStep& step) {
     const auto at = step.send.find("--speed ");
     return at != std::string::npos &&
            std::strtod(step.send.c_str() + at + 8, nullptr) < kSlidesThroughout_m_per_s;
   });
-  for (ConsoleStep& step : fixture.experiment.console) {
+  for (harness::ConsoleStep& step : fixture.experiment.console) {
     const auto at = step.send.find("--distance 0.9m");
     if (at != std::string::npos) {
       step.send.replace(at + 11, 4, first_m);
@@ -48,7 +48,8 @@ fs::path brisk_exercise(const fs::path& folder, const char* name, const char* fi
   const auto named = [&](const fs::path& path) {
     return fs::relative(fs::absolute(path), folder).string();
   };
-  std::ofstream(file) << to_toml(fixture, named(fixture.rig_file), named(fixture.controller_file));
+  std::ofstream(file) << harness::to_toml(fixture, named(fixture.rig_file),
+                                          named(fixture.controller_file));
   return file;
 }
 

@@ -16,8 +16,8 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness;
-using namespace harness::diagnose;
+using namespace study;
+using namespace study::diagnose;
 
 constexpr const char* kMacsPlant = "fixtures/plants/macs-nominal.toml";
 
@@ -137,8 +137,8 @@ TEST_F(ExtendedPlantFile, TheWeightOfAJointPullsTheEmulatedOne) {
   const ExtendedPlant extended = extend_plant(plant_.plant, d_);
   EXPECT_THAT(extended.left_out, testing::IsEmpty());
   std::ofstream(path) << extended.text;
-  SourceFiles sources;
-  const auto joint = load_plant(path, sources).parameters.axes[core::Axis::kY].plant;
+  harness::SourceFiles sources;
+  const auto joint = harness::load_plant(path, sources).parameters.axes[core::Axis::kY].plant;
   std::filesystem::remove(path);
   for (const double q : {-2.0, -0.4, 0.0, 0.7, 2.5}) {
     const emulator::AxisPlant at(joint, q, 1e-4);

@@ -11,7 +11,7 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness::diagnose;
+using namespace study::diagnose;
 
 constexpr double kSwingMass_kg = 8;
 constexpr double kPush_N = 0.4;

@@ -2,7 +2,7 @@
 
 namespace towbench::tests {
 
-using namespace harness::diagnose;
+using namespace study::diagnose;
 
 NominalModel nominal_of(const HiddenAxis& axis) {
   NominalModel m;
@@ -39,7 +39,7 @@ Diagnosis diagnose_hidden(const HiddenAxis& axis, std::uint64_t seed) {
   Request request;
   request.model = nominal_of(axis);
   request.runs = {run_of(axis, make_hidden_log(axis, seed))};
-  return harness::diagnose::diagnose(request);
+  return study::diagnose::diagnose(request);
 }
 
 std::vector<std::vector<std::string>> named(const Diagnosis& d) {

@@ -9,12 +9,12 @@
 
 namespace towbench::tests {
 
-[[nodiscard]] harness::diagnose::NominalModel nominal_of(const HiddenAxis& axis);
-[[nodiscard]] harness::diagnose::Run run_of(const HiddenAxis& axis, const HiddenLog& log);
-[[nodiscard]] harness::diagnose::Diagnosis diagnose_hidden(const HiddenAxis& axis,
-                                                           std::uint64_t seed);
+[[nodiscard]] study::diagnose::NominalModel nominal_of(const HiddenAxis& axis);
+[[nodiscard]] study::diagnose::Run run_of(const HiddenAxis& axis, const HiddenLog& log);
+[[nodiscard]] study::diagnose::Diagnosis diagnose_hidden(const HiddenAxis& axis,
+                                                         std::uint64_t seed);
 
 // Every name that the answer gives, one inner list a class.
-[[nodiscard]] std::vector<std::vector<std::string>> named(const harness::diagnose::Diagnosis& d);
+[[nodiscard]] std::vector<std::vector<std::string>> named(const study::diagnose::Diagnosis& d);
 
 }  // namespace towbench::tests

@@ -11,7 +11,7 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness::diagnose;
+using namespace study::diagnose;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -60,7 +60,7 @@ Diagnosis diagnosed(const Run& run, const NominalModel& stated) {
   Request request;
   request.runs = {run};
   request.model = stated;
-  return harness::diagnose::diagnose(request);
+  return study::diagnose::diagnose(request);
 }
 
 NominalModel answered_at_once(NominalModel model) {

@@ -8,7 +8,7 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness::diagnose;
+using namespace study::diagnose;
 
 constexpr double kTwoPi = 6.283185307179586;
 constexpr KnownForce kPush{.force_N = 5, .from_s = 8, .to_s = 20};

@@ -9,7 +9,7 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness::diagnose;
+using namespace study::diagnose;
 
 // x = A (1 - cos w t) / 2; each input is the force in the middle of its period.
 Run swinging_body() {
@@ -41,7 +41,7 @@ TEST(Momentum, HasTheFourParametersOfTheClosedForm) {
 }
 
 TEST(Momentum, ExplainsLessWhereTheInputIsLate) {
-  const harness::diagnose::Run run = swinging_body();
+  const study::diagnose::Run run = swinging_body();
   // A sine that is late is a sum of its speed and acceleration; dry friction is not.
   const double aligned = fit_momentum({run}, false, 0).explained;
   EXPECT_LT(1 - aligned, 0.5 * (1 - fit_momentum({run}, false, 0.2).explained));

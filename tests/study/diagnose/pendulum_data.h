@@ -22,14 +22,14 @@ namespace towbench::tests {
   return std::filesystem::exists(pendulum_folder() / "ddp.csv");
 }
 
-[[nodiscard]] inline harness::diagnose::Run pendulum_run(const std::string& file,
-                                                         harness::logs::Findings& findings) {
-  harness::logs::ColumnMap map;
+[[nodiscard]] inline study::diagnose::Run pendulum_run(const std::string& file,
+                                                       study::logs::Findings& findings) {
+  study::logs::ColumnMap map;
   map.position = "position_rad";
   map.input = "torque_Nm";
   map.rotary = true;
-  const auto table = harness::logs::read_table(pendulum_folder() / (file + ".csv"), findings);
-  return harness::diagnose::make_run(table, map, file, findings);
+  const auto table = study::logs::read_table(pendulum_folder() / (file + ".csv"), findings);
+  return study::diagnose::make_run(table, map, file, findings);
 }
 
 }  // namespace towbench::tests

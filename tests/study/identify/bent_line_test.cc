@@ -7,7 +7,7 @@
 
 #include "core/random.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 double tent(double x) {
@@ -67,4 +67,4 @@ TEST(BentLine, NeedsPointsInMoreThanOnePlace) {
 }
 
 }  // namespace
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 using core::Axis;
@@ -65,4 +65,4 @@ TEST(BreakAway, IsNotToldOfARampThatGaveUp) {
 }
 
 }  // namespace
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

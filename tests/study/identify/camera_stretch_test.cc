@@ -12,7 +12,7 @@
 #include "harness/fixtures/rig_fixture.h"
 #include "study/identify/elastic_error.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 using core::Axis;
@@ -25,10 +25,10 @@ struct Watched {
 
 // The thesis's circle on both axes, watched by a camera.
 Watched watched_circle(Axis axis, const emulator::CameraParameters& parameters) {
-  SourceFiles sources;
-  ExperimentFixture fixture;
-  fixture.rig = load_rig("fixtures/rigs/macs-nominal.toml", sources);
-  fixture.controller = load_controller("fixtures/controllers/bbmc-tuned.toml", sources);
+  harness::SourceFiles sources;
+  harness::ExperimentFixture fixture;
+  fixture.rig = harness::load_rig("fixtures/rigs/macs-nominal.toml", sources);
+  fixture.controller = harness::load_controller("fixtures/controllers/bbmc-tuned.toml", sources);
   fixture.experiment.name = "watched circle";
   fixture.experiment.duration_limit_s = 40;
   fixture.experiment.console = {{.send = "reset poscalib y 0.449092m", .expect = "ok"},
@@ -37,7 +37,7 @@ Watched watched_circle(Axis axis, const emulator::CameraParameters& parameters) 
                                  .expect = "done",
                                  .wait_idle = true,
                                  .timeout_s = 30}};
-  const auto record = run_case(fixture, fixture.rig.parameters, {}, {.seed = 1});
+  const auto record = harness::run_case(fixture, fixture.rig.parameters, {}, {.seed = 1});
   Watched watched;
   emulator::Camera camera(parameters, 1);
   for (const auto& row : record->truth) {
@@ -101,4 +101,4 @@ TEST(CameraStretch, HasAWiderIntervalWithACoarserCamera) {
 }
 
 }  // namespace
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

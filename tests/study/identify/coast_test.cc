@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 // Pushed at constant acceleration, then q = a + b t + c exp(-t/T) with a swing on top, in counts.
@@ -91,4 +91,4 @@ TEST(Coast, WithoutASpanThereIsNoTimeConstant) {
 }
 
 }  // namespace
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -8,7 +8,7 @@
 
 #include "emulator/sensors/camera.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 constexpr double kDelay_s = 0.083;
@@ -94,4 +94,4 @@ TEST(ElasticError, SaysWhereThereAreTooFewFrames) {
 }
 
 }  // namespace
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

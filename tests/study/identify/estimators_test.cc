@@ -11,7 +11,7 @@
 #include "study/identify/friction_law.h"
 #include "study/identify/long_run_covariance.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 TEST(DriveConstants, AreTheSlopesWhateverFrictionAndBiasAre) {
@@ -179,4 +179,4 @@ TEST(Estimate, SurvivesItsOwnJson) {
 }
 
 }  // namespace
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

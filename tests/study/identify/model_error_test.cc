@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 // y = c with what is left +-a in turns: |d| = sqrt(n) sqrt(a^2 - e^2), [J^T J]^-1 = 1/n.
@@ -48,4 +48,4 @@ TEST(ModelError, OfASlopeThroughAParabola) {
 }
 
 }  // namespace
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

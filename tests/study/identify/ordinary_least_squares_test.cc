@@ -5,7 +5,7 @@
 
 #include "tests/study/identify/simulated_pulses.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 // Y of Table 7.4 with its chain's mode at 9 Hz and friction that does not rise towards standstill.
@@ -37,4 +37,4 @@ TEST(OrdinaryLeastSquares, MissesTheCarriageWhereTheSwingIsLeftIn) {
 }
 
 }  // namespace
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

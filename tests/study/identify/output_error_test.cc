@@ -8,7 +8,7 @@
 
 #include "tests/study/identify/simulated_pulses.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 using core::Axis;
@@ -52,4 +52,4 @@ TEST(OutputError, TakesTheRotorInUnitsOfTheTorques) {
 }
 
 }  // namespace
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -7,7 +7,7 @@
 
 #include "core/random.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 FrictionLaw reference_law() {
@@ -78,4 +78,4 @@ TEST(PairedLaw, IsNotFoundInFewerThanSixSpeeds) {
 }
 
 }  // namespace
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 const TwoMassAxis kTable7_4{1.714e-5, 3.6e-6, 1.106e-5, 9, 0.06};  // Table 7.4, App. A
@@ -120,4 +120,4 @@ TEST(PolePlacement, SaysWhereNoLoopMeetsTheDemands) {
 }
 
 }  // namespace
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

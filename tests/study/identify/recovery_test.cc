@@ -13,20 +13,20 @@
 #include "study/procedures/identified_plant.h"
 #include "study/results/identification_set.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
-RigFixture instrumented_rig() {
-  SourceFiles sources;
-  return load_rig("fixtures/rigs/tow-dry.toml", sources);
+harness::RigFixture instrumented_rig() {
+  harness::SourceFiles sources;
+  return harness::load_rig("fixtures/rigs/tow-dry.toml", sources);
 }
 
-ControllerFixture tuned_controller() {
-  SourceFiles sources;
-  return load_controller("fixtures/controllers/bbmc-tuned.toml", sources);
+harness::ControllerFixture tuned_controller() {
+  harness::SourceFiles sources;
+  return harness::load_controller("fixtures/controllers/bbmc-tuned.toml", sources);
 }
 
-RigFixture drawn_rig(std::uint64_t machine) {
+harness::RigFixture drawn_rig(std::uint64_t machine) {
   return drawn_machine(instrumented_rig(), machine, 0.4);
 }
 
@@ -43,7 +43,7 @@ std::filesystem::path short_settings() {
   return folder;
 }
 
-ChainResult identified(const RigFixture& rig, core::Axis axis, std::uint64_t seed,
+ChainResult identified(const harness::RigFixture& rig, core::Axis axis, std::uint64_t seed,
                        std::vector<std::string> only) {
   const Machine machine(rig, tuned_controller(), seed);
   const auto folder = short_settings();
@@ -59,7 +59,7 @@ ChainResult identified(const RigFixture& rig, core::Axis axis, std::uint64_t see
   return result;
 }
 
-void expect_recovered(const RigFixture& rig, const ChainResult& result) {
+void expect_recovered(const harness::RigFixture& rig, const ChainResult& result) {
   for (const auto& step : result.steps) {
     EXPECT_EQ(step.outcome.status, ProcedureOutcome::Status::kDone)
         << step.id << ": " << step.outcome.reason;
@@ -119,7 +119,7 @@ TEST(Identification, WritesAPlantThatTheEmulatorLoads) {
   const Machine machine(rig, tuned_controller(), 1);
   const auto result = identified(rig, core::Axis::kX, 1, {"EXP-P-1", "EXP-P-3"});
   const auto text = identified_plant(machine, result.estimates);
-  const auto plant = read_plant(FixtureFile::parse(text, "identified.toml"));
+  const auto plant = harness::read_plant(harness::FixtureFile::parse(text, "identified.toml"));
   EXPECT_NEAR(plant.parameters.axes[core::Axis::kX].plant.torque_constant_Nm_per_A /
                   rig.parameters.axes[core::Axis::kX].plant.torque_constant_Nm_per_A,
               1, 0.01);
@@ -127,8 +127,8 @@ TEST(Identification, WritesAPlantThatTheEmulatorLoads) {
 }
 
 TEST(Identification, RefusesWithoutSensorsBeforeAnythingMoves) {
-  SourceFiles sources;
-  const auto bare = load_rig("fixtures/rigs/macs-nominal.toml", sources);
+  harness::SourceFiles sources;
+  const auto bare = harness::load_rig("fixtures/rigs/macs-nominal.toml", sources);
   const auto result = identified(bare, core::Axis::kX, 1, {"EXP-P-1"});
   ASSERT_EQ(result.steps.size(), 1U);
   EXPECT_EQ(result.steps[0].outcome.status, ProcedureOutcome::Status::kRefused);
@@ -184,4 +184,4 @@ TEST(Recovery, MissesACommandOutsideItsBracket) {
 }
 
 }  // namespace
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

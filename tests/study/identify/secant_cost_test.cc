@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 // NIST StRD, Misra1a: y = b1 (1 - exp(-b2 x)), 14 observations, first start.
@@ -93,4 +93,4 @@ TEST(SecantCost, TellsWhereTheSimulationRefuses) {
 }
 
 }  // namespace
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

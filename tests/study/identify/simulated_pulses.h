@@ -8,7 +8,7 @@
 #include "study/identify/output_error.h"
 #include "study/identify/recording.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 
 inline Recording simulated_pulses(const emulator::AxisParameters& axis) {
   constexpr std::array<double, 8> kDuties_pct{12, 0, -12, 0, -12, 0, 12, 0};
@@ -32,4 +32,4 @@ inline Recording simulated_pulses(const emulator::AxisParameters& axis) {
   return data;
 }
 
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

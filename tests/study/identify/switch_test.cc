@@ -6,7 +6,7 @@
 
 #include "study/identify/switch_edges.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 using core::Axis;
@@ -66,4 +66,4 @@ TEST(SwitchEdges, TakeTheDeclarationBack) {
 }
 
 }  // namespace
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

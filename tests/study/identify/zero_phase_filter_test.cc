@@ -8,7 +8,7 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness::identify;
+using namespace study::identify;
 
 Eigen::VectorXd wave(double hertz, double rate_Hz, Eigen::Index n) {
   const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(n, 0, static_cast<double>(n - 1) / rate_Hz);

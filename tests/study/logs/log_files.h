@@ -15,8 +15,8 @@ namespace towbench::tests {
 inline const std::filesystem::path kLogFiles = "tests/study/logs/data";
 
 // Null when nothing of that name was found.
-inline const harness::logs::Finding* named(const harness::logs::Findings& findings,
-                                           std::string_view name) {
+inline const study::logs::Finding* named(const study::logs::Findings& findings,
+                                         std::string_view name) {
   const auto at = std::find_if(findings.begin(), findings.end(),
                                [&](const auto& finding) { return finding.name == name; });
   return at == findings.end() ? nullptr : &*at;

@@ -11,7 +11,7 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness::logs;
+using namespace study::logs;
 using testing::ElementsAre;
 using testing::HasSubstr;
 

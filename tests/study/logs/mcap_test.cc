@@ -12,7 +12,7 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness::logs;
+using namespace study::logs;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 

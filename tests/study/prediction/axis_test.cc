@@ -8,7 +8,7 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness::diagnose;
+using namespace study::diagnose;
 using Eigen::Index;
 using Eigen::VectorXd;
 

@@ -12,7 +12,7 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness::diagnose;
+using namespace study::diagnose;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -145,8 +145,8 @@ TEST(Gain, OfPureChanceIsRarelyCertain) {
 
 TEST(Cut, MakesBlocksOfEightMemoriesThatHoldEverySampleOnce) {
   const Parameters truth = parameters_of(simple_model());
-  const std::vector<harness::diagnose::Run> runs{simulated_run(truth, 10, 0),
-                                                 simulated_run(truth, 7, 0)};
+  const std::vector<study::diagnose::Run> runs{simulated_run(truth, 10, 0),
+                                               simulated_run(truth, 7, 0)};
   const NominalModel stated = simple_model();
   const Data data = make_data(runs, stated);
   constexpr double kBand = 20;

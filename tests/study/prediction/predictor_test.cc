@@ -9,13 +9,13 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness::diagnose;
+using namespace study::diagnose;
 using Eigen::VectorXd;
 
 constexpr double kBandwidth = 30;  // rad/s
 
 VectorXd innovations_of_run(const Run& run, const Parameters& believed) {
-  const std::vector<harness::diagnose::Run> runs{run};
+  const std::vector<study::diagnose::Run> runs{run};
   const NominalModel stated = simple_model();
   return innovations(make_data(runs, stated), {believed, std::vector<OfRun>(1)}, kBandwidth);
 }
@@ -55,7 +55,7 @@ TEST(Innovations, ShowAMissingForceInNewtons) {
 
 TEST(Innovations, SayNothingBehindAGap) {
   const Parameters truth = parameters_of(simple_model());
-  harness::diagnose::Run run = simulated_run(truth, 3, 0);
+  study::diagnose::Run run = simulated_run(truth, 3, 0);
   run.missing[1500] = 1;
   run.position_m[1500] += 1;
   const VectorXd e = innovations_of_run(run, truth);
@@ -70,7 +70,7 @@ TEST(FitModel, FindsTheParametersThatMadeTheRun) {
   truth[Key::kViscous] *= 0.8;
   truth[Key::kCoulomb] *= 1.2;
   truth[Key::kBias] = 0.3;
-  const std::vector<harness::diagnose::Run> runs{simulated_run(truth, 20, kStep_m)};
+  const std::vector<study::diagnose::Run> runs{simulated_run(truth, 20, kStep_m)};
   const NominalModel stated = simple_model();
   const Data data = make_data(runs, stated);
   const Context context = make_context(stated, data);

@@ -10,8 +10,8 @@
 namespace towbench::tests {
 
 // Mass 8 kg, 5 N s/m, 2 N.
-[[nodiscard]] inline harness::diagnose::NominalModel simple_model() {
-  harness::diagnose::NominalModel m;
+[[nodiscard]] inline study::diagnose::NominalModel simple_model() {
+  study::diagnose::NominalModel m;
   m.mass_kg = 8;
   m.viscous_N_s_per_m = 5;
   m.coulomb_N = 2;
@@ -19,12 +19,12 @@ namespace towbench::tests {
 }
 
 // Two sines of force after a rest; `step_m` 0: an encoder without steps.
-[[nodiscard]] inline harness::diagnose::Run simulated_run(
-    const harness::diagnose::Parameters& truth, double duration_s, double step_m,
-    double period_s = 1e-3) {
+[[nodiscard]] inline study::diagnose::Run simulated_run(const study::diagnose::Parameters& truth,
+                                                        double duration_s, double step_m,
+                                                        double period_s = 1e-3) {
   constexpr double kTurns = 2 * std::numbers::pi;
   constexpr double kRest_s = 0.1;
-  harness::diagnose::Run run;
+  study::diagnose::Run run;
   run.name = "simulated";
   run.period_s = period_s;
   run.resolution_m = step_m;
@@ -36,9 +36,9 @@ namespace towbench::tests {
     const double t = period_s * static_cast<double>(k) - kRest_s;
     run.input_N[k] = t < 0 ? 0 : 10 * std::cos(kTurns * 0.7 * t) + 6 * std::cos(kTurns * 2.3 * t);
   }
-  const harness::diagnose::NominalModel stated = simple_model();
-  const harness::diagnose::Scene scene(run, stated);
-  harness::diagnose::Axis axis(truth, scene);
+  const study::diagnose::NominalModel stated = simple_model();
+  const study::diagnose::Scene scene(run, stated);
+  study::diagnose::Axis axis(truth, scene);
   axis.place(0.5 * step_m, 0);
   for (Eigen::Index k = 0; k < n; ++k) {
     const double x = axis.reading_m();

@@ -13,14 +13,14 @@
 namespace towbench::tests {
 namespace {
 
-using namespace harness::diagnose;
+using namespace study::diagnose;
 using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kCorrection = 50;  // rad/s: lags of ten samples
 
 struct Recorded {
-  std::vector<harness::diagnose::Run> runs{simulated_run(parameters_of(simple_model()), 30, 0)};
+  std::vector<study::diagnose::Run> runs{simulated_run(parameters_of(simple_model()), 30, 0)};
   NominalModel stated = simple_model();
   Data data = make_data(runs, stated);
 };

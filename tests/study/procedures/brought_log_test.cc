@@ -16,7 +16,7 @@
 #include "harness/run/experiment_run.h"
 #include "study/procedures/data_study.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 using core::Axis;
@@ -48,13 +48,13 @@ class BroughtLogTest : public testing::Test {
   std::string refusal(const std::filesystem::path& data, const std::filesystem::path& map = {}) {
     try {
       (void)read_brought_log(data, map, Axis::kY, nameplate());
-    } catch (const FixtureError& error) {
+    } catch (const harness::FixtureError& error) {
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
       return error.what();
     }
     return "read";
   }
-  TemporaryFolder folder_;
+  harness::TemporaryFolder folder_;
 };
 
 TEST_F(BroughtLogTest, ABenchLogNeedsNoMap) {
@@ -138,14 +138,16 @@ TEST_F(BroughtLogTest, WhatCannotBeUsedIsToldInOneLineThatNamesIt) {
 
 // What an emulator truly did lies beside what the bench logged. No estimate may rest on it.
 TEST(BroughtRun, ATamperedTruthChangesNoEstimate) {
-  const TemporaryFolder folder;
-  RunOptions options;
+  const harness::TemporaryFolder folder;
+  harness::RunOptions options;
   options.out = folder.path();
-  const auto run = run_experiment(load_experiment("fixtures/experiments/pulses.toml"), options);
+  const auto run = harness::run_experiment(
+      harness::load_experiment("fixtures/experiments/pulses.toml"), options);
   ASSERT_TRUE(run.complete) << run.reason;
-  SourceFiles sources;
-  const Machine machine(load_rig("fixtures/rigs/tow-dry.toml", sources),
-                        load_controller("fixtures/controllers/bbmc-tuned.toml", sources), 1);
+  harness::SourceFiles sources;
+  const Machine machine(harness::load_rig("fixtures/rigs/tow-dry.toml", sources),
+                        harness::load_controller("fixtures/controllers/bbmc-tuned.toml", sources),
+                        1);
   const auto estimates = [&] {
     const auto log = read_brought_log(run.folder, {}, Axis::kY, machine.nameplate(Axis::kY));
     const auto outcome = study_log({.machine = machine, .axis = Axis::kY}, log);
@@ -163,8 +165,8 @@ TEST(BroughtRun, ATamperedTruthChangesNoEstimate) {
   // The log, not a copy of it, was read.
   std::ofstream(run.folder / "log.csv") << "time_s,y_count,y_duty_pct\n";
   EXPECT_THROW((void)read_brought_log(run.folder, {}, Axis::kY, machine.nameplate(Axis::kY)),
-               FixtureError);
+               harness::FixtureError);
 }
 
 }  // namespace
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -7,7 +7,7 @@
 #include "study/recovery/recovery.h"
 #include "study/results/identification_set.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 using core::Axis;
@@ -15,14 +15,15 @@ using identify::Estimate;
 using identify::Estimates;
 
 struct Drawn {
-  RigFixture rig;
-  ControllerFixture controller;
+  harness::RigFixture rig;
+  harness::ControllerFixture controller;
 };
 
 Drawn drawn(std::uint64_t machine) {
-  SourceFiles sources;
-  return {.rig = drawn_machine(load_rig("fixtures/rigs/tow-dry.toml", sources), machine, 0.4),
-          .controller = load_controller("fixtures/controllers/bbmc-tuned.toml", sources)};
+  harness::SourceFiles sources;
+  return {
+      .rig = drawn_machine(harness::load_rig("fixtures/rigs/tow-dry.toml", sources), machine, 0.4),
+      .controller = harness::load_controller("fixtures/controllers/bbmc-tuned.toml", sources)};
 }
 
 Estimate within(const char* quantity, Axis axis, double value, double share) {
@@ -36,7 +37,7 @@ Estimate within(const char* quantity, Axis axis, double value, double share) {
 }
 
 // What EXP-P-1 finds.
-Estimates drive_of(const RigFixture& rig, Axis axis) {
+Estimates drive_of(const harness::RigFixture& rig, Axis axis) {
   const auto& plant = rig.parameters.axes[axis].plant;
   return {within("torque_constant_Nm_per_A", axis, plant.torque_constant_Nm_per_A, 3e-4),
           within("amplifier_gain_A_per_V", axis, plant.amplifier_gain_A_per_V, 3e-4),
@@ -45,7 +46,7 @@ Estimates drive_of(const RigFixture& rig, Axis axis) {
 }
 
 // What EXP-OL-2 finds.
-Estimates model_of(const RigFixture& rig, Axis axis) {
+Estimates model_of(const harness::RigFixture& rig, Axis axis) {
   const auto& plant = rig.parameters.axes[axis].plant;
   const auto& friction = plant.friction;
   auto all = drive_of(rig, axis);
@@ -197,7 +198,7 @@ TEST(Tuning, PolesPlacedOnADrawnMachinesModelDriveIt) {
 }
 
 // What goes before EXP-OL-2 finds of the axis; friction's map with its bend at `bend_m`.
-Estimates before_pulses(const RigFixture& rig, Axis axis, std::vector<double> places_m) {
+Estimates before_pulses(const harness::RigFixture& rig, Axis axis, std::vector<double> places_m) {
   const auto& plant = rig.parameters.axes[axis].plant;
   auto known = drive_of(rig, axis);
   known.push_back(within("swing_Hz", axis, 0.992 * plant.chain.resonance_Hz, 1e-2));
@@ -257,4 +258,4 @@ INSTANTIATE_TEST_SUITE_P(Each, PulsesOfDrawnMachines,
                          });
 
 }  // namespace
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 constexpr auto kAxis = core::Axis::kY;
@@ -50,4 +50,4 @@ TEST(DutyApart, IsTheDifferenceOfTheMotions) {
 }
 
 }  // namespace
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -10,7 +10,7 @@
 #include "study/results/foreign_machines.h"
 #include "tests/study/identify/simulated_pulses.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 using core::Axis;
@@ -87,4 +87,4 @@ INSTANTIATE_TEST_SUITE_P(Some, ForeignPulses, testing::Values("lorentz", "torque
                          [](const auto& tested) { return std::string(tested.param); });
 
 }  // namespace
-}  // namespace towbench::harness
+}  // namespace towbench::study

@@ -9,7 +9,7 @@
 #include "study/results/identification_set.h"
 #include "study/results/tracked_run.h"
 
-namespace towbench::harness::procedures {
+namespace towbench::study::procedures {
 namespace {
 
 using core::Axis;
@@ -17,14 +17,15 @@ using identify::Estimate;
 using identify::Estimates;
 
 struct Bench {
-  RigFixture rig;
-  ControllerFixture controller;
+  harness::RigFixture rig;
+  harness::ControllerFixture controller;
 };
 
 Bench bench_of(std::uint64_t machine) {
-  SourceFiles sources;
-  return {.rig = drawn_machine(load_rig("fixtures/rigs/tow-dry.toml", sources), machine, 0.4),
-          .controller = load_controller("fixtures/controllers/bbmc-tuned.toml", sources)};
+  harness::SourceFiles sources;
+  return {
+      .rig = drawn_machine(harness::load_rig("fixtures/rigs/tow-dry.toml", sources), machine, 0.4),
+      .controller = harness::load_controller("fixtures/controllers/bbmc-tuned.toml", sources)};
 }
 
 Estimate exactly(const char* quantity, Axis axis, double value) {
@@ -39,7 +40,7 @@ Estimate exactly(const char* quantity, Axis axis, double value) {
 }
 
 // As if everything had been found without an error.
-Estimates as_if_found(const RigFixture& rig) {
+Estimates as_if_found(const harness::RigFixture& rig) {
   Estimates all;
   for (const auto axis : core::kAxes) {
     const auto& plant = rig.parameters.axes[axis].plant;
@@ -101,7 +102,8 @@ TEST(IdentifiedController, KeepsWhatNothingWasFoundOf) {
   const auto made = set_up(bench, {exactly("torque_constant_Nm_per_A", Axis::kY, 0.03)});
   auto expected = bench.controller.configuration;
   expected.axes[Axis::kY].drive.torque_constant_Nm_per_A = 0.03;
-  EXPECT_EQ(controller_text(made.configuration, "a", {}), controller_text(expected, "a", {}));
+  EXPECT_EQ(harness::controller_text(made.configuration, "a", {}),
+            harness::controller_text(expected, "a", {}));
   EXPECT_EQ(made.sources.size(), 1U);
   EXPECT_TRUE(identified_controller(Machine(bench.rig, bench.controller, 1), {}).empty());
 }
@@ -110,9 +112,10 @@ TEST(IdentifiedController, IsAFixtureWithTheExperimentBesideEachValue) {
   const auto bench = bench_of(1);
   const auto text =
       identified_controller(Machine(bench.rig, bench.controller, 1), as_if_found(bench.rig));
-  const auto read = read_controller(FixtureFile::parse(text, "identified_controller.toml"));
-  EXPECT_EQ(controller_text(read.configuration, "a", {}),
-            controller_text(set_up(bench, as_if_found(bench.rig)).configuration, "a", {}));
+  const auto read =
+      harness::read_controller(harness::FixtureFile::parse(text, "identified_controller.toml"));
+  EXPECT_EQ(harness::controller_text(read.configuration, "a", {}),
+            harness::controller_text(set_up(bench, as_if_found(bench.rig)).configuration, "a", {}));
   EXPECT_GE(read.provenance.size(), 30U);
   for (const auto& each : read.provenance) {
     EXPECT_FALSE(each.source.empty()) << each.key;
@@ -136,4 +139,4 @@ TEST(IdentifiedController, HomesMachinesOnWhichItsFileIsOffOrTrips) {
 }
 
 }  // namespace
-}  // namespace towbench::harness::procedures
+}  // namespace towbench::study::procedures

@@ -27,7 +27,7 @@
 namespace {
 
 using namespace towbench::tests;
-using towbench::harness::diagnose::Diagnosis;
+using towbench::study::diagnose::Diagnosis;
 
 using Families = std::vector<std::vector<std::string>>;
 
@@ -74,9 +74,9 @@ std::string joined(const std::vector<std::string>& names) {
 
 // Why the effect was not named: what stopped it last, with its figures.
 std::string what_stopped(const Diagnosis& d, const std::string& effect) {
-  using namespace towbench::harness::diagnose;
+  using namespace towbench::study::diagnose;
   std::string out;
-  for (const towbench::harness::logs::Finding& finding : d.findings) {
+  for (const towbench::study::logs::Finding& finding : d.findings) {
     out += finding.name + ": " + finding.sentence + "; ";
   }
   for (const Refused& r : d.refused) {
@@ -220,11 +220,11 @@ double gain_elsewhere(const HiddenAxis& axis, std::uint64_t seed) {
   constexpr std::uint64_t kFarAway = 1'000'000;
   HiddenAxis same = axis;
   same.machine = seed;
-  towbench::harness::diagnose::Request request;
+  towbench::study::diagnose::Request request;
   request.model = nominal_of(axis);
   request.runs = {run_of(axis, make_hidden_log(axis, seed))};
   request.holdout = {run_of(same, make_hidden_log(same, seed + kFarAway))};
-  return towbench::harness::diagnose::diagnose(request).scored.gain99.value;
+  return towbench::study::diagnose::diagnose(request).scored.gain99.value;
 }
 
 void honest(const Seeds& seeds, double strength) {

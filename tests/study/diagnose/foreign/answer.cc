@@ -37,8 +37,8 @@ std::string Answer::words() const {
   return all.empty() ? "nothing" : all;
 }
 
-Answer answer_of(const harness::diagnose::Diagnosis& diagnosis) {
-  const Json json = Json::parse(harness::diagnose::diagnosis_json(diagnosis));
+Answer answer_of(const study::diagnose::Diagnosis& diagnosis) {
+  const Json json = Json::parse(study::diagnose::diagnosis_json(diagnosis));
   Answer answer;
   for (const Json& finding : json.at("findings")) {
     if (finding.at("fatal").get<bool>()) {

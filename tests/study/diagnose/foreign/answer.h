@@ -22,6 +22,6 @@ struct Answer {
   [[nodiscard]] std::string words() const;  // "stribeck~stiction coulomb"
 };
 
-[[nodiscard]] Answer answer_of(const harness::diagnose::Diagnosis& diagnosis);
+[[nodiscard]] Answer answer_of(const study::diagnose::Diagnosis& diagnosis);
 
 }  // namespace towbench::tests::foreign

@@ -141,8 +141,8 @@ DrawnCase draw_case(const Wish& wish, std::uint64_t seed) {
                            " on " + (wish.machine.empty() ? "any machine" : wish.machine));
 }
 
-harness::diagnose::Request request_of(const DrawnCase& one) {
-  harness::diagnose::Request request;
+study::diagnose::Request request_of(const DrawnCase& one) {
+  study::diagnose::Request request;
   request.model = nominal_model(one.machine);
   for (const Recording& run : one.runs) {
     (run.plan.held_out ? request.holdout : request.runs).push_back(run_of(one.machine, run));

@@ -41,6 +41,6 @@ struct DrawnCase {
 
 // Throws std::runtime_error where no draw of a great many is fit.
 [[nodiscard]] DrawnCase draw_case(const Wish& wish, std::uint64_t seed);
-[[nodiscard]] harness::diagnose::Request request_of(const DrawnCase& one);
+[[nodiscard]] study::diagnose::Request request_of(const DrawnCase& one);
 
 }  // namespace towbench::tests::foreign

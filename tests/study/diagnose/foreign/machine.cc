@@ -107,8 +107,8 @@ Machine draw_machine(const std::string& kind, Dice& dice) {
   return m;
 }
 
-harness::diagnose::NominalModel nominal_model(const Machine& machine) {
-  harness::diagnose::NominalModel model;
+study::diagnose::NominalModel nominal_model(const Machine& machine) {
+  study::diagnose::NominalModel model;
   model.mass_kg = machine.mass_kg;
   model.viscous_N_s_per_m = machine.viscous_N_s_per_m;
   model.coulomb_N = machine.coulomb_N;

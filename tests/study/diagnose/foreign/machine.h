@@ -57,6 +57,6 @@ inline constexpr double kNoiseHold_s = 0.5e-3;
 [[nodiscard]] const std::vector<std::string>& machine_kinds();
 [[nodiscard]] Machine draw_machine(const std::string& kind, Dice& dice);
 // The stated four and the drive. A joint's gravity is no part of it: see known_N of a run.
-[[nodiscard]] harness::diagnose::NominalModel nominal_model(const Machine& machine);
+[[nodiscard]] study::diagnose::NominalModel nominal_model(const Machine& machine);
 
 }  // namespace towbench::tests::foreign

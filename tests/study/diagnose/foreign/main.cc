@@ -53,7 +53,7 @@ Result run_case(const Options& options, std::uint64_t seed) {
     }
     if (!options.draw_only) {
       const auto start = std::chrono::steady_clock::now();
-      out.answer = answer_of(towbench::harness::diagnose::diagnose(out.posed.request));
+      out.answer = answer_of(towbench::study::diagnose::diagnose(out.posed.request));
       out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       out.judged = judge(out.posed.hidden, out.posed.is_outside, out.answer);
     }

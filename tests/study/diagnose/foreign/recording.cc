@@ -275,12 +275,12 @@ std::vector<Recording> record(const Machine& machine, const std::vector<Hidden>&
   return all;
 }
 
-harness::diagnose::Run run_of(const Machine& machine, const Recording& recording) {
+study::diagnose::Run run_of(const Machine& machine, const Recording& recording) {
   const auto vector = [](const std::vector<double>& from) {
     return Eigen::VectorXd(
         Eigen::Map<const Eigen::VectorXd>(from.data(), static_cast<Eigen::Index>(from.size())));
   };
-  harness::diagnose::Run run;
+  study::diagnose::Run run;
   run.name = recording.plan.motion;
   run.period_s = machine.period_s;
   run.position_m = vector(recording.position_m);

@@ -37,6 +37,6 @@ inline constexpr double kCoarsestStep_s = 40e-6;
                                             const std::vector<Hidden>& hidden, const Plan& plan,
                                             std::uint64_t seed, double step_s = kCoarsestStep_s);
 
-[[nodiscard]] harness::diagnose::Run run_of(const Machine& machine, const Recording& recording);
+[[nodiscard]] study::diagnose::Run run_of(const Machine& machine, const Recording& recording);
 
 }  // namespace towbench::tests::foreign

@@ -106,7 +106,7 @@ Posed pose_bench(const Wish& wish, std::uint64_t seed) {
   posed.machine = "macs";
   posed.plan = "trapezoids";
   if (!one.effect.empty()) posed.hidden.push_back(key_of(one.effect));
-  posed.request.model = harness::load_plant_model(kBenchPlant, "y").model;
+  posed.request.model = study::load_plant_model(kBenchPlant, "y").model;
   posed.request.runs = {bench_run(one)};
   return posed;
 }

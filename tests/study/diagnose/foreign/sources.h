@@ -22,7 +22,7 @@ struct Posed {
   double visible = 0;
   double share = 0;
   int redrawn = 0;
-  harness::diagnose::Request request;
+  study::diagnose::Request request;
 };
 
 // foreign, hidden_axis, bench. Throws std::runtime_error where it has no such case.

@@ -6,7 +6,7 @@
 #include "study/identify/tow/rigid_model.h"
 #include "tests/study/identify/tow/synthetic_tow.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 using core::Axis;
@@ -136,4 +136,4 @@ TEST(Intervals, CoverTheTruthAsOftenAsTheySayUnderColouredNoise) {
 }
 
 }  // namespace
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -13,7 +13,7 @@
 #include "study/identify/tow/spectral_line.h"
 #include "study/identify/tow/yaw_drag.h"
 
-namespace towbench::harness::identify {
+namespace towbench::study::identify {
 namespace {
 
 using core::Axis;
@@ -299,4 +299,4 @@ TEST(DriveScale, IsTheWeightOverTheChangeOfDuty) {
 }
 
 }  // namespace
-}  // namespace towbench::harness::identify
+}  // namespace towbench::study::identify

@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "study/identify/recording.h"
 
-namespace towbench::harness::identify::testing {
+namespace towbench::study::identify::testing {
 
 struct SyntheticTow {
   double speed_m_per_s = 0.3;
@@ -97,4 +97,4 @@ inline Recording synthetic_tow(const SyntheticTow& tow) {
   return run;
 }
 
-}  // namespace towbench::harness::identify::testing
+}  // namespace towbench::study::identify::testing

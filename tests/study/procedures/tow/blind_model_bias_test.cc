@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 using identify::TowStretch;
@@ -65,4 +65,4 @@ TEST(BlindModelBias, KnowsThatSlowTowsFeelStribeck) {
 }
 
 }  // namespace
-}  // namespace towbench::harness
+}  // namespace towbench::study

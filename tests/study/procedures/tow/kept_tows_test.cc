@@ -13,7 +13,7 @@
 #include "study/runs/recorded_runs.h"
 #include "tests/harness/fixtures/temporary_fixtures.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 using procedures::ProcedureOutcome;
@@ -28,9 +28,9 @@ distance_m = 1.2
 
 procedures::TowOutcome subtraction(const std::filesystem::path& settings,
                                    procedures::RunSource* source) {
-  SourceFiles sources;
-  const TowLoads loads(load_rig("fixtures/rigs/tow-dry.toml", sources),
-                       load_controller("fixtures/controllers/bbmc-tuned.toml", sources), 5,
+  harness::SourceFiles sources;
+  const TowLoads loads(harness::load_rig("fixtures/rigs/tow-dry.toml", sources),
+                       harness::load_controller("fixtures/controllers/bbmc-tuned.toml", sources), 5,
                        "fixtures/rigs", {}, source);
   return procedures::subtraction()->run({.loads = loads, .settings = settings});
 }
@@ -46,16 +46,16 @@ void expect_same(const procedures::TowOutcome& a, const procedures::TowOutcome& 
   }
 }
 
-RunResult play(const ExperimentFixture& fixture, const std::filesystem::path& below,
-               std::uint64_t seed) {
-  RunOptions options;
+harness::RunResult play(const harness::ExperimentFixture& fixture,
+                        const std::filesystem::path& below, std::uint64_t seed) {
+  harness::RunOptions options;
   options.out = below;
   options.seed = seed;
-  return run_experiment(fixture, options);
+  return harness::run_experiment(fixture, options);
 }
 
 TEST(KeptTows, GiveWhatTowsInMemoryGiveAndGiveItAgain) {
-  const TemporaryFixtures files;
+  const harness::TemporaryFixtures files;
   const auto settings = files.write("subtraction.toml", kSettings);
   const auto in_memory = subtraction(settings, nullptr);
 
@@ -78,11 +78,12 @@ TEST(KeptTows, GiveWhatTowsInMemoryGiveAndGiveItAgain) {
 }
 
 TEST(KeptTows, ATowThatWentWrongIsNoData) {
-  const TemporaryFixtures files;
+  const harness::TemporaryFixtures files;
   std::vector<ListedTow> made;
   KeptRuns kept(
       "subtraction", files.folder(),
-      [](const ExperimentFixture& given, const std::filesystem::path& below, std::uint64_t seed) {
+      [](const harness::ExperimentFixture& given, const std::filesystem::path& below,
+         std::uint64_t seed) {
         auto fixture = given;
         fixture.experiment.budgets.front().max = -1.0;
         return play(fixture, below, seed);
@@ -115,7 +116,8 @@ double place_at(double time_s) {
   return 0.45 + kSpeed_m_per_s * (there_s - back_s);
 }
 
-void write_logs(const TemporaryFixtures& files, const std::string& name, const Tank& tank) {
+void write_logs(const harness::TemporaryFixtures& files, const std::string& name,
+                const Tank& tank) {
   std::string log = "t_ms,pos_mm\n";
   for (int k = 0; k <= 15 * 200; ++k) {
     log += fmt::format("{},{:.6f}\n", 5 * k, 1e3 * place_at(0.005 * k));
@@ -172,12 +174,12 @@ class RecordedTows : public ::testing::Test {
   std::string refusal() {
     try {
       return "not refused: " + evaluated().reason;
-    } catch (const FixtureError& error) {
+    } catch (const harness::FixtureError& error) {
       return error.what();
     }
   }
 
-  TemporaryFixtures files_;
+  harness::TemporaryFixtures files_;
   std::filesystem::path settings_;
 };
 
@@ -218,4 +220,4 @@ TEST_F(RecordedTows, RefuseWhatCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace towbench::harness
+}  // namespace towbench::study

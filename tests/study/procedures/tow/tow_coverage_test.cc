@@ -6,7 +6,7 @@
 namespace towbench::tests {
 namespace {
 
-using harness::TowCoverage;
+using study::TowCoverage;
 using Verdict = TowCoverage::Verdict;
 
 TowCoverage of(std::size_t covered, std::size_t intervals) {

@@ -14,28 +14,28 @@
 #include "study/recovery/tow/tow_recovery.h"
 #include "study/results/tow_set.h"
 
-namespace towbench::harness {
+namespace towbench::study {
 namespace {
 
 using procedures::ProcedureOutcome;
 using procedures::TowLoads;
 using ::testing::HasSubstr;
 
-RigFixture nominal() {
-  SourceFiles sources;
-  return load_rig("fixtures/rigs/tow-dry.toml", sources);
+harness::RigFixture nominal() {
+  harness::SourceFiles sources;
+  return harness::load_rig("fixtures/rigs/tow-dry.toml", sources);
 }
 
-ControllerFixture controller() {
-  SourceFiles sources;
-  return load_controller("fixtures/controllers/bbmc-tuned.toml", sources);
+harness::ControllerFixture controller() {
+  harness::SourceFiles sources;
+  return harness::load_controller("fixtures/controllers/bbmc-tuned.toml", sources);
 }
 
-RigFixture machine(int number) {
+harness::RigFixture machine(int number) {
   return drawn_for_towing(nominal(), static_cast<std::uint64_t>(number));
 }
 
-void expect_recovered(const procedures::TowProcedure& procedure, const RigFixture& rig,
+void expect_recovered(const procedures::TowProcedure& procedure, const harness::RigFixture& rig,
                       std::uint64_t seed) {
   const TowLoads loads(rig, controller(), seed, "fixtures/rigs");
   const auto outcome = procedure.run({.loads = loads});
@@ -105,7 +105,7 @@ TEST(BlindPrediction, ReadsTooMuchFromTheNearEndAndTooLittleFromMidTank) {
   EXPECT_LT(value("mbdp_middle_drag_N_s2_per_m2"), 0.95 * truth);
 }
 
-std::string refusal(const procedures::TowProcedure& procedure, const RigFixture& rig) {
+std::string refusal(const procedures::TowProcedure& procedure, const harness::RigFixture& rig) {
   const TowLoads loads(rig, controller(), 1, "fixtures/rigs");
   const auto outcome = procedure.run({.loads = loads});
   EXPECT_EQ(outcome.status, ProcedureOutcome::Status::kRefused);
@@ -147,4 +147,4 @@ TEST(TowRefusals, NameTravelAndSteadyTimeThatAreMissing) {
 }
 
 }  // namespace
-}  // namespace towbench::harness
+}  // namespace towbench::study
