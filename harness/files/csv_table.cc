@@ -116,4 +116,12 @@ std::span<const double> CsvTable::column(std::string_view name) const {
   return values == nullptr ? std::span<const double>{} : *values;
 }
 
+std::span<const double> CsvTable::required(std::string_view name,
+                                           const std::filesystem::path& file) const {
+  if (!has(name)) {
+    throw CsvError(fmt::format("{}: no column {}", file.string(), name));
+  }
+  return column(name);
+}
+
 }  // namespace towbench::harness

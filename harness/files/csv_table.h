@@ -38,6 +38,9 @@ class CsvTable {
   [[nodiscard]] bool has(std::string_view column) const { return find(column) != nullptr; }
   // Empty when there is no such column.
   [[nodiscard]] std::span<const double> column(std::string_view name) const;
+  // Throws CsvError naming `file` when there is no such column.
+  [[nodiscard]] std::span<const double> required(std::string_view name,
+                                                 const std::filesystem::path& file) const;
   // nullptr when there is no such column.
   [[nodiscard]] const std::vector<double>* find(std::string_view name) const;
   // Whether the file ended inside a row.

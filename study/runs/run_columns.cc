@@ -24,14 +24,6 @@ std::vector<double> as_floats(std::span<const double> values) {
   return floats;
 }
 
-std::span<const double> column_of(const harness::CsvTable& table, const std::filesystem::path& file,
-                                  const std::string& name) {
-  if (!table.has(name)) {
-    throw harness::CsvError(fmt::format("{}: no column {}", file.string(), name));
-  }
-  return table.column(name);
-}
-
 template <typename T>
 std::vector<T> whole_numbers(std::span<const double> values) {
   std::vector<T> numbers;
@@ -45,7 +37,7 @@ std::vector<T> whole_numbers(std::span<const double> values) {
 void read_axis(const harness::CsvTable& log, const std::filesystem::path& file, core::Axis which,
                identify::AxisRecording& axis) {
   const auto column = [&](const char* name) {
-    return column_of(log, file, fmt::format("{}_{}", core::name_of(which), name));
+    return log.required(fmt::format("{}_{}", core::name_of(which), name), file);
   };
   const auto copy = [&](const char* name) {
     const auto values = column(name);
@@ -66,7 +58,7 @@ std::vector<double> sensor_at(const std::filesystem::path& file, const std::stri
     return {};
   }
   const auto table = harness::CsvTable::load(file);
-  return held(column_of(table, file, "time_s"), as_floats(column_of(table, file, name)), at_s);
+  return held(table.required("time_s", file), as_floats(table.required(name, file)), at_s);
 }
 
 std::string latched(std::span<const double> faults) {
@@ -99,7 +91,7 @@ identify::Recording read_run_columns(const std::filesystem::path& folder) {
   const auto file = folder / "log.csv";
   const auto log = harness::CsvTable::load(file);
   identify::Recording recording;
-  const auto time_s = column_of(log, file, "time_s");
+  const auto time_s = log.required("time_s", file);
   for (const double time : time_s) {
     recording.time_s.push_back(core::seconds(core::nanoseconds(time)));  // as in memory, to the bit
   }
@@ -111,7 +103,7 @@ identify::Recording read_run_columns(const std::filesystem::path& folder) {
     recording.force_N[axis] =
         sensor_at(folder / harness::kForceFile, "force_" + name + "_N", time_s);
   }
-  recording.trouble = latched(column_of(log, file, "fault"));
+  recording.trouble = latched(log.required("fault", file));
   procedures::drop_other_frames(recording);
   return recording;
 }

@@ -1,5 +1,6 @@
 #include "study/runs/watched_run.h"
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -12,25 +13,20 @@
 namespace towbench::study {
 namespace {
 
-std::vector<double> copied(const harness::CsvTable& table, std::string_view file,
-                           const std::string& name) {
-  if (!table.has(name)) {
-    throw harness::CsvError(fmt::format("{}: no column {}", file, name));
-  }
-  const auto column = table.column(name);
+std::vector<double> copied(std::span<const double> column) {
   return {column.begin(), column.end()};
 }
 
 identify::ElasticInput input_of(const harness::CsvTable& log, const harness::CsvTable& camera,
                                 core::Axis axis) {
   const auto of_axis = [&](const char* name) {
-    return copied(log, "log.csv", fmt::format("{}_{}", core::name_of(axis), name));
+    return copied(log.required(fmt::format("{}_{}", core::name_of(axis), name), "log.csv"));
   };
-  return {.time_s = copied(log, "log.csv", "time_s"),
+  return {.time_s = copied(log.required("time_s", "log.csv")),
           .motor_m = of_axis("position_m"),
           .speed_m_per_s = of_axis("reference_velocity_m_per_s"),
-          .frame_s = copied(camera, harness::kCameraFile, "time_s"),
-          .seen_m = copied(camera, harness::kCameraFile, harness::camera_column(axis))};
+          .frame_s = copied(camera.required("time_s", harness::kCameraFile)),
+          .seen_m = copied(camera.required(harness::camera_column(axis), harness::kCameraFile))};
 }
 
 void refuse_unwatched(const std::filesystem::path& folder) {
