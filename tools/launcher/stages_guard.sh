@@ -54,7 +54,7 @@ protected_by() {
 }
 
 slowest_tests() {
-  sed -nE 's/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+).* (Passed|\*\*\*Failed) +([0-9.]+) sec.*/\3 \1/p' \
+  sed -nE 's/^ *[0-9]+\/[0-9]+ Test +# *[0-9]+: ([^ ]+).* (Passed|\*\*\*Failed) +([0-9.]+) sec.*/\3 \1/p' \
     "$build/$1.ctest.log" | sort -rn | sed -n 1,50p
 }
 
