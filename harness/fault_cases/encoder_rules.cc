@@ -46,6 +46,22 @@ bool is_allowed(const CaseEvidence& evidence, const Fault& fault) {
              kClearly * static_cast<double>(settings.illegal_transitions_max);
 }
 
+// A step that no drive can make. A smaller one cannot be told from motion: the index slips with the
+// disc.
+bool is_no_drives_doing(const CaseEvidence& evidence, const Fault& jump) {
+  const Axis axis = jump.place.axis;
+  // The rotor alone, from rest, with the amplifier's peak current: it moves 0.5 a t^2 in an
+  // exchange.
+  constexpr double kTimes = 10;
+  const auto& plant = evidence.prepared.built.axes[axis].plant;
+  const double exchange_s = core::seconds(evidence.run.outcome.exchange_ns);
+  const double possible_rad = 0.5 * plant.torque_constant_Nm_per_A * plant.current_limit_A /
+                              plant.rotor_inertia_kg_m2 * exchange_s * exchange_s;
+  const double step_rad = std::fabs(jump.parameters[0]) *
+                          evidence.fixture.controller.configuration.axes[axis].rad_per_count();
+  return step_rad >= kTimes * possible_rad;
+}
+
 // A stretch in which an axis is asked for more than 1.5 times its worst break-away, one way.
 struct Push {
   Nanoseconds from_ns = 0;
@@ -99,7 +115,8 @@ MaybeCheck encoder_fault_is_found(const CaseEvidence& evidence) {
   constexpr double kFarthest_m = 5e-3;
   const Fault* fault = fault_of(evidence, FaultPart::kEncoder);
   if (fault == nullptr || !must_be_found(*fault) || fault->kind == kIndexMissing ||
-      is_allowed(evidence, *fault)) {
+      is_allowed(evidence, *fault) ||
+      (fault->kind == kJump && !is_no_drives_doing(evidence, *fault))) {
     return std::nullopt;
   }
   const auto& run = evidence.run;
@@ -136,26 +153,14 @@ MaybeCheck encoder_jump_is_found(const CaseEvidence& evidence) {
       "encoder: a step that no drive can make is a fault within 50 ms while driven";
   constexpr Nanoseconds kLongest_ns = 50 * core::kNanosecondsPerMillisecond;
   const Fault* fault = fault_of(evidence, FaultPart::kEncoder);
-  if (fault == nullptr || fault->kind != kJump) {
+  if (fault == nullptr || fault->kind != kJump || !is_no_drives_doing(evidence, *fault)) {
     return std::nullopt;
   }
-  const auto& run = evidence.run;
-  const Axis axis = fault->place.axis;
   const auto cause_ns = cause_of(evidence, *fault);
-  // The rotor alone, from rest, with the amplifier's peak current: it moves 0.5 a t^2 in an
-  // exchange. Ten times that is no drive's doing.
-  constexpr double kNoDrivesDoing = 10;
-  const auto& plant = evidence.prepared.built.axes[axis].plant;
-  const double exchange_s = core::seconds(run.outcome.exchange_ns);
-  const double possible_rad = 0.5 * plant.torque_constant_Nm_per_A * plant.current_limit_A /
-                              plant.rotor_inertia_kg_m2 * exchange_s * exchange_s;
-  const double step_rad = std::fabs(fault->parameters[0]) *
-                          evidence.fixture.controller.configuration.axes[axis].rad_per_count();
-  const bool driven = is_driven_mode(mode_at(run, axis, cause_ns - 1));
-  if (!driven || step_rad < kNoDrivesDoing * possible_rad) {
+  if (!is_driven_mode(mode_at(evidence.run, fault->place.axis, cause_ns - 1))) {
     return std::nullopt;
   }
-  if (latched_ns(run) > cause_ns + kLongest_ns) {
+  if (latched_ns(evidence.run) > cause_ns + kLongest_ns) {
     return failed(kName, kMeaning,
                   fmt::format("{:.0f} counts at {:.4f} s, nothing latched 50 ms later",
                               fault->parameters[0], core::seconds(cause_ns)));
