@@ -31,6 +31,7 @@ make_bare_debian() {
   # Links, so that nothing is copied and no other folder's package is lost.
   if [[ -d ${archives:-} ]]; then
     find "$archives" -maxdepth 1 -name '*.deb' -exec cp -lt "$bare/var/cache/apt/archives" {} + 2>/dev/null || true
+    echo force-unsafe-io >"$bare/etc/dpkg/dpkg.cfg.d/unsafe-io" # thrown away with the folder: nothing needs to reach the disk
   fi
   # How this host reaches its mirror (proxy, certificates, sources) is the bare machine's way too.
   cp -r /etc/apt/. "$bare/etc/apt/"
