@@ -67,29 +67,34 @@ class Search {
 
   void optimise() {
     nlopt::srand(static_cast<unsigned long>(settings_.seed));
-    const auto starts = best_samples();
-    std::size_t next = 0;
+    found_.begun = settings_.begun;
     while (!over()) {
       const auto before = found_.trials.size();
-      const auto& start = starts[next++ % starts.size()];
-      run_optimiser(start, next <= starts.size() ? kFirstStep : kFirstStep / 8);
+      if (const auto* start = best_sample()) {
+        found_.begun.push_back(start->point);
+        run_optimiser(start->point, kFirstStep, kRunsOfAStart);
+      } else {
+        const auto centre = BoxPoint(settings_.variables, 0.5);
+        run_optimiser(found_.best ? found_.trials[*found_.best].point : centre, kFirstStep / 8,
+                      settings_.runs);
+      }
       if (found_.trials.size() == before) {
         return;  // it has nothing to try
       }
     }
   }
 
-  void run_optimiser(BoxPoint point, double step) {
+  void run_optimiser(BoxPoint point, double step, std::size_t most_runs) {
     nlopt::opt optimiser(algorithm(), static_cast<unsigned>(settings_.variables));
     optimiser.set_lower_bounds(0.0);
     optimiser.set_upper_bounds(1.0);
     optimiser.set_xtol_abs(kTolerance);
     optimiser.set_min_objective(&Search::evaluate, this);
-    if (settings_.optimiser == Optimiser::kSubplex) {
+    const bool is_local = settings_.optimiser == Optimiser::kSubplex;
+    if (is_local) {
       optimiser.set_initial_step(step);
-    } else {
-      optimiser.set_maxeval(static_cast<int>(settings_.runs));
     }
+    optimiser.set_maxeval(static_cast<int>(is_local ? most_runs : settings_.runs));
     double value = 0;
     try {
       optimiser.optimize(point, value);
@@ -114,31 +119,20 @@ class Search {
     }
   }
 
-  // The best samples, none close to a better one.
-  [[nodiscard]] std::vector<BoxPoint> best_samples() const {
-    std::vector<const BoxTrial*> defined;
+  // The best sample that is not close to where the optimiser has begun; none: there is no other.
+  [[nodiscard]] const BoxTrial* best_sample() const {
+    const BoxTrial* best = nullptr;
     for (const auto* trials : {&settings_.known, &found_.trials}) {
       for (const auto& trial : *trials) {
-        if (trial.value) {
-          defined.push_back(&trial);
+        const bool better = trial.uniform && trial.value && (!best || *trial.value < *best->value);
+        if (better && std::all_of(found_.begun.begin(), found_.begun.end(), [&](const auto& begun) {
+              return distance(begun, trial.point) > kApart;
+            })) {
+          best = &trial;
         }
       }
     }
-    std::stable_sort(defined.begin(), defined.end(),
-                     [](const BoxTrial* a, const BoxTrial* b) { return *a->value < *b->value; });
-    std::vector<BoxPoint> starts;
-    for (const auto* trial : defined) {
-      const bool apart = std::all_of(starts.begin(), starts.end(), [&](const BoxPoint& other) {
-        return distance(other, trial->point) > kApart;
-      });
-      if (apart && starts.size() < kMostStarts) {
-        starts.push_back(trial->point);
-      }
-    }
-    if (starts.empty()) {
-      starts.emplace_back(settings_.variables, 0.5);
-    }
-    return starts;
+    return best;
   }
 
   static double distance(const BoxPoint& a, const BoxPoint& b) {
@@ -150,9 +144,9 @@ class Search {
   }
 
   static constexpr double kFirstStep = 0.05;
-  static constexpr double kTolerance = 1e-5;
+  static constexpr double kTolerance = 1e-4;
   static constexpr double kApart = 0.05;
-  static constexpr std::size_t kMostStarts = 5;
+  static constexpr std::size_t kRunsOfAStart = 40;
 
   const BoxSearchSettings& settings_;
   const std::function<std::optional<double>(const BoxTrial&)>& measure_;

@@ -20,7 +20,7 @@ using BoxPoint = std::vector<double>;  // each 0 .. 1
 
 enum class Optimiser : std::uint8_t {
   kUniform,  // nothing but samples
-  kSubplex,  // from the best samples, one after the other (Rowan 1990; NLopt LN_SBPLX)
+  kSubplex,  // from the best samples, some runs each (Rowan 1990; NLopt LN_SBPLX)
   kCrs,      // controlled random search (Kaelo and Ali 2006; NLopt GN_CRS2_LM)
   kDirect,   // dividing rectangles (Gablonsky and Kelley 2001; NLopt GN_DIRECT_L)
   kEsch,     // evolutionary (da Silva Santos 2010; NLopt GN_ESCH)
@@ -42,11 +42,13 @@ struct BoxSearchSettings {
   double uniform_share = 0.5;          // of the runs; not of kUniform
   std::optional<double> stop_below{};  // the search is over at a smaller value
   std::vector<BoxTrial> known{};       // made before: the optimiser begins at the best of them too
+  std::vector<BoxPoint> begun{};       // where it has begun before, and begins no more
 };
 
 struct BoxSearchResult {
   std::vector<BoxTrial> trials{};     // in the order in which they were made
   std::optional<std::size_t> best{};  // of the smallest value, the first
+  std::vector<BoxPoint> begun{};      // where the optimiser began
 };
 
 [[nodiscard]] BoxPoint uniform_point(core::Random& random, std::size_t variables);

@@ -107,7 +107,8 @@ FalsifySession::FalsifySession(FalsifySettings settings, std::vector<SearchSpace
     : settings_(std::move(settings)),
       spaces_(std::move(spaces)),
       file_(file),
-      known_(lines_of(file, settings_.fingerprint)) {}
+      known_(lines_of(file, settings_.fingerprint)),
+      begun_(spaces_.size()) {}
 
 const FalsifyTrial* FalsifySession::worst() const noexcept {
   return worst_ ? &trials_[*worst_] : nullptr;
@@ -165,10 +166,9 @@ std::vector<std::size_t> FalsifySession::nearest(std::size_t from_trial) const {
   return order;
 }
 
-std::vector<BoxTrial> FalsifySession::samples_of(std::size_t space, std::size_t from_trial) const {
+std::vector<BoxTrial> FalsifySession::samples_of(std::size_t space) const {
   std::vector<BoxTrial> samples;
-  for (auto i = from_trial; i < trials_.size(); ++i) {
-    const auto& trial = trials_[i];
+  for (const auto& trial : trials_) {
     if (trial.space == space && trial.uniform) {
       samples.push_back({.point = trial.point, .value = value_of(trial), .uniform = true});
     }
@@ -195,14 +195,17 @@ void FalsifySession::search(std::uint64_t round, const Measure& measure) {
     if (trials_.size() >= last || over()) {
       break;
     }
-    (void)search_box({.variables = spaces_[space].faults.variables().size(),
-                      .runs = std::min(runs_of_one, last - trials_.size()),
-                      .seed = seed + space,
-                      .optimiser = settings_.optimiser,
-                      .uniform_share = 0,
-                      .stop_below = settings_.until_broken ? std::optional(0.0) : std::nullopt,
-                      .known = samples_of(space, first)},
-                     [&](const BoxTrial& asked) { return measure(space, asked); });
+    auto found =
+        search_box({.variables = spaces_[space].faults.variables().size(),
+                    .runs = std::min(runs_of_one, last - trials_.size()),
+                    .seed = seed + space,
+                    .optimiser = settings_.optimiser,
+                    .uniform_share = 0,
+                    .stop_below = settings_.until_broken ? std::optional(0.0) : std::nullopt,
+                    .known = samples_of(space),
+                    .begun = std::move(begun_[space])},
+                   [&](const BoxTrial& asked) { return measure(space, asked); });
+    begun_[space] = std::move(found.begun);
   }
 }
 

@@ -3,7 +3,7 @@
 //
 // In rounds: half of a round's runs are uniform samples, one of each space in turn, in an order
 // that is drawn and comes to every fault soon; the others go to the spaces with the smallest
-// margins, where the optimiser begins at the samples of the round.
+// margins, where the optimiser begins at the best samples at which it has not begun yet.
 #pragma once
 
 #include <atomic>
@@ -63,7 +63,7 @@ class FalsifySession {
   [[nodiscard]] bool over() const noexcept;
   void search(std::uint64_t round, const Measure& measure);
   [[nodiscard]] std::vector<std::size_t> nearest(std::size_t from_trial) const;
-  [[nodiscard]] std::vector<BoxTrial> samples_of(std::size_t space, std::size_t from_trial) const;
+  [[nodiscard]] std::vector<BoxTrial> samples_of(std::size_t space) const;
   FalsifyTrial measured(std::size_t space, const BoxTrial& trial, Objective& objective);
   void take(FalsifyTrial trial);
 
@@ -73,6 +73,7 @@ class FalsifySession {
   std::vector<std::string> known_;  // lines of the file, in order
   std::vector<FalsifyTrial> trials_;
   std::optional<std::size_t> worst_{};
+  std::vector<std::vector<BoxPoint>> begun_;  // of each space: where the optimiser has begun
 };
 
 }  // namespace towbench::harness
