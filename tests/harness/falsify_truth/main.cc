@@ -22,14 +22,20 @@
 
 #include <fmt/format.h>
 
+#include "core/random.h"
+#include "core/time.h"
+#include "harness/campaign/campaign.h"
 #include "harness/falsify/box_search.h"
 #include "harness/falsify/objective.h"
+#include "harness/fault_cases/motion_phases.h"
+#include "harness/fault_plan/fault_syntax.h"
 #include "harness/fault_plan/fault_text.h"
 #include "harness/record/line_writer.h"
 #include "harness/requirements/run_signals.h"
 
 namespace {
 
+using namespace towbench;
 using namespace towbench::harness;
 
 struct Pair {
@@ -53,7 +59,8 @@ constexpr Pair kPairs[] = {
      "always: |x_error| < 2 mm"}};
 constexpr std::size_t kSizes = 3;
 constexpr std::size_t kSeeds = 100;
-constexpr double kShare = 0.02;  // of the runs of a sweep in steps of kFine_s
+constexpr std::size_t kSnapshots = 64;  // of the fault-free run: half the time of a sweep
+constexpr double kShare = 0.02;         // of the runs of a sweep in steps of kFine_s
 constexpr double kFine_s = 1e-3;
 constexpr double kNear_s = 2e-3;
 constexpr double kNearMargin = 0.02;
@@ -88,7 +95,7 @@ std::unique_ptr<Objective> objective_of(const Pair& pair) {
   Requirement requirement{.id = "R", .text = pair.formula};
   std::vector<std::string> windows;
   requirement.parsed = *parse_formula(pair.formula, run_vocabulary(windows));
-  return in_process_objective(fixture, {requirement}, 0);
+  return in_process_objective(fixture, {requirement}, kSnapshots);
 }
 
 std::size_t runs_of(const Objective& objective, double step_s) {
@@ -174,6 +181,49 @@ std::size_t seeds_that_find(const Truth& truth, Optimiser optimiser, std::size_t
   return found;
 }
 
+// How a campaign lists: a drawn moment in each phase of the motion, here at each size.
+struct PhaseList {
+  std::vector<std::vector<PhaseSpan>> phases{};
+
+  explicit PhaseList(const Pair& pair) {
+    auto motion = load_motion("fixtures/" + std::string(pair.motion) + ".toml", {});
+    run_reference(motion, {});
+    const auto fault =
+        parse_fault(fmt::format(fmt::runtime(pair.fault), pair.smallest) + " at_s=0");
+    const auto spans = phases_of(motion.record(), trigger_axis(fault, motion.record()));
+    for (const auto phase : kPhaseNames) {
+      std::vector<PhaseSpan> fitting;
+      std::copy_if(spans.begin(), spans.end(), std::back_inserter(fitting),
+                   [&](const PhaseSpan& span) { return span.phase == phase; });
+      if (!fitting.empty()) {
+        phases.push_back(std::move(fitting));
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t runs() const noexcept { return kSizes * phases.size(); }
+
+  [[nodiscard]] std::size_t seeds_that_find(const Truth& truth, double step_s) const {
+    std::size_t found = 0;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      core::Random random(seed);
+      bool hit = false;
+      for (const auto& spans : phases) {
+        const auto& span = spans[random.bits() % spans.size()];
+        const double moment_s = core::seconds(span.from_ns) +
+                                random.uniform() * core::seconds(span.to_ns - span.from_ns);
+        const auto onset = std::min(truth.onsets - 1, static_cast<std::size_t>(moment_s / step_s));
+        for (std::size_t size = 0; size < kSizes; ++size) {
+          const auto at = onset * kSizes + size;
+          hit = hit || (truth.margins[at] && is_found(truth, at, step_s));
+        }
+      }
+      found += hit ? 1U : 0U;
+    }
+    return found;
+  }
+};
+
 constexpr Optimiser kAll[] = {Optimiser::kUniform, Optimiser::kSubplex, Optimiser::kCrs,
                               Optimiser::kDirect, Optimiser::kEsch};
 
@@ -184,14 +234,18 @@ std::string page_head(double step_s) {
       "with "
       "{} sizes, so that the worst case is known. The searches have as many runs as {:.0f} % of a "
       "sweep in steps of 1 ms, over {} seeds, in that table. Found: within {:.0f} ms of the worst "
-      "onset at its size, or a margin within {:.0f} % of its.\n\n| motion | fault | sizes | asked "
+      "onset at its size, or a margin within {:.0f} % of its. List: a drawn moment in each phase "
+      "of "
+      "the motion, as a campaign takes it, at each size.\n\n| motion | fault | sizes | asked "
       "| "
-      "onsets and sizes | took effect | worst onset | size | its margin | runs |",
+      "onsets and sizes | took effect | worst onset | size | its margin | list: runs | found | "
+      "search: runs |",
       step_s * 1e3, kSizes, 100 * kShare, kSeeds, kNear_s * 1e3, 100 * kNearMargin);
-  std::string rule = "\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |";
+  std::string rule =
+      "\n| --- | --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |";
   for (const auto optimiser : kAll) {
     text += fmt::format(" {} |", kOptimiserNames[static_cast<std::size_t>(optimiser)]);
-    rule += " --- |";
+    rule += " ---: |";
   }
   return text + rule + '\n';
 }
@@ -199,11 +253,13 @@ std::string page_head(double step_s) {
 std::string row_of(const Pair& pair, const Truth& truth, double step_s) {
   const auto runs = static_cast<std::size_t>(
       std::ceil(kShare * static_cast<double>(truth.margins.size()) * step_s / kFine_s));
-  auto row = fmt::format("| {} | `{}` | {} to {} | `{}` | {} | {} | {:.3f} s | {} | {:.4g} | {} |",
-                         pair.motion, fmt::format(fmt::runtime(pair.fault), "N"), pair.smallest,
-                         pair.largest, masked(pair.formula), truth.margins.size(), truth.fired,
-                         static_cast<double>(*truth.worst / kSizes) * step_s,
-                         size_of(pair, *truth.worst % kSizes), *truth.margins[*truth.worst], runs);
+  const PhaseList list(pair);
+  auto row = fmt::format(
+      "| {} | `{}` | {} to {} | `{}` | {} | {} | {:.3f} s | {} | {:.4g} | {} | {} | {} |",
+      pair.motion, fmt::format(fmt::runtime(pair.fault), "N"), pair.smallest, pair.largest,
+      masked(pair.formula), truth.margins.size(), truth.fired,
+      static_cast<double>(*truth.worst / kSizes) * step_s, size_of(pair, *truth.worst % kSizes),
+      *truth.margins[*truth.worst], list.runs(), list.seeds_that_find(truth, step_s), runs);
   for (const auto optimiser : kAll) {
     row += fmt::format(" {} |", seeds_that_find(truth, optimiser, runs, step_s));
   }
