@@ -22,12 +22,6 @@ std::uint64_t hash_of(const std::string& text) {
   return hash.value();
 }
 
-double moment_of(const std::vector<PhaseSpan>& fitting, core::Random& random) {
-  const auto& span = fitting[random.bits() % fitting.size()];
-  const auto length_ns = static_cast<double>(span.to_ns - span.from_ns);
-  return core::seconds(span.from_ns + static_cast<core::Nanoseconds>(random.uniform() * length_ns));
-}
-
 std::string name_of_entry(const CampaignEntry& entry) {
   return fmt::format("[[inject]] {} {} phases \"{}\"", fmt::join(entry.parts, ","),
                      fmt::join(entry.kinds, ","), fmt::join(entry.phases, ","));
@@ -163,10 +157,10 @@ class CaseList {
       for (std::uint64_t seed = 1; seed <= seeds(entry); ++seed) {
         core::Random random(hash_of(
             fmt::format("{}/{}/{}/{}/{}", motion.plain.experiment.name, part, kind, phase, seed)));
-        const double at_s = moment_of(fitting, random);
+        const double at_s = moment_in(fitting, random);
         std::vector<double> further_s(kFurtherMoments);
         std::generate(further_s.begin(), further_s.end(),
-                      [&] { return moment_of(fitting, random); });
+                      [&] { return moment_in(fitting, random); });
         add(entry, motion, part, kind, phase, fmt::format("at_s={}", at_s), seed, further_s);
       }
     }

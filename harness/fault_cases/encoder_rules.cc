@@ -48,7 +48,7 @@ bool is_allowed(const CaseEvidence& evidence, const Fault& fault) {
 
 // A step that no drive can make. A smaller one cannot be told from motion: the index slips with the
 // disc.
-bool is_no_drives_doing(const CaseEvidence& evidence, const Fault& jump) {
+bool is_beyond_the_drive(const CaseEvidence& evidence, const Fault& jump) {
   const Axis axis = jump.place.axis;
   // The rotor alone, from rest, with the amplifier's peak current: it moves 0.5 a t^2 in an
   // exchange.
@@ -116,7 +116,7 @@ MaybeCheck encoder_fault_is_found(const CaseEvidence& evidence) {
   const Fault* fault = fault_of(evidence, FaultPart::kEncoder);
   if (fault == nullptr || !must_be_found(*fault) || fault->kind == kIndexMissing ||
       is_allowed(evidence, *fault) ||
-      (fault->kind == kJump && !is_no_drives_doing(evidence, *fault))) {
+      (fault->kind == kJump && !is_beyond_the_drive(evidence, *fault))) {
     return std::nullopt;
   }
   const auto& run = evidence.run;
@@ -153,7 +153,7 @@ MaybeCheck encoder_jump_is_found(const CaseEvidence& evidence) {
       "encoder: a step that no drive can make is a fault within 50 ms while driven";
   constexpr Nanoseconds kLongest_ns = 50 * core::kNanosecondsPerMillisecond;
   const Fault* fault = fault_of(evidence, FaultPart::kEncoder);
-  if (fault == nullptr || fault->kind != kJump || !is_no_drives_doing(evidence, *fault)) {
+  if (fault == nullptr || fault->kind != kJump || !is_beyond_the_drive(evidence, *fault)) {
     return std::nullopt;
   }
   const auto cause_ns = cause_of(evidence, *fault);

@@ -190,4 +190,10 @@ std::optional<core::Nanoseconds> onset_of(const FaultTrigger& trigger, core::Axi
   return met ? std::optional(*met + core::nanoseconds(trigger.after_s)) : std::nullopt;
 }
 
+double moment_in(const std::vector<PhaseSpan>& spans, core::Random& random) {
+  const auto& span = spans[random.bits() % spans.size()];
+  const auto length_ns = static_cast<double>(span.to_ns - span.from_ns);
+  return core::seconds(span.from_ns + static_cast<core::Nanoseconds>(random.uniform() * length_ns));
+}
+
 }  // namespace towbench::harness

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/random.h"
 #include "harness/fault_cases/case_record.h"
 #include "harness/fault_plan/fault.h"
 
@@ -22,6 +23,9 @@ struct PhaseSpan {  // `phase`: one of kPhaseNames
 
 // Without gaps, in order.
 [[nodiscard]] std::vector<PhaseSpan> phases_of(const CaseRecord& run, core::Axis axis);
+
+// Drawn: one of the spans, at least one, and a moment in it.
+[[nodiscard]] double moment_in(const std::vector<PhaseSpan>& spans, core::Random& random);
 
 // When the trigger's condition is first met; none when it never is.
 [[nodiscard]] std::optional<core::Nanoseconds> onset_of(const FaultTrigger& trigger,

@@ -67,6 +67,19 @@ TEST(BoxSearch, KeepsToItsRunsItsBoxAndItsShareOfSamples) {
   }
 }
 
+// The narrow funnel has been looked into: the optimiser goes to the other one.
+TEST(BoxSearch, BeginsNoMoreWhereItHasBegun) {
+  const std::vector<BoxTrial> known{
+      {.point = {0.38, 0.8}, .value = two_funnels({0.38, 0.8}), .uniform = true},
+      {.point = {0.7, 0.3}, .value = two_funnels({0.7, 0.3}), .uniform = true}};
+  const auto found = search_box(
+      {.variables = 2, .runs = 30, .uniform_share = 0, .known = known, .begun = {{0.37, 0.81}}},
+      [](const BoxTrial& trial) { return two_funnels(trial.point); });
+  EXPECT_EQ(found.begun.size(), 2U);
+  EXPECT_EQ(found.begun.back(), known[1].point);
+  EXPECT_NEAR(found.trials[*found.best].point[0], 0.8, 0.05);
+}
+
 TEST(BoxSearch, WhereTheFunctionIsUndefinedIsNoBest) {
   const auto nothing = search_box({.variables = 2, .runs = 40},
                                   [](const BoxTrial&) { return std::optional<double>(); });

@@ -255,6 +255,16 @@ TEST(Objective, AsksNothingImpossible) {
   }
 }
 
+// A larger jump than the drive can make is asked for also while nothing is driven; BBMC does not
+// find this one (docs/theory/safety.md).
+TEST(Objective, AsksForAJumpThatNoDriveCanMake) {
+  const auto circle = load_experiment("fixtures/motions/circle-short.toml");
+  const auto outcome = in_process_objective(circle, {}, 0)
+                           ->measure({{parse_fault("encoder.y jump at_s=0.0025 counts=360")}});
+  EXPECT_TRUE(outcome.broken);
+  EXPECT_THAT(outcome.reason, HasSubstr("encoder_fault_found"));
+}
+
 // The switch told it 10 ms before the chain skipped: that is not forgotten when the fault begins.
 TEST(Objective, KnowsWhatWasToldBeforeTheFault) {
   const auto end = load_experiment("fixtures/experiments/endstop-y-max.toml");

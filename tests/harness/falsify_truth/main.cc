@@ -23,7 +23,6 @@
 #include <fmt/format.h>
 
 #include "core/random.h"
-#include "core/time.h"
 #include "harness/campaign/campaign.h"
 #include "harness/falsify/box_search.h"
 #include "harness/falsify/objective.h"
@@ -209,10 +208,8 @@ struct PhaseList {
       core::Random random(seed);
       bool hit = false;
       for (const auto& spans : phases) {
-        const auto& span = spans[random.bits() % spans.size()];
-        const double moment_s = core::seconds(span.from_ns) +
-                                random.uniform() * core::seconds(span.to_ns - span.from_ns);
-        const auto onset = std::min(truth.onsets - 1, static_cast<std::size_t>(moment_s / step_s));
+        const auto onset =
+            std::min(truth.onsets - 1, static_cast<std::size_t>(moment_in(spans, random) / step_s));
         for (std::size_t size = 0; size < kSizes; ++size) {
           const auto at = onset * kSizes + size;
           hit = hit || (truth.margins[at] && is_found(truth, at, step_s));

@@ -68,5 +68,16 @@ TEST(CsvTable, WhatIsNoNumberOrTooFewOrTooManyIsRefusedByLineAndColumn) {
   EXPECT_THROW((void)CsvTable::load("absent.csv"), CsvError);
 }
 
+TEST(CsvTable, NamesTheFileOfAColumnThatIsMissing) {
+  const auto table = CsvTable::parse("a,b\n1,2\n", "t.csv");
+  EXPECT_EQ(table.required("b", "t.csv").front(), 2);
+  try {
+    (void)table.required("c", "t.csv");
+    ADD_FAILURE();
+  } catch (const CsvError& error) {
+    EXPECT_STREQ(error.what(), "t.csv: no column c");
+  }
+}
+
 }  // namespace
 }  // namespace towbench::harness
