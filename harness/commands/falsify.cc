@@ -48,7 +48,8 @@ std::vector<FaultChoice> searched_faults(const FalsifyOptions& options,
 }
 
 std::vector<FaultSpace> fault_spaces(const FalsifyOptions& options,
-                                     const ExperimentFixture& fixture, double end_s) {
+                                     const ExperimentFixture& fixture, const Objective& objective) {
+  const double end_s = objective.end_s();
   core::PerAxis<bool> exists;
   for (const auto axis : core::kAxes) {
     exists[axis] = fixture.rig.parameters.axes[axis].exists;
@@ -63,11 +64,14 @@ std::vector<FaultSpace> fault_spaces(const FalsifyOptions& options,
   }
   std::vector<FaultSpace> spaces;
   for (const auto& choice : searched_faults(options, exists)) {
+    std::vector<std::vector<Stretch>> phases{objective.phases_of(choice)};
     if (second.empty()) {
-      spaces.emplace_back(std::vector{choice}, end_s, setup);
+      spaces.emplace_back(std::vector{choice}, end_s, setup, phases);
     }
     for (const auto& other : second) {
-      spaces.emplace_back(std::vector{choice, other}, end_s, setup);
+      phases.resize(1);
+      phases.push_back(objective.phases_of(other));
+      spaces.emplace_back(std::vector{choice, other}, end_s, setup, phases);
     }
   }
   return spaces;
@@ -127,7 +131,7 @@ Asked asked_of_all(const FalsifyOptions& options, const std::vector<ExperimentFi
 // Times the number of spaces. With a time for a budget nobody knows how many rounds there will be:
 // over many spaces they are short.
 std::size_t runs_a_round(const SearchBudget& budget, std::size_t spaces) {
-  constexpr std::size_t kMost = 200;
+  constexpr std::size_t kMost = 1000;
   if (budget.time_s > 0) {
     constexpr std::size_t kRound = 2000;
     constexpr std::size_t kFewest = 4;
@@ -145,7 +149,7 @@ Search prepare_search(FalsifyOptions& options, const std::vector<ExperimentFixtu
     search.objectives.push_back(controller.is_bbmc()
                                     ? in_process_objective(fixture, asked, options.snapshots)
                                     : candidate_objective(fixture, asked, controller));
-    for (auto& faults : fault_spaces(options, fixture, search.objectives.back()->end_s())) {
+    for (auto& faults : fault_spaces(options, fixture, *search.objectives.back())) {
       search.spaces.push_back({.experiment = search.objectives.size() - 1,
                                .motion = fixtures.size() > 1 ? fixture.experiment.name : "",
                                .faults = std::move(faults)});
@@ -246,8 +250,8 @@ void add_falsify(CLI::App& app, int& exit_code) {
   verb->add_option("--budget", options->budget, "\"2000 runs\", or a time: \"10 min\"")
       ->capture_default_str();
   verb->add_option("--optimiser", options->optimiser,
-                   "what chooses behind the uniform samples: sbplx, crs2, direct, esch; uniform: "
-                   "nothing does")
+                   "what chooses behind the samples: sbplx, crs2, direct, esch; uniform: nothing "
+                   "does, and all samples are uniform")
       ->capture_default_str();
   verb->add_option("--controller", options->controller,
                    "instead of BBMC: process:\"COMMAND {address}\" or firmware:IMAGE.elf");

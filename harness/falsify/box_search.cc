@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <stdexcept>
 
 #include <nlopt.hpp>
@@ -21,12 +22,13 @@ class Search {
 
   BoxSearchResult run() {
     const bool samples_alone = settings_.optimiser == Optimiser::kUniform;
-    const double share = samples_alone ? 1 : std::clamp(settings_.uniform_share, 0.0, 1.0);
+    const double share = samples_alone ? 1 : std::clamp(settings_.sampled_share, 0.0, 1.0);
     const auto samples =
         static_cast<std::size_t>(std::ceil(share * static_cast<double>(settings_.runs)));
-    core::Random random(settings_.seed);
+    BoxSampler sampler(settings_.sides, settings_.seed);
     for (std::size_t i = 0; i < samples && !over(); ++i) {
-      (void)take(uniform_point(random, settings_.variables), true);
+      const auto sample = samples_alone ? BoxSample{sampler.uniform()} : sampler.next();
+      (void)take(sample.point, sample.kind);
     }
     if (!samples_alone) {
       optimise();
@@ -41,8 +43,8 @@ class Search {
     return reached || found_.trials.size() >= settings_.runs;
   }
 
-  double take(const BoxPoint& point, bool uniform) {
-    BoxTrial trial{.point = point, .uniform = uniform};
+  double take(const BoxPoint& point, std::optional<SampleKind> sample) {
+    BoxTrial trial{.point = point, .sample = sample};
     trial.value = measure_(trial);
     found_.trials.push_back(trial);
     if (trial.value && (!found_.best || *trial.value < *found_.trials[*found_.best].value)) {
@@ -58,7 +60,7 @@ class Search {
       throw nlopt::forced_stop();
     }
     try {
-      return self.take(point, false);
+      return self.take(point, std::nullopt);
     } catch (...) {  // NLopt would let through its own alone
       self.thrown_ = std::current_exception();
       throw nlopt::forced_stop();
@@ -72,11 +74,13 @@ class Search {
       const auto before = found_.trials.size();
       if (const auto* start = best_sample()) {
         found_.begun.push_back(start->point);
-        run_optimiser(start->point, kFirstStep, kRunsOfAStart);
+        const auto best = found_.best;
+        run_optimiser(start->point, first_steps(), kFirstRuns);
+        if (found_.best != best && is_record(found_.best)) {
+          run_optimiser(best_point(), BoxPoint(settings_.sides.size(), kSecondStep), kSecondRuns);
+        }
       } else {
-        const auto centre = BoxPoint(settings_.variables, 0.5);
-        run_optimiser(found_.best ? found_.trials[*found_.best].point : centre, kFirstStep / 8,
-                      settings_.runs);
+        run_optimiser(best_point(), BoxPoint(settings_.sides.size(), kLastStep), settings_.runs);
       }
       if (found_.trials.size() == before) {
         return;  // it has nothing to try
@@ -84,15 +88,15 @@ class Search {
     }
   }
 
-  void run_optimiser(BoxPoint point, double step, std::size_t most_runs) {
-    nlopt::opt optimiser(algorithm(), static_cast<unsigned>(settings_.variables));
+  void run_optimiser(BoxPoint point, const BoxPoint& steps, std::size_t most_runs) {
+    nlopt::opt optimiser(algorithm(), static_cast<unsigned>(settings_.sides.size()));
     optimiser.set_lower_bounds(0.0);
     optimiser.set_upper_bounds(1.0);
     optimiser.set_xtol_abs(kTolerance);
     optimiser.set_min_objective(&Search::evaluate, this);
     const bool is_local = settings_.optimiser == Optimiser::kSubplex;
     if (is_local) {
-      optimiser.set_initial_step(step);
+      optimiser.set_initial_step(steps);
     }
     optimiser.set_maxeval(static_cast<int>(is_local ? most_runs : settings_.runs));
     double value = 0;
@@ -124,7 +128,7 @@ class Search {
     const BoxTrial* best = nullptr;
     for (const auto* trials : {&settings_.known, &found_.trials}) {
       for (const auto& trial : *trials) {
-        const bool better = trial.uniform && trial.value && (!best || *trial.value < *best->value);
+        const bool better = trial.sample && trial.value && (!best || *trial.value < *best->value);
         if (better && std::all_of(found_.begun.begin(), found_.begun.end(), [&](const auto& begun) {
               return distance(begun, trial.point) > kApart;
             })) {
@@ -143,10 +147,36 @@ class Search {
     return largest;
   }
 
-  static constexpr double kFirstStep = 0.05;
+  // Small in a time, large in a size.
+  [[nodiscard]] BoxPoint first_steps() const {
+    BoxPoint steps;
+    std::transform(settings_.sides.begin(), settings_.sides.end(), std::back_inserter(steps),
+                   [](const BoxSide& side) { return side.has_ends ? kStepOfSize : kStepOfTime; });
+    return steps;
+  }
+
+  // The centre, where nothing was found.
+  [[nodiscard]] BoxPoint best_point() const {
+    return found_.best ? found_.trials[*found_.best].point : BoxPoint(settings_.sides.size(), 0.5);
+  }
+
+  // Better than all that was known before this search.
+  [[nodiscard]] bool is_record(std::optional<std::size_t> trial) const {
+    return trial &&
+           std::all_of(settings_.known.begin(), settings_.known.end(), [&](const BoxTrial& known) {
+             return !known.value || *found_.trials[*trial].value < *known.value;
+           });
+  }
+
+  static constexpr double kStepOfTime = 0.02;
+  static constexpr double kStepOfSize = 0.35;
+  static constexpr std::size_t kFirstRuns = 20;  // from a sample
+  // From the best, where that led to it.
+  static constexpr double kSecondStep = 0.05;
+  static constexpr std::size_t kSecondRuns = 40;
+  static constexpr double kLastStep = 0.005;
   static constexpr double kTolerance = 1e-4;
-  static constexpr double kApart = 0.05;
-  static constexpr std::size_t kRunsOfAStart = 40;
+  static constexpr double kApart = 0.02;
 
   const BoxSearchSettings& settings_;
   const std::function<std::optional<double>(const BoxTrial&)>& measure_;
@@ -155,12 +185,6 @@ class Search {
 };
 
 }  // namespace
-
-BoxPoint uniform_point(core::Random& random, std::size_t variables) {
-  BoxPoint point(variables);
-  std::generate(point.begin(), point.end(), [&] { return random.uniform(); });
-  return point;
-}
 
 BoxSearchResult search_box(
     const BoxSearchSettings& settings,

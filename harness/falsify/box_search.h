@@ -1,6 +1,5 @@
 // Searches the unit box for the smallest value of a function that is costly and may be undefined:
-// a share of uniform samples, so that it can be said what was covered, then an optimiser of NLopt
-// from the best of them.
+// a share of samples (box_sampler.h), then an optimiser of NLopt from the best of them.
 //
 // Everything follows from the seed: the same seed gives the same points.
 #pragma once
@@ -12,14 +11,12 @@
 #include <string_view>
 #include <vector>
 
-#include "core/random.h"
+#include "harness/falsify/box_sampler.h"
 
 namespace towbench::harness {
 
-using BoxPoint = std::vector<double>;  // each 0 .. 1
-
 enum class Optimiser : std::uint8_t {
-  kUniform,  // nothing but samples
+  kUniform,  // nothing but uniform samples
   kSubplex,  // from the best samples, some runs each (Rowan 1990; NLopt LN_SBPLX)
   kCrs,      // controlled random search (Kaelo and Ali 2006; NLopt GN_CRS2_LM)
   kDirect,   // dividing rectangles (Gablonsky and Kelley 2001; NLopt GN_DIRECT_L)
@@ -30,16 +27,16 @@ inline constexpr std::string_view kOptimiserNames[] = {"uniform", "sbplx", "crs2
 
 struct BoxTrial {
   BoxPoint point{};
-  std::optional<double> value{};  // none: undefined there
-  bool uniform = false;           // sampled, not chosen
+  std::optional<double> value{};       // none: undefined there
+  std::optional<SampleKind> sample{};  // none: chosen by the optimiser
 };
 
 struct BoxSearchSettings {
-  std::size_t variables = 1;
+  std::vector<BoxSide> sides = {{}};
   std::size_t runs = 100;
   std::uint64_t seed = 1;
   Optimiser optimiser = Optimiser::kSubplex;
-  double uniform_share = 0.5;          // of the runs; not of kUniform
+  double sampled_share = 0.5;          // of the runs; not of kUniform
   std::optional<double> stop_below{};  // the search is over at a smaller value
   std::vector<BoxTrial> known{};       // made before: the optimiser begins at the best of them too
   std::vector<BoxPoint> begun{};       // where it has begun before, and begins no more
@@ -50,8 +47,6 @@ struct BoxSearchResult {
   std::optional<std::size_t> best{};  // of the smallest value, the first
   std::vector<BoxPoint> begun{};      // where the optimiser began
 };
-
-[[nodiscard]] BoxPoint uniform_point(core::Random& random, std::size_t variables);
 
 // `measure` is called once a trial; it returns the value there, or none.
 [[nodiscard]] BoxSearchResult search_box(

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "harness/falsify/objective.h"
+#include "harness/falsify/onset_phases.h"
 #include "harness/falsify/rule_margin.h"
 #include "harness/fault_cases/faulted_experiment.h"
 #include "harness/record/temporary_folder.h"
@@ -42,6 +43,9 @@ class Candidate final : public Objective {
   }
 
   double end_s() const override { return core::seconds(reference_->record.outcome.end_ns); }
+  std::vector<Stretch> phases_of(const FaultChoice& choice) const override {
+    return onset_phases(choice, reference_->record);
+  }
 
  private:
   Outcome run(const FaultPlan& plan, const ExperimentFixture& fixture,

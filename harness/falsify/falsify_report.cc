@@ -113,9 +113,11 @@ SpaceCoverage coverage_of(const FalsifySession& session, std::size_t space) {
     if (found.worst == nullptr || *trial.outcome.margin < *found.worst->outcome.margin) {
       found.worst = &trial;
     }
-    if (trial.uniform) {
+    if (trial.sample == SampleKind::kUniform) {
       ++found.uniform;
       found.uniform_broken += trial.outcome.broken ? 1U : 0U;
+    }
+    if (trial.sample) {
       for (std::size_t i = 0; i < variables; ++i) {
         parts[i][std::min(kParts - 1, static_cast<std::size_t>(trial.point[i] * kParts))] = true;
       }

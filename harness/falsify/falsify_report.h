@@ -14,7 +14,8 @@ struct SpaceCoverage {
   std::size_t uniform = 0;         // that fired and gave a margin
   std::size_t uniform_broken = 0;  // of those
   const FalsifyTrial* worst = nullptr;
-  // Of each variable the share of twenty equal parts of its range with such a sample.
+  // Of each variable the share of twenty equal parts of its range with a sample of any kind that
+  // fired and gave a margin.
   std::vector<double> covered{};
 };
 [[nodiscard]] SpaceCoverage coverage_of(const FalsifySession& session, std::size_t space);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/campaign/results_file.h"
+#include "harness/falsify/shuffle.h"
 
 namespace towbench::harness {
 namespace {
@@ -24,7 +25,8 @@ std::string line_of(const FalsifyTrial& trial, const std::string& fingerprint) {
   return json{{"of", fingerprint},
               {"space", trial.space},
               {"point", trial.point},
-              {"uniform", trial.uniform},
+              {"chosen_by", trial.sample ? kSampleKindNames[static_cast<std::size_t>(*trial.sample)]
+                                         : "optimiser"},
               {"tried", trial.tried.words()},
               {"fired", trial.outcome.fired},
               {"margin", trial.outcome.margin ? json(*trial.outcome.margin) : json(nullptr)},
@@ -64,13 +66,6 @@ std::optional<double> value_of(const FalsifyTrial& trial) {
   return trial.outcome.fired ? trial.outcome.margin : std::nullopt;
 }
 
-template <typename Element>
-void shuffle(std::vector<Element>& all, core::Random& random) {
-  for (auto i = all.size(); i > 1; --i) {
-    std::swap(all[i - 1], all[random.bits() % i]);
-  }
-}
-
 // Every space once, in a drawn order in which all faults come on one experiment before any comes on
 // a second.
 std::vector<std::size_t> drawn_order(const std::vector<SearchSpace>& spaces, core::Random& random) {
@@ -108,7 +103,11 @@ FalsifySession::FalsifySession(FalsifySettings settings, std::vector<SearchSpace
       spaces_(std::move(spaces)),
       file_(file),
       known_(lines_of(file, settings_.fingerprint)),
-      begun_(spaces_.size()) {}
+      begun_(spaces_.size()) {
+  for (std::size_t i = 0; i < spaces_.size(); ++i) {
+    samplers_.emplace_back(spaces_[i].faults.sides(), settings_.seed + 1'000'003 * (i + 1));
+  }
+}
 
 const FalsifyTrial* FalsifySession::worst() const noexcept {
   return worst_ ? &trials_[*worst_] : nullptr;
@@ -123,7 +122,7 @@ FalsifyTrial FalsifySession::measured(std::size_t space, const BoxTrial& asked,
                                       Objective& objective) {
   FalsifyTrial trial{.space = space,
                      .point = asked.point,
-                     .uniform = asked.uniform,
+                     .sample = asked.sample,
                      .tried = spaces_[space].faults.case_at(asked.point)};
   if (trials_.size() < known_.size()) {
     if (auto known = known_outcome(known_[trials_.size()], trial)) {
@@ -169,8 +168,8 @@ std::vector<std::size_t> FalsifySession::nearest(std::size_t from_trial) const {
 std::vector<BoxTrial> FalsifySession::samples_of(std::size_t space) const {
   std::vector<BoxTrial> samples;
   for (const auto& trial : trials_) {
-    if (trial.space == space && trial.uniform) {
-      samples.push_back({.point = trial.point, .value = value_of(trial), .uniform = true});
+    if (trial.space == space && trial.sample) {
+      samples.push_back({.point = trial.point, .value = value_of(trial), .sample = trial.sample});
     }
   }
   return samples;
@@ -186,8 +185,9 @@ void FalsifySession::search(std::uint64_t round, const Measure& measure) {
   const auto order = drawn_order(spaces_, random);
   for (std::size_t i = 0; trials_.size() < sampled && !over(); ++i) {
     const auto space = order[i % order.size()];
-    const auto point = uniform_point(random, spaces_[space].faults.variables().size());
-    (void)measure(space, {.point = point, .uniform = true});
+    const auto sample =
+        samples_alone ? BoxSample{samplers_[space].uniform()} : samplers_[space].next();
+    (void)measure(space, {.point = sample.point, .sample = sample.kind});
   }
   const auto runs_of_one =
       std::max(kLeastRuns, (last - sampled) / ((spaces_.size() + kNearest - 1) / kNearest));
@@ -196,11 +196,11 @@ void FalsifySession::search(std::uint64_t round, const Measure& measure) {
       break;
     }
     auto found =
-        search_box({.variables = spaces_[space].faults.variables().size(),
+        search_box({.sides = spaces_[space].faults.sides(),
                     .runs = std::min(runs_of_one, last - trials_.size()),
                     .seed = seed + space,
                     .optimiser = settings_.optimiser,
-                    .uniform_share = 0,
+                    .sampled_share = 0,
                     .stop_below = settings_.until_broken ? std::optional(0.0) : std::nullopt,
                     .known = samples_of(space),
                     .begun = std::move(begun_[space])},

@@ -1,8 +1,8 @@
 // One search over several spaces, kept in a file as it goes: what was interrupted is continued,
 // with the same trials.
 //
-// In rounds: half of a round's runs are uniform samples, one of each space in turn, in an order
-// that is drawn and comes to every fault soon; the others go to the spaces with the smallest
+// In rounds: half of a round's runs are samples (box_sampler.h), one of each space in turn, in an
+// order that is drawn and comes to every fault soon; the others go to the spaces with the smallest
 // margins, where the optimiser begins at the best samples at which it has not begun yet.
 #pragma once
 
@@ -24,7 +24,7 @@ namespace towbench::harness {
 struct FalsifyTrial {
   std::size_t space = 0;
   BoxPoint point{};
-  bool uniform = false;
+  std::optional<SampleKind> sample{};  // none: chosen by the optimiser
   SearchCase tried{};
   Outcome outcome{};
 };
@@ -73,6 +73,7 @@ class FalsifySession {
   std::vector<std::string> known_;  // lines of the file, in order
   std::vector<FalsifyTrial> trials_;
   std::optional<std::size_t> worst_{};
+  std::vector<BoxSampler> samplers_;          // of each space
   std::vector<std::vector<BoxPoint>> begun_;  // of each space: where the optimiser has begun
 };
 

@@ -72,12 +72,16 @@ std::vector<FaultChoice> fault_choices(const std::vector<std::string>& words,
   return words.empty() ? all : chosen;
 }
 
-FaultSpace::FaultSpace(std::vector<FaultChoice> faults, double end_s, SetupSpace setup)
+FaultSpace::FaultSpace(std::vector<FaultChoice> faults, double end_s, SetupSpace setup,
+                       const std::vector<std::vector<Stretch>>& phases)
     : faults_(std::move(faults)), setup_(std::move(setup)) {
   for (std::size_t i = 0; i < faults_.size(); ++i) {
     const std::string prefix = i == 0 ? "" : "second ";
     const auto& row = row_of(faults_[i].place.part, faults_[i].kind);
-    variables_.push_back({.name = prefix + "at_s", .to = end_s});
+    variables_.push_back({.name = prefix + "at_s",
+                          .to = end_s,
+                          .is_moment = true,
+                          .phases = i < phases.size() ? phases[i] : std::vector<Stretch>{}});
     if (has_duration(row.kind)) {
       variables_.push_back({.name = prefix + "duration_s",
                             .from = kShortest_s,
@@ -98,6 +102,14 @@ FaultSpace::FaultSpace(std::vector<FaultChoice> faults, double end_s, SetupSpace
   }
   const auto& of_setup = setup_.variables();
   variables_.insert(variables_.end(), of_setup.begin(), of_setup.end());
+}
+
+std::vector<BoxSide> FaultSpace::sides() const {
+  std::vector<BoxSide> sides;
+  for (const auto& variable : variables_) {
+    sides.push_back({.has_ends = !variable.is_moment, .stretches = variable.phases});
+  }
+  return sides;
 }
 
 FaultPlan FaultSpace::plan_at(const BoxPoint& point) const {

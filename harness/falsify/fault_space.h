@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/falsify/box_search.h"
+#include "harness/falsify/box_sampler.h"
 #include "harness/falsify/search_variable.h"
 #include "harness/falsify/setup.h"
 #include "harness/fault_plan/fault.h"
@@ -36,10 +36,12 @@ struct SearchCase {
 
 class FaultSpace {
  public:
-  // Onsets from 0 to `end_s`.
-  FaultSpace(std::vector<FaultChoice> faults, double end_s, SetupSpace setup = {});
+  // Onsets from 0 to `end_s`; `phases` of the motion that they go by, one for each fault or none.
+  FaultSpace(std::vector<FaultChoice> faults, double end_s, SetupSpace setup = {},
+             const std::vector<std::vector<Stretch>>& phases = {});
 
   [[nodiscard]] const std::vector<SearchVariable>& variables() const noexcept { return variables_; }
+  [[nodiscard]] std::vector<BoxSide> sides() const;
   [[nodiscard]] FaultPlan plan_at(const BoxPoint& point) const;
   [[nodiscard]] SearchCase case_at(const BoxPoint& point) const;
   [[nodiscard]] std::string name() const;

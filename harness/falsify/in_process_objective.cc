@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/falsify/objective.h"
+#include "harness/falsify/onset_phases.h"
 #include "harness/falsify/rule_margin.h"
 #include "harness/fault_cases/case_run.h"
 #include "harness/fault_cases/fault_case.h"
@@ -86,6 +87,9 @@ class InProcess final : public Objective {
   }
 
   double end_s() const override { return core::seconds(nominal_.reference->outcome.end_ns); }
+  std::vector<Stretch> phases_of(const FaultChoice& choice) const override {
+    return onset_phases(choice, *nominal_.reference);
+  }
 
  private:
   Outcome anew(const FaultPlan& plan, const Fixed& bench) const {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "harness/campaign/candidate_controller.h"
 #include "harness/experiment/experiment_fixture.h"
@@ -44,6 +45,8 @@ class Objective {
   [[nodiscard]] virtual Outcome measure(const SearchCase& one) = 0;
   // Where the fault-free run ends.
   [[nodiscard]] virtual double end_s() const = 0;
+  // Of the fault-free motion that such a fault goes by, as shares of the time to its end.
+  [[nodiscard]] virtual std::vector<Stretch> phases_of(const FaultChoice& choice) const = 0;
 };
 
 // BBMC in this process. With `snapshots` each run goes on from one of so many of the fault-free

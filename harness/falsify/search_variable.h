@@ -2,6 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include "harness/falsify/box_sampler.h"
 
 namespace towbench::harness {
 
@@ -12,6 +15,8 @@ struct SearchVariable {
   bool logarithmic = false;
   bool whole = false;     // whole numbers alone
   bool may_last = false;  // in the last fifth: to the end of the run
+  bool is_moment = false;
+  std::vector<Stretch> phases{};  // of a moment: the motion's
 };
 
 // `share`: 0 .. 1 of the range.

@@ -96,7 +96,7 @@ SetupSpace::SetupSpace(SetupRanges ranges, const core::PerAxis<bool>& exists, do
                           .logarithmic = true});
   }
   if (!ranges_.typed.empty()) {
-    variables_.push_back({.name = "typed at_s", .to = end_s});
+    variables_.push_back({.name = "typed at_s", .to = end_s, .is_moment = true});
   }
 }
 

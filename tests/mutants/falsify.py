@@ -66,11 +66,8 @@ def search(build, name, optimiser, seed, runs):
 
 
 def search_both(build, name, seed, runs):
-    """By the search and by uniform samples. The first half of a search is uniform samples of the same seed, so that
-    what is found there is found by both."""
-    found = search(build, name, OPTIMISER, seed, runs)
-    in_samples = found is not None and found <= runs // 2
-    return found, found if in_samples else search(build, name, "uniform", seed, runs)
+    """By the search and by uniform samples."""
+    return tuple(search(build, name, optimiser, seed, runs) for optimiser in (OPTIMISER, "uniform"))
 
 
 def cells(found, runs):

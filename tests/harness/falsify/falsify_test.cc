@@ -42,6 +42,29 @@ TEST(FaultSpace, IsChosenByKindPlaceOrBoth) {
   EXPECT_THROW((void)fault_choices({"endstop.y_max missing"}, kBoth), FixtureError);  // as built
 }
 
+TEST(FaultSpace, HasThePhasesOfTheMotionOnItsMomentsAndEndsOnItsSizes) {
+  const auto circle = load_experiment("fixtures/motions/circle-short.toml");
+  const auto objective = in_process_objective(circle, {}, 0);
+  const auto choices = fault_choices({"encoder.y frozen", "supply sag"}, kBoth);
+  const auto phases = objective->phases_of(choices.front());
+  ASSERT_GT(phases.size(), 5U);
+  EXPECT_EQ(phases.front().from, 0.0);
+  for (std::size_t i = 1; i < phases.size(); ++i) {
+    EXPECT_EQ(phases[i].from, phases[i - 1].to);
+  }
+  EXPECT_NEAR(phases.back().to, 1.0, 1e-3);
+  // The first: nothing is driven yet.
+  EXPECT_LT(phases.front().length() * objective->end_s(), 0.01);
+  const FaultSpace space(choices, objective->end_s(), {}, {phases, {}});
+  const auto sides = space.sides();
+  ASSERT_EQ(sides.size(), space.variables().size());
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const bool is_onset = space.variables()[i].name.ends_with("at_s");
+    EXPECT_EQ(sides[i].has_ends, !is_onset) << space.variables()[i].name;
+    EXPECT_EQ(sides[i].stretches.size(), i == 0 ? phases.size() : 0U);
+  }
+}
+
 // A margin that is known: the distance of the onset from 3 s, where the fault acts before 8 s.
 class KnownObjective final : public Objective {
  public:
@@ -52,6 +75,7 @@ class KnownObjective final : public Objective {
                 at_s<8, .margin = std::fabs(at_s - 3) - 0.05, .broken = at_s> 2.95 && at_s < 3.05};
   }
   double end_s() const override { return 10; }
+  std::vector<Stretch> phases_of(const FaultChoice& /*choice*/) const override { return {}; }
   std::size_t runs = 0;
 };
 
@@ -113,6 +137,7 @@ class OneIsNear final : public Objective {
                           : std::fabs(one.faults.front().trigger.value - 3)};
   }
   double end_s() const override { return 10; }
+  std::vector<Stretch> phases_of(const FaultChoice& /*choice*/) const override { return {}; }
 };
 
 TEST(Falsify, SamplesSpacesAlikeAndGivesTheOptimiserTheNearest) {
@@ -127,7 +152,7 @@ TEST(Falsify, SamplesSpacesAlikeAndGivesTheOptimiserTheNearest) {
   EXPECT_TRUE(search.run(
       {&objective}, [] { return true; }, [](const auto&) {}));
   for (std::size_t space = 0; space < spaces.size(); ++space) {
-    EXPECT_EQ(coverage_of(search, space).uniform, 40U);
+    EXPECT_EQ(coverage_of(search, space).uniform, 32U);  // of 40 samples, 8 at ends
   }
   EXPECT_EQ(coverage_of(search, 1).runs, 40U + 2 * 50U);
 }

@@ -114,6 +114,7 @@ class KnownCause final : public Objective {
     return {.fired = true, .margin = margin, .broken = margin < 0};
   }
   double end_s() const override { return 10; }
+  std::vector<Stretch> phases_of(const FaultChoice& /*choice*/) const override { return {}; }
 };
 
 TEST(ShrunkCase, KeepsWhatBreaksItAndNothingElse) {
