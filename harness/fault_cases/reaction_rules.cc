@@ -13,7 +13,6 @@ using bbmc::AxisMode;
 using core::Axis;
 using core::Nanoseconds;
 using protocol::InputLine;
-using Kind = bbmc::ControllerEvent::Kind;
 
 constexpr Nanoseconds kReaction_ns = 2 * core::kNanosecondsPerMillisecond;
 
@@ -59,6 +58,29 @@ Nanoseconds drive_after(const CaseRecord& run, Nanoseconds from_ns) {
     }
   }
   return -1;
+}
+
+// A motion was under way whose end names the fault.
+bool moves_at(const CaseRecord& run, const bbmc::ControllerEvent& fault) {
+  bool moves = false;
+  for (const auto& event : run.controller_events) {
+    if (event.time_ns > fault.time_ns) {
+      break;
+    }
+    const bool ended_before =
+        event.kind == Kind::kMotionEnded &&
+        (event.time_ns < fault.time_ns || event.code == core::ErrorCode::kNone);
+    moves = event.kind == Kind::kMotionStarted || (moves && !ended_before);
+  }
+  return moves;
+}
+
+// A line was typed that the run was long enough to answer.
+bool asks_since(const CaseRecord& run, Nanoseconds from_ns) {
+  constexpr Nanoseconds kAnswer_ns = 20 * core::kNanosecondsPerMillisecond;
+  return std::any_of(run.typed_lines.begin(), run.typed_lines.end(), [&](const ConsoleText& line) {
+    return line.time_ns >= from_ns && line.time_ns + kAnswer_ns <= run.outcome.end_ns;
+  });
 }
 
 }  // namespace
@@ -263,8 +285,8 @@ MaybeCheck operator_is_told(const CaseEvidence& evidence) {
   if (named || told_to_release) {
     return passed(kName, kMeaning);
   }
-  if (after.empty()) {
-    return std::nullopt;  // nobody asked, and the run ended before the motion did
+  if (after.empty() || (!moves_at(run, *fault) && !asks_since(run, fault->time_ns))) {
+    return std::nullopt;  // nobody asked, or the run ended before the motion did
   }
   return failed(kName, kMeaning,
                 fmt::format("nothing names fault {} after it was latched", number));

@@ -102,7 +102,12 @@ Check log_is_complete(const CaseEvidence& evidence) {
   if (reason.empty()) {
     return passed(kName, kMeaning);
   }
-  return failed(kName, kMeaning, std::move(reason));
+  auto check = failed(kName, kMeaning, std::move(reason));
+  if (evidence.run.log.empty() &&
+      evidence.run.outcome.end_ns < evidence.run.outcome.control_period_ns) {
+    check.verdict = Verdict::kInvalid;  // the link was gone before the first tick
+  }
+  return check;
 }
 
 MaybeCheck comes_to_rest(const CaseEvidence& evidence) {

@@ -259,7 +259,8 @@ TEST(Objective, AsksNothingImpossible) {
   // Ticks that miss for 135 s or 6.3 s, a host that sleeps while it brakes, a clock that is set
   // back by 9 s; a command that is on its way for seconds; fewer illegal transitions than the
   // settings allow; a fault that is latched between two rows of a slow log; a disc that slips by
-  // no more than the drive may turn it.
+  // no more than the drive may turn it; a link that ends the run while nobody asks for anything, or
+  // before the first tick.
   constexpr Case kCases[] = {
       {"open-loop-y-10hz", "host missed_ticks at_s=2.8183 ticks=1351", false},
       {"end-x-max", "host missed_ticks at_s=1.315369 ticks=6319", false},
@@ -270,6 +271,9 @@ TEST(Objective, AsksNothingImpossible) {
       {"circle-short",
        "encoder.y illegal_transitions at_s=1.733346 duration_s=1.702026 rate_Hz=20.7556", true},
       {"circle-short", "encoder.y jump at_s=1.5 counts=40", true},
+      {"trapezoid-y", "link.to_plant peer_killed at_s=0.0016", true},
+      {"trapezoid-y", "link.to_plant peer_killed at_s=0", false},
+      {"../experiments/goto-pick-and-place", "link.to_plant peer_restart at_s=5.8105", true},
       {"../experiments/kill-10hz", "amplifier.y over_temperature at_s=1.719632 duration_s=2.108354",
        true}};
   for (const auto& one : kCases) {
