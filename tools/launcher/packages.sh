@@ -15,7 +15,7 @@ baremetal_packages=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none
 test_packages=(
   "${run_packages[@]}" "${study_packages[@]}" "${baremetal_packages[@]}"
   libgtest-dev libgmock-dev libbenchmark-dev libsundials-dev libode-dev
-  clang clang-format clang-tidy libclang-rt-14-dev shellcheck chromium python3 debootstrap
+  clang clang-format clang-tidy lld libclang-rt-14-dev shellcheck chromium python3 debootstrap
   qemu-system-x86 can-utils socat cpio make
   g++-arm-linux-gnueabihf qemu-user-static valgrind
 )

@@ -68,8 +68,17 @@ board_checks() {
   "$root/tools/baremetal_duty.sh" "$build/release" "$root" && "$root/tests/board/demo_on_board.sh" "$build/release" "$root"
 }
 
+# Its download and its one compiler call wait beside the sanitizers.
+start_kernel_beside() {
+  if is_asked_for carriers && [[ -z $kernel_fetched ]]; then
+    "$root/tests/carriers/fetch_kernel.sh" "$build/carriers/kernel" >"$build/kernel.log" 2>&1 &
+    kernel_fetched=$!
+  fi
+}
+
 stage_carriers() {
   local status=0 log=$build/carriers.log jobs=machine
+  if [[ -n $kernel_fetched ]]; then wait "$kernel_fetched" || true; fi
   if [[ $everything == true ]]; then jobs=whole-machine; fi
   built release towbench-bench test_protocol test_bbmc c_pid
   start_fresh_start_beside
@@ -88,6 +97,7 @@ stage_carriers() {
 # Where threads are: the lock-free queues, the carriers, and the controller between them.
 stage_sanitize_thread() {
   start_fresh_start_beside
+  start_kernel_beside
   built tsan test_core test_protocol test_bbmc
   local folder
   for folder in core protocol bbmc; do

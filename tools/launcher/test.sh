@@ -104,7 +104,7 @@ run_test() {
 is_stage() { [[ -n $1 && " ${guard_stages[*]} ${release_stages[*]} ${on_request_stages[*]} " == *" $1 "* ]]; }
 
 run_stages() {
-  passed=0 failed=0 skipped=0 kept=0 summary='' fresh_start='' asked_for=("$@")
+  passed=0 failed=0 skipped=0 kept=0 summary='' fresh_start='' kernel_fetched='' asked_for=("$@")
   local stage started verdict whole=$SECONDS
   for stage in "$@"; do
     printf '\n== %s\n' "$stage"
