@@ -109,21 +109,30 @@ DriveTaken drive_taken(const CaseEvidence& evidence) {
   return taken;
 }
 
-// When a command that is sent then acts: those before it are on their way, in order, for so long.
+// When a command that is sent then acts: those before it are on their way, in order, for so long,
+// or all are lost for so long.
 Nanoseconds arrives_ns(const CaseEvidence& evidence, Nanoseconds sent_ns) {
   const auto& prepared = evidence.prepared;
   auto arrives = sent_ns;
   for (std::size_t i = 0; i < prepared.plan.size(); ++i) {
     const auto& fault = prepared.plan[i];
-    const bool is_late = fault.place.part == FaultPart::kLink && fault.place.to_plant &&
-                         (fault.kind == FaultKind::kDelay || fault.kind == FaultKind::kJitter);
-    if (!is_late || sent_ns < prepared.onsets_ns[i]) {
-      continue;
-    }
-    const auto delay_ns = core::nanoseconds(fault.parameters[0]);
+    const bool is_on_the_way = fault.place.part == FaultPart::kLink && fault.place.to_plant;
+    const bool is_late =
+        is_on_the_way && (fault.kind == FaultKind::kDelay || fault.kind == FaultKind::kJitter);
+    const bool loses_all =
+        is_on_the_way && fault.parameters[0] == 1 &&
+        (fault.kind == FaultKind::kLoss || fault.kind == FaultKind::kCorruptByte);
     const auto last_ns =
         fault.duration_s ? prepared.onsets_ns[i] + core::nanoseconds(*fault.duration_s) : kNever;
-    arrives = std::max(arrives, std::min(sent_ns, last_ns) + delay_ns);
+    if (sent_ns < prepared.onsets_ns[i]) {
+      continue;
+    }
+    if (is_late) {
+      arrives =
+          std::max(arrives, std::min(sent_ns, last_ns) + core::nanoseconds(fault.parameters[0]));
+    } else if (loses_all) {
+      arrives = std::max(arrives, last_ns);
+    }
   }
   return arrives;
 }

@@ -1,0 +1,122 @@
+// BBMC's margins beside those of run folders, and cases on which a search has found the judge or
+// BBMC wrong.
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "harness/falsify/objective.h"
+#include "harness/fault_cases/faulted_experiment.h"
+#include "harness/fault_plan/fault_text.h"
+#include "harness/requirements/run_signals.h"
+#include "tests/harness/end_to_end/run_support.h"
+
+namespace towbench::harness {
+namespace {
+
+using ::testing::HasSubstr;
+
+// In memory and from a snapshot the margin is that of the run folder.
+TEST(Objective, GivesTheMarginOfTheRunFolder) {
+  Runs runs;
+  auto fixture = Runs::shipped("kill-1khz");
+  Requirement requirement{.id = "TRACK", .text = "always: |y_carriage_speed| < 0.5 m/s"};
+  requirement.parsed = *parse_formula(requirement.text, run_vocabulary({"whole", "latched"}));
+  requirement.under_faults = true;
+  fixture.experiment.requirements.push_back(requirement);
+  const auto from_snapshots = in_process_objective(fixture, {requirement}, 12);
+  const auto anew = in_process_objective(fixture, {requirement}, 0);
+  for (const char* words :
+       {"drive.y brake_drag at_s=0.7 force_N=30", "supply sag at_s=0.61 lost_V=6"}) {
+    const FaultPlan plan{parse_fault(words)};
+    auto faulted = fixture;
+    add_faults(faulted, plan);
+    const auto run = runs.run(faulted);
+    const auto* check = check_named(run, "TRACK");
+    ASSERT_NE(check, nullptr);
+    EXPECT_TRUE(from_snapshots->measure({plan}).fired);
+    EXPECT_EQ(from_snapshots->measure({plan}).margin, check->margin) << words;
+    EXPECT_EQ(anew->measure({plan}).margin, check->margin) << words;
+    EXPECT_TRUE(std::filesystem::exists(run.folder / "margins.csv"));
+  }
+  const auto late = from_snapshots->measure({{parse_fault("encoder.y jump at_s=3.2 counts=0")}});
+  EXPECT_FALSE(late.fired);
+}
+
+// Found by searches: what no controller could have done is not asked of it.
+TEST(Objective, AsksNothingImpossible) {
+  struct Case {
+    const char* motion;
+    const char* fault;
+    bool judged;
+  };
+  // Ticks that miss for 135 s or 6.3 s, a host that sleeps while it brakes, a clock that is set
+  // back by 9 s; a command that is on its way for seconds; fewer illegal transitions than the
+  // settings allow; a fault that is latched between two rows of a slow log; a disc that slips by
+  // no more than the drive may turn it; a link that ends the run while nobody asks for anything, or
+  // before the first tick.
+  constexpr Case kCases[] = {
+      {"open-loop-y-10hz", "host missed_ticks at_s=2.8183 ticks=1351", false},
+      {"end-x-max", "host missed_ticks at_s=1.315369 ticks=6319", false},
+      {"end-y-max-and-back", "host stopped_process at_s=2.04 length_s=7.95", false},
+      {"end-y-max-and-back", "host clock_step at_s=0.519821 duration_s=0.042052 step_s=8.908524",
+       false},
+      {"end-y-max", "link.to_plant delay at_s=0.591486 delay_s=1.684250", true},
+      {"circle-short",
+       "encoder.y illegal_transitions at_s=1.733346 duration_s=1.702026 rate_Hz=20.7556", true},
+      {"circle-short", "encoder.y jump at_s=1.5 counts=40", true},
+      {"trapezoid-y", "link.to_plant peer_killed at_s=0.0016", true},
+      {"trapezoid-y", "link.to_plant peer_killed at_s=0", false},
+      {"../experiments/goto-pick-and-place", "link.to_plant peer_restart at_s=5.8105", true},
+      {"../experiments/kill-10hz", "amplifier.y over_temperature at_s=1.719632 duration_s=2.108354",
+       true}};
+  for (const auto& one : kCases) {
+    const auto fixture = load_experiment(std::string("fixtures/motions/") + one.motion + ".toml");
+    const auto outcome = in_process_objective(fixture, {}, 0)->measure({{parse_fault(one.fault)}});
+    EXPECT_EQ(outcome.margin.has_value(), one.judged) << one.fault << ": " << outcome.reason;
+    EXPECT_FALSE(outcome.broken) << one.fault << ": " << outcome.reason;
+  }
+}
+
+// A larger jump than the drive can make is asked for also while nothing is driven; BBMC does not
+// find this one (docs/theory/safety.md).
+TEST(Objective, AsksForAJumpThatNoDriveCanMake) {
+  const auto circle = load_experiment("fixtures/motions/circle-short.toml");
+  const auto outcome = in_process_objective(circle, {}, 0)
+                           ->measure({{parse_fault("encoder.y jump at_s=0.0025 counts=360")}});
+  EXPECT_TRUE(outcome.broken);
+  EXPECT_THAT(outcome.reason, HasSubstr("encoder_fault_found"));
+}
+
+// The switch told it 10 ms before the chain skipped: that is not forgotten when the fault begins.
+TEST(Objective, KnowsWhatWasToldBeforeTheFault) {
+  const auto end = load_experiment("fixtures/experiments/endstop-y-max.toml");
+  const auto outcome = in_process_objective(end, {}, 0)
+                           ->measure({{parse_fault("drive.y chain_skip at_s=3.02636 by_m=-0.03")}});
+  EXPECT_TRUE(outcome.broken);
+  EXPECT_THAT(outcome.reason, HasSubstr("would have prevented it"));
+}
+
+// Nothing that a controller sends arrives: that it is not told of the gap is held against the link.
+TEST(Objective, AsksForNoBrakeOverALinkThatLosesEveryCommand) {
+  const auto circle = load_experiment("fixtures/experiments/circle.toml");
+  const auto outcome =
+      in_process_objective(circle, {}, 0)
+          ->measure({{parse_fault("link.to_plant corrupt_byte at_s=6.937446 probability=1")}});
+  EXPECT_TRUE(outcome.broken);
+  EXPECT_THAT(outcome.reason, HasSubstr("lost_contact_found"));
+}
+
+// Found by a search and corrected: swapped channels that first show as a displaced index turn the
+// speed over, and the brake pushed for 0.23 s, up to 0.57 m/s.
+TEST(Objective, KeepsTheRulesWhereASearchOnceBrokeThem) {
+  const auto circle = load_experiment("fixtures/experiments/circle.toml");
+  const auto outcome =
+      in_process_objective(circle, {}, 0)
+          ->measure({{parse_fault("encoder.y swapped at_s=14.654418 duration_s=0.281811")}});
+  EXPECT_TRUE(outcome.fired);
+  EXPECT_FALSE(outcome.broken) << outcome.reason;
+}
+
+}  // namespace
+}  // namespace towbench::harness
