@@ -26,6 +26,14 @@ Nanoseconds cause_of(const CaseEvidence& evidence, const Fault& fault) {
   return std::max(evidence.cause_ns, evidence.prepared.onsets_ns[index]);
 }
 
+// When it is over; what it changed first may have come much later than its onset.
+Nanoseconds end_of(const CaseEvidence& evidence, const Fault& fault) {
+  const auto index = static_cast<std::size_t>(&fault - evidence.prepared.plan.data());
+  return fault.duration_s
+             ? evidence.prepared.onsets_ns[index] + core::nanoseconds(*fault.duration_s)
+             : kNever;
+}
+
 // Whether the axis is not quite the one that the controller was told of: its torque over its
 // inertia decides how soon motion that is missing can be missed.
 bool differs_from_configuration(const CaseEvidence& evidence, Axis axis) {
@@ -125,8 +133,7 @@ MaybeCheck encoder_fault_is_found(const CaseEvidence& evidence) {
   const double longest_s = differs_from_configuration(evidence, axis) ? 0.060 : 0.050;
   const auto cause_ns = cause_of(evidence, *fault);
   const auto found_ns = latched_ns(run);
-  const auto gone_ns =
-      fault->duration_s ? cause_ns + core::nanoseconds(*fault->duration_s) : kNever;
+  const auto gone_ns = end_of(evidence, *fault);
   const auto exchange_ns = run.outcome.exchange_ns;
   for (const Push& push : pushes(evidence, axis)) {
     const auto from_ns = std::max(push.from_ns, cause_ns);
@@ -183,8 +190,7 @@ MaybeCheck lost_index_is_found(const CaseEvidence& evidence) {
   const auto axis = fault->place.axis;
   const auto found_ns = latched_ns(run);
   const auto cause_ns = cause_of(evidence, *fault);
-  const auto gone_ns =
-      fault->duration_s ? cause_ns + core::nanoseconds(*fault->duration_s) : kNever;
+  const auto gone_ns = end_of(evidence, *fault);
   double lowest = std::numeric_limits<double>::max();
   double highest = -lowest;
   double direction = 0;

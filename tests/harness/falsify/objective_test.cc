@@ -1,11 +1,12 @@
 // BBMC's margins beside those of run folders, and cases on which a search has found the judge or
 // BBMC wrong.
+#include "harness/falsify/objective.h"
+
 #include <filesystem>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "harness/falsify/objective.h"
 #include "harness/fault_cases/faulted_experiment.h"
 #include "harness/fault_plan/fault_text.h"
 #include "harness/requirements/run_signals.h"
@@ -53,8 +54,8 @@ TEST(Objective, AsksNothingImpossible) {
   // Ticks that miss for 135 s or 6.3 s, a host that sleeps while it brakes, a clock that is set
   // back by 9 s; a command that is on its way for seconds; fewer illegal transitions than the
   // settings allow; a fault that is latched between two rows of a slow log; a disc that slips by
-  // no more than the drive may turn it; a link that ends the run while nobody asks for anything, or
-  // before the first tick.
+  // no more than the drive may turn it; an encoder fault that is over; a link that ends the run
+  // while nobody asks for anything, or before the first tick.
   constexpr Case kCases[] = {
       {"open-loop-y-10hz", "host missed_ticks at_s=2.8183 ticks=1351", false},
       {"end-x-max", "host missed_ticks at_s=1.315369 ticks=6319", false},
@@ -65,6 +66,8 @@ TEST(Objective, AsksNothingImpossible) {
       {"circle-short",
        "encoder.y illegal_transitions at_s=1.733346 duration_s=1.702026 rate_Hz=20.7556", true},
       {"circle-short", "encoder.y jump at_s=1.5 counts=40", true},
+      {"trapezoid-x", "encoder.x dead_b at_s=0.003712 duration_s=0.518603", true},
+      {"circle-short", "encoder.y index_missing at_s=2.945885 duration_s=0.314187", true},
       {"trapezoid-y", "link.to_plant peer_killed at_s=0.0016", true},
       {"trapezoid-y", "link.to_plant peer_killed at_s=0", false},
       {"../experiments/goto-pick-and-place", "link.to_plant peer_restart at_s=5.8105", true},
