@@ -81,33 +81,29 @@ TEST(Objective, AsksNothingImpossible) {
   }
 }
 
-// A larger jump than the drive can make is asked for also while nothing is driven; BBMC does not
-// find this one (docs/theory/safety.md).
-TEST(Objective, AsksForAJumpThatNoDriveCanMake) {
-  const auto circle = load_experiment("fixtures/motions/circle-short.toml");
-  const auto outcome = in_process_objective(circle, {}, 0)
-                           ->measure({{parse_fault("encoder.y jump at_s=0.0025 counts=360")}});
-  EXPECT_TRUE(outcome.broken);
-  EXPECT_THAT(outcome.reason, HasSubstr("encoder_fault_found"));
-}
-
-// The switch told it 10 ms before the chain skipped: that is not forgotten when the fault begins.
-TEST(Objective, KnowsWhatWasToldBeforeTheFault) {
-  const auto end = load_experiment("fixtures/experiments/endstop-y-max.toml");
-  const auto outcome = in_process_objective(end, {}, 0)
-                           ->measure({{parse_fault("drive.y chain_skip at_s=3.02636 by_m=-0.03")}});
-  EXPECT_TRUE(outcome.broken);
-  EXPECT_THAT(outcome.reason, HasSubstr("would have prevented it"));
-}
-
-// Nothing that a controller sends arrives: that it is not told of the gap is held against the link.
-TEST(Objective, AsksForNoBrakeOverALinkThatLosesEveryCommand) {
-  const auto circle = load_experiment("fixtures/experiments/circle.toml");
-  const auto outcome =
-      in_process_objective(circle, {}, 0)
-          ->measure({{parse_fault("link.to_plant corrupt_byte at_s=6.937446 probability=1")}});
-  EXPECT_TRUE(outcome.broken);
-  EXPECT_THAT(outcome.reason, HasSubstr("lost_contact_found"));
+TEST(Objective, AsksForWhatAControllerCouldHaveDone) {
+  struct Case {
+    const char* motion;
+    const char* fault;
+    const char* reason;
+  };
+  constexpr Case kCases[] = {
+      // A larger jump than the drive can make is asked for also while nothing is driven; BBMC does
+      // not find this one (docs/theory/safety.md).
+      {"motions/circle-short", "encoder.y jump at_s=0.0025 counts=360", "encoder_fault_found"},
+      // The switch told it 10 ms before the chain skipped: that is not forgotten when the fault
+      // begins.
+      {"experiments/endstop-y-max", "drive.y chain_skip at_s=3.02636 by_m=-0.03",
+       "would have prevented it"},
+      // No command arrives, so that no brake is asked for; that nobody finds the loss is.
+      {"experiments/circle", "link.to_plant corrupt_byte at_s=6.937446 probability=1",
+       "lost_contact_found"}};
+  for (const auto& one : kCases) {
+    const auto fixture = load_experiment(std::string("fixtures/") + one.motion + ".toml");
+    const auto outcome = in_process_objective(fixture, {}, 0)->measure({{parse_fault(one.fault)}});
+    EXPECT_TRUE(outcome.broken) << one.fault;
+    EXPECT_THAT(outcome.reason, HasSubstr(one.reason)) << one.fault;
+  }
 }
 
 // Found by a search and corrected: swapped channels that first show as a displaced index turn the
