@@ -14,8 +14,8 @@ namespace towbench::harness {
 namespace {
 
 using enum SampleKind;
-constexpr std::array kTurns{kOfStretch, kUniform,   kOfStretch, kAtEnds,  kOfStretch,
-                            kUniform,   kOfStretch, kAtEnds,    kUniform, kOfStretch};
+constexpr std::array kKindOfTurn{kOfStretch, kUniform,   kOfStretch, kAtEnds,  kOfStretch,
+                                 kUniform,   kOfStretch, kAtEnds,    kUniform, kOfStretch};
 
 // Point `index` of a sequence that fills the box evenly: Sobol's, moved by a drawn vector (Cranley
 // and Patterson, SIAM Journal on Numerical Analysis 13, 1976).
@@ -35,9 +35,10 @@ BoxPoint evenly_spread(std::size_t variables, std::size_t index, std::uint64_t s
 
 }  // namespace
 
-BoxSampler::BoxSampler(std::vector<BoxSide> sides, std::uint64_t seed)
+BoxSampler::BoxSampler(std::vector<BoxSide> sides, std::uint64_t seed, bool uniform_alone)
     : sides_(std::move(sides)),
       seed_(seed),
+      uniform_alone_(uniform_alone),
       random_(seed),
       has_ends_(std::any_of(sides_.begin(), sides_.end(),
                             [](const BoxSide& side) { return side.has_ends; })),
@@ -57,7 +58,7 @@ BoxPoint BoxSampler::uniform() {
 }
 
 BoxSample BoxSampler::next() {
-  const auto kind = kTurns[made_++ % kTurns.size()];
+  const auto kind = uniform_alone_ ? kUniform : kKindOfTurn[made_++ % kKindOfTurn.size()];
   if (kind == kAtEnds && has_ends_) {
     return {at_ends(), kind};
   }

@@ -20,7 +20,7 @@ struct Stretch {
 };
 
 struct BoxSide {
-  bool has_ends = true;              // not so: a time, at whose ends nothing is special
+  bool has_ends = true;              // false: a time, at whose ends nothing is special
   std::vector<Stretch> stretches{};  // each is sampled as often as the others; may be none
 };
 
@@ -38,21 +38,22 @@ struct BoxSample {
 };
 
 // Of ten samples of a box with ends and stretches three are uniform, two at ends, five of
-// stretches. Everything follows from the seed.
+// stretches; with `uniform_alone` all are uniform. Everything follows from the seed.
 class BoxSampler {
  public:
-  BoxSampler(std::vector<BoxSide> sides, std::uint64_t seed);
+  BoxSampler(std::vector<BoxSide> sides, std::uint64_t seed, bool uniform_alone = false);
 
-  [[nodiscard]] BoxPoint uniform();
   [[nodiscard]] BoxSample next();
 
  private:
+  [[nodiscard]] BoxPoint uniform();
   [[nodiscard]] BoxPoint at_ends();
   [[nodiscard]] BoxPoint of_stretch();
   [[nodiscard]] std::size_t next_stretch();
 
   std::vector<BoxSide> sides_;
   std::uint64_t seed_;
+  bool uniform_alone_;
   core::Random random_;
   bool has_ends_;
   std::size_t divided_;  // the first side with stretches; sides_.size(): none has

@@ -25,9 +25,9 @@ class Search {
     const double share = samples_alone ? 1 : std::clamp(settings_.sampled_share, 0.0, 1.0);
     const auto samples =
         static_cast<std::size_t>(std::ceil(share * static_cast<double>(settings_.runs)));
-    BoxSampler sampler(settings_.sides, settings_.seed);
+    BoxSampler sampler(settings_.sides, settings_.seed, samples_alone);
     for (std::size_t i = 0; i < samples && !over(); ++i) {
-      const auto sample = samples_alone ? BoxSample{sampler.uniform()} : sampler.next();
+      const auto sample = sampler.next();
       (void)take(sample.point, sample.kind);
     }
     if (!samples_alone) {
@@ -76,7 +76,7 @@ class Search {
         found_.begun.push_back(start->point);
         const auto best = found_.best;
         run_optimiser(start->point, first_steps(), kFirstRuns);
-        if (found_.best != best && is_record(found_.best)) {
+        if (found_.best != best && is_better_than_known(found_.best)) {
           run_optimiser(best_point(), BoxPoint(settings_.sides.size(), kSecondStep), kSecondRuns);
         }
       } else {
@@ -161,7 +161,7 @@ class Search {
   }
 
   // Better than all that was known before this search.
-  [[nodiscard]] bool is_record(std::optional<std::size_t> trial) const {
+  [[nodiscard]] bool is_better_than_known(std::optional<std::size_t> trial) const {
     return trial &&
            std::all_of(settings_.known.begin(), settings_.known.end(), [&](const BoxTrial& known) {
              return !known.value || *found_.trials[*trial].value < *known.value;

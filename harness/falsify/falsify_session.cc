@@ -105,7 +105,8 @@ FalsifySession::FalsifySession(FalsifySettings settings, std::vector<SearchSpace
       known_(lines_of(file, settings_.fingerprint)),
       begun_(spaces_.size()) {
   for (std::size_t i = 0; i < spaces_.size(); ++i) {
-    samplers_.emplace_back(spaces_[i].faults.sides(), settings_.seed + 1'000'003 * (i + 1));
+    samplers_.emplace_back(spaces_[i].faults.sides(), settings_.seed + 1'000'003 * (i + 1),
+                           settings_.optimiser == Optimiser::kUniform);
   }
 }
 
@@ -185,8 +186,7 @@ void FalsifySession::search(std::uint64_t round, const Measure& measure) {
   const auto order = drawn_order(spaces_, random);
   for (std::size_t i = 0; trials_.size() < sampled && !over(); ++i) {
     const auto space = order[i % order.size()];
-    const auto sample =
-        samples_alone ? BoxSample{samplers_[space].uniform()} : samplers_[space].next();
+    const auto sample = samplers_[space].next();
     (void)measure(space, {.point = sample.point, .sample = sample.kind});
   }
   const auto runs_of_one =

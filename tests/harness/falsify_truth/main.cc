@@ -63,8 +63,8 @@ constexpr Pair kPairs[] = {
     {"motions/end-y-max", "link.to_plant delay delay_s={} duration_s=0.1", 0.01, 0.09,
      "always: y_end_distance > 50 mm"}};
 constexpr std::size_t kSizes = 3;
-constexpr std::size_t kSeeds = 100;
-constexpr std::size_t kSnapshots = 64;  // of the fault-free run: half the time of a sweep
+constexpr std::size_t kSeeds = 1000;
+constexpr std::size_t kSnapshots = 64;  // of the fault-free run: two thirds of the time
 constexpr double kShare = 0.02;         // of the runs of a sweep in steps of kFine_s
 constexpr double kFine_s = 1e-3;
 constexpr double kNear_s = 2e-3;
