@@ -20,7 +20,7 @@ using core::Axis;
 class FollowedReference {
  public:
   FollowedReference() : log_rows_(bbmc::kDataLogRows), log_(log_rows_) {
-    for (Axis axis : core::kAxes) {
+    for (Axis axis : core::kPlanarAxes) {
       // An encoder without index whose axis stands under full torque would be a frozen one; told
       // of a load that large, the controller still judges it at every step.
       configuration_.axes[axis].plausibility.index_fitted = false;
@@ -29,7 +29,7 @@ class FollowedReference {
     sample_.lines = static_cast<std::uint16_t>(bbmc::mask_of(bbmc::Line::kAmplifierReadyY) |
                                                bbmc::mask_of(bbmc::Line::kAmplifierReadyX));
     control_ = std::make_unique<bbmc::MotionControl>(configuration_, kPeriod_ns, log_);
-    for (Axis axis : core::kAxes) {
+    for (Axis axis : core::kPlanarAxes) {
       count_[axis] = count_at(axis, kStart_m);
       control_->axis(axis).declare_position(count_[axis]);
     }
@@ -39,7 +39,7 @@ class FollowedReference {
   bool move(double amplitude_m) {
     bbmc::MotionOrder order;
     order.kind = bbmc::MotionKind::kReference;
-    for (Axis axis : core::kAxes) {
+    for (Axis axis : core::kPlanarAxes) {
       const auto reference =
           bbmc::Harmonic::make({.start_m = kStart_m,
                                 .amplitude_m = amplitude_m,
@@ -57,7 +57,7 @@ class FollowedReference {
     sample_.time_ns += kPeriod_ns;
     sample_.tick_due = tick_due;
     sample_.tick_due_ns = sample_.time_ns;
-    for (Axis axis : core::kAxes) {
+    for (Axis axis : core::kPlanarAxes) {
       auto& encoder = sample_.encoder[axis];
       encoder.time_ns = sample_.time_ns;
       const auto position = static_cast<std::uint32_t>(count_[axis] - count_at(axis, kStart_m));
@@ -69,7 +69,7 @@ class FollowedReference {
     benchmark::DoNotOptimize(command_);
     bbmc::TelemetryRow row;
     while (control_->next_row(row)) {
-      for (Axis axis : core::kAxes) {
+      for (Axis axis : core::kPlanarAxes) {
         if (row.axes[axis].mode == bbmc::AxisMode::kPosition) {
           count_[axis] = count_at(axis, row.axes[axis].reference_m);
         }

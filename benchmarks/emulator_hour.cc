@@ -28,7 +28,7 @@ emulator::Rig swinging_rig() {
   parameters.axes[Axis::kY].start_m = Middle{}.y_m;
   parameters.axes[Axis::kX].start_m = Middle{}.x_m;
   emulator::Rig rig(parameters, 1);
-  for (const Axis axis : core::kAxes) {
+  for (const Axis axis : core::kPlanarAxes) {
     rig.axis(axis)->enable_line = true;
   }
   return rig;
@@ -36,7 +36,7 @@ emulator::Rig swinging_rig() {
 
 // Towards the middle, one command a millisecond.
 void drive(emulator::Rig& rig, std::uint32_t sequence) {
-  for (const Axis which : core::kAxes) {
+  for (const Axis which : core::kPlanarAxes) {
     emulator::RigAxis& axis = *rig.axis(which);
     const bool towards_max = axis.plant().state().carriage_m < Middle{}.of(which);
     const std::uint16_t ticks = which == Axis::kY ? 150 : 60;

@@ -46,7 +46,7 @@ emulator::RigParameters rig_in_water() {
 void step(benchmark::State& state, const emulator::RigParameters& parameters) {
   emulator::Rig rig(parameters, 1);
   const int ticks = static_cast<int>(state.range(0));
-  for (const Axis axis : core::kAxes) {
+  for (const Axis axis : core::kPlanarAxes) {
     rig.axis(axis)->enable_line = true;
   }
   std::uint32_t tick = 0;

@@ -65,7 +65,7 @@ class Answering final : public MessageSink {
   explicit Answering(MessageSink& controller) : controller_(controller) {}
   using MessageSink::on;
   void on(const Advance& advance) noexcept override {
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kPlanarAxes) {
       controller_.on(EncoderReport{.axis = axis,
                                    .time_ns = advance.until_ns,
                                    .count_change = 1,
@@ -166,7 +166,7 @@ int measure(End& end, const Blocks& blocks, const char* name) {
     start = Clock::now();
     for (unsigned turn = 0; turn < blocks.turns; ++turn) {
       now_ns += core::kNanosecondsPerMillisecond;
-      for (const auto axis : core::kAxes) {
+      for (const auto axis : core::kPlanarAxes) {
         end.link->peer().on(PwmDuty{
             .axis = axis, .channel_a_ticks = 7, .period_ticks = 1000, .sequence = sequence});
       }

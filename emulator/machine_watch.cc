@@ -17,7 +17,7 @@ namespace {
 }  // namespace
 
 void MachineWatch::look(const Rig& rig, FaultReporter& faults) noexcept {
-  for (const Axis which : core::kAxes) {
+  for (const Axis which : rig.axes()) {
     const RigAxis* axis = rig.axis(which);
     if (axis == nullptr) {
       continue;

@@ -15,7 +15,7 @@ PlantExchange::PlantExchange(const RigParameters& rig, std::uint64_t seed,
       observer_(&observer),
       faults_(observer),
       watch_(observer) {
-  for (const Axis which : core::kAxes) {
+  for (const Axis which : rig_.axes()) {
     if (const RigAxis* axis = rig_.axis(which)) {
       const protocol::EncoderLevels levels = axis->encoder().levels();
       outputs_[which].emplace(AxisOutputs{EdgeStream(which, levels), EncoderDigest(which, levels)});
@@ -67,7 +67,7 @@ void PlantExchange::forget_controller() noexcept {
   line_sequence_ = 0;
   output_sequence_known_ = false;
   pending_lines_.clear();
-  for (const Axis which : core::kAxes) {
+  for (const Axis which : rig_.axes()) {
     if (RigAxis* axis = rig_.axis(which)) {
       axis->command.forget_sequence();
       outputs_[which]->edges.forget_sequence();
@@ -86,7 +86,7 @@ void PlantExchange::drive(const protocol::PwmDuty& duty) noexcept {
     report(ErrorCode::kProtocolNoHello, duty.axis, 0);
     return;
   }
-  const bool known_axis = core::index_of(duty.axis) < core::kAxisCount;
+  const bool known_axis = core::index_of(duty.axis) < core::kMostAxes;
   RigAxis* axis = known_axis ? rig_.axis(duty.axis) : nullptr;
   const ErrorCode verdict =
       axis != nullptr ? axis->command.accept(duty) : ErrorCode::kMessageBadField;
@@ -112,11 +112,9 @@ void PlantExchange::set_outputs(const protocol::DigitalOutputs& outputs) noexcep
   }
   output_sequence_ = outputs.sequence;
   output_sequence_known_ = true;
-  constexpr core::PerAxis<protocol::OutputLine> kEnableLine{
-      {protocol::OutputLine::kAmplifierEnableY, protocol::OutputLine::kAmplifierEnableX}};
-  for (const Axis which : core::kAxes) {
+  for (const Axis which : rig_.axes()) {
     if (RigAxis* axis = rig_.axis(which)) {
-      axis->enable_line = (outputs.lines & protocol::mask_of(kEnableLine[which])) != 0;
+      axis->enable_line = (outputs.lines & protocol::mask_of(protocol::enable_line(which))) != 0;
     }
   }
 }
@@ -174,7 +172,7 @@ void PlantExchange::tick() noexcept {
   }
   const core::Nanoseconds start_ns = now_ns();
   rig_.step();
-  for (const Axis which : core::kAxes) {
+  for (const Axis which : rig_.axes()) {
     if (const RigAxis* axis = rig_.axis(which)) {
       AxisOutputs& output = *outputs_[which];
       if (sends_edges_) {
@@ -192,7 +190,7 @@ void PlantExchange::tick() noexcept {
 }
 
 void PlantExchange::send_samples() noexcept {
-  for (const Axis which : core::kAxes) {
+  for (const Axis which : rig_.axes()) {
     const RigAxis* axis = rig_.axis(which);
     if (axis != nullptr && axis->current_sample()) {
       observer_->on_current(*axis->current_sample());

@@ -1,6 +1,7 @@
 #include "emulator/rig.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace towbench::emulator {
 
@@ -9,10 +10,7 @@ using protocol::InputLine;
 
 namespace {
 
-constexpr core::PerAxis<InputLine> kReadyLine{
-    {InputLine::kAmplifierReadyY, InputLine::kAmplifierReadyX}};
-
-[[nodiscard]] Axis other(Axis axis) noexcept {
+[[nodiscard]] Axis other_of_plane(Axis axis) noexcept {
   return axis == Axis::kY ? Axis::kX : Axis::kY;
 }
 
@@ -38,13 +36,22 @@ Rig::Rig(const RigParameters& parameters, std::uint64_t seed)
   // One stream of seeds in a fixed order, so that fitting one sensor leaves the others' noise
   // alone.
   core::Random seeds(seed);
-  const core::PerAxis<std::uint64_t> axis_seed{{seeds.bits(), seeds.bits()}};
+  core::PerAxis<RigAxis::Seeds> axis_seeds;
+  for (const Axis which : core::kPlanarAxes) {
+    axis_seeds[which].current_monitor = seeds.bits();
+  }
   const std::uint64_t force_seed = seeds.bits();
-  const core::PerAxis<std::uint64_t> ripple_seed{{seeds.bits(), seeds.bits()}};
+  for (const Axis which : core::kPlanarAxes) {
+    axis_seeds[which].ripple = seeds.bits();
+  }
+  const std::uint64_t camera_seed = seeds.bits();
+  for (const Axis which : core::kFurtherAxes) {
+    axis_seeds[which] = {.current_monitor = seeds.bits(), .ripple = seeds.bits()};
+  }
   if (parameters.water.present()) {
     water_.emplace(parameters.water);
-    for (RigAxisParameters& axis : parameters_.axes) {
-      axis.plant.water_mass_kg = added_mass_kg(parameters.water);
+    for (const Axis which : core::kPlanarAxes) {
+      parameters_.axes[which].plant.water_mass_kg = added_mass_kg(parameters.water);
     }
   }
   if (parameters.force_sensor.fitted) {
@@ -54,29 +61,21 @@ Rig::Rig(const RigParameters& parameters, std::uint64_t seed)
     force_sensor_.emplace(sensor, force_seed);
   }
   if (parameters.camera.fitted) {
-    camera_.emplace(parameters.camera, seeds.bits());
+    camera_.emplace(parameters.camera, camera_seed);
   }
   unsigned lines = 0;
-  for (const Axis which : core::kAxes) {
+  for (const Axis which : core::kAllAxes) {
     if (parameters_.axes[which].exists) {
-      axes_[which].emplace(
-          which, parameters_.axes[which],
-          RigAxis::Seeds{.current_monitor = axis_seed[which], .ripple = ripple_seed[which]},
-          foreign_ ? &foreign_outputs_[which] : nullptr);
+      axes_[which].emplace(which, parameters_.axes[which], axis_seeds[which],
+                           foreign_ ? &foreign_outputs_[which] : nullptr);
+      axes_mask_ = static_cast<std::uint8_t>(axes_mask_ | 1U << core::index_of(which));
+      axis_count_ = core::index_of(which) + 1;
       lines |= axes_[which]->hall_lines();
-      lines |= supply_.ready() ? protocol::mask_of(kReadyLine[which]) : 0U;
+      lines |= supply_.ready() ? protocol::mask_of(protocol::ready_line(which)) : 0U;
     }
   }
   machine_lines_ = static_cast<std::uint16_t>(lines);
   arriving_lines_ = machine_lines_;
-}
-
-std::uint8_t Rig::axes_mask() const noexcept {
-  unsigned mask = 0;
-  for (const Axis which : core::kAxes) {
-    mask |= axes_[which] ? 1U << core::index_of(which) : 0U;
-  }
-  return static_cast<std::uint8_t>(mask);
 }
 
 bool Rig::set_kill_switch(bool pressed, core::Nanoseconds time_ns) noexcept {
@@ -109,7 +108,7 @@ void Rig::remove_drive() noexcept {
 
 double Rig::cross_axis_force_N(Axis which) const noexcept {
   const double ratio = parameters_.axes[which].cross_axis_force_ratio;
-  const RigAxis* neighbour = axis(other(which));
+  const RigAxis* neighbour = axis(other_of_plane(which));
   return ratio == 0.0 || neighbour == nullptr ? 0.0
                                               : ratio * neighbour->plant().forces().chain_force_N;
 }
@@ -123,7 +122,7 @@ void Rig::step() noexcept {
   if (water_) {
     feel_water();
   }
-  for (const Axis which : core::kAxes) {
+  for (const Axis which : axes()) {
     if (axes_[which]) {
       axes_[which]->take_command({.supply_V = supply_.voltage_V(),
                                   .amplifier_may_drive = may_drive,
@@ -136,7 +135,7 @@ void Rig::step() noexcept {
     step_foreign();
   }
   double power_W = 0.0;
-  for (const Axis which : core::kAxes) {
+  for (const Axis which : axes()) {
     if (!axes_[which]) {
       continue;
     }
@@ -162,7 +161,7 @@ void Rig::step() noexcept {
 
 void Rig::make_foreign() {
   core::PerAxis<std::optional<double>> starts_m;
-  for (const Axis which : core::kAxes) {
+  for (const Axis which : core::kAllAxes) {
     if (parameters_.axes[which].exists) {
       starts_m[which] = parameters_.axes[which].start_m;
     }
@@ -173,7 +172,7 @@ void Rig::make_foreign() {
 
 void Rig::step_foreign() noexcept {
   core::PerAxis<ForeignInput> inputs;
-  for (const Axis which : core::kAxes) {
+  for (const Axis which : axes()) {
     if (axes_[which]) {
       inputs[which] = axes_[which]->foreign_input();
     }
@@ -185,21 +184,37 @@ void Rig::step_foreign() noexcept {
   }
 }
 
+bool Rig::turns_load() const noexcept {
+  return axes_[Axis::kC].has_value() && parameters_.axes[Axis::kC].load_turns;
+}
+
+// In the middle of the next step.
+PlaneTurn Rig::load_turn() const noexcept {
+  const RigAxis& c = *axes_[Axis::kC];
+  const double angle_rad =
+      c.carriage_m() + 0.5 * core::kPlantTick_s * c.coming_carriage_speed_m_per_s();
+  return PlaneTurn(angle_rad / (2.0 * std::numbers::pi));
+}
+
 void Rig::feel_water() noexcept {
-  core::PerAxis<double> velocity{};
-  for (const Axis which : core::kAxes) {
+  core::PerPlanarAxis<double> velocity{};
+  for (const Axis which : core::kPlanarAxes) {
     velocity[which] = axes_[which] ? axes_[which]->coming_carriage_speed_m_per_s() : 0.0;
   }
-  water_N_ = water_->force_N(now_ns_, velocity);
+  const auto force_N = turns_load() ? water_->force_N(now_ns_, velocity, load_turn())
+                                    : water_->force_N(now_ns_, velocity);
+  for (const Axis which : core::kPlanarAxes) {
+    water_N_[which] = force_N[which];
+  }
 }
 
 // A push acts on the load, below the sensor (FR-3), and so does the water.
 void Rig::measure_force() noexcept {
-  core::PerAxis<double> acceleration{};
-  core::PerAxis<double> load_N = push_N_;
-  for (const Axis which : core::kAxes) {
+  core::PerPlanarAxis<double> acceleration{};
+  core::PerPlanarAxis<double> load_N{};
+  for (const Axis which : core::kPlanarAxes) {
     acceleration[which] = axes_[which] ? axes_[which]->carriage_acceleration_m_per_s2() : 0.0;
-    load_N[which] += water_N_[which];
+    load_N[which] = push_N_[which] + water_N_[which];
   }
   protocol::ForceSample sample;
   const bool taken = force_sensor_->step(now_ns_, load_N, acceleration, sample);
@@ -207,8 +222,8 @@ void Rig::measure_force() noexcept {
 }
 
 void Rig::expose_frame() noexcept {
-  core::PerAxis<double> carriage_m{};
-  for (const Axis which : core::kAxes) {
+  core::PerPlanarAxis<double> carriage_m{};
+  for (const Axis which : core::kPlanarAxes) {
     carriage_m[which] = axes_[which] ? axes_[which]->carriage_m() : 0.0;
   }
   camera_frame_ = camera_->see(now_ns_, carriage_m);
@@ -216,17 +231,20 @@ void Rig::expose_frame() noexcept {
 
 // The amplifiers notice the supply at the end of the tick: its last nanosecond.
 void Rig::update_ready_lines() noexcept {
-  for (const Axis which : core::kAxes) {
+  for (const Axis which : {Axis::kY, Axis::kX}) {
     if (axes_[which]) {
-      (void)changes_.push_back({now_ns_ - 1, kReadyLine[which], supply_.ready()});
+      (void)changes_.push_back({now_ns_ - 1, protocol::ready_line(which), supply_.ready()});
     }
+  }
+  if (axes_mask_ >= 1U << core::kPlanarAxes.size()) {
+    (void)changes_.push_back({now_ns_ - 1, InputLine::kFurtherAmplifiersReady, supply_.ready()});
   }
 }
 
 TruthRow Rig::truth() const noexcept {
   TruthRow row;
   row.time_ns = now_ns_;
-  for (const Axis which : core::kAxes) {
+  for (const Axis which : axes()) {
     if (axes_[which]) {
       row.axes[which] = axes_[which]->truth();
     }

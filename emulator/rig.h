@@ -1,8 +1,8 @@
-// The whole machine, one 100 us tick at a time: command paths, supply, both axes, their sensors and
+// The whole machine, one 100 us tick at a time: command paths, supply, the axes, their sensors and
 // the kill chain. Knows nothing of messages; plant_node.cc carries its inputs and outputs.
 //
 // Order of a tick, the same for every carrier and clock: supply voltage and kill chain of the tick
-// before -> water at the tick's predicted middle -> command voltages -> both axes -> encoders and
+// before -> water at the tick's predicted middle -> command voltages -> the axes -> encoders and
 // halls -> supply. Axes meet in the supply, in the water and in `cross_axis_force_ratio` only
 // (MACS-A-6); in supply and cross force with one tick of delay.
 #pragma once
@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "core/axis.h"
@@ -128,7 +129,11 @@ class Rig {
   [[nodiscard]] const RigAxis* axis(core::Axis which) const noexcept {
     return axes_[which] ? &*axes_[which] : nullptr;
   }
-  [[nodiscard]] std::uint8_t axes_mask() const noexcept;
+  [[nodiscard]] std::uint8_t axes_mask() const noexcept { return axes_mask_; }
+  // All axes up to the last one that the machine has.
+  [[nodiscard]] std::span<const core::Axis> axes() const noexcept {
+    return std::span(core::kAllAxes).first(axis_count_);
+  }
 
   // Inputs of the tick about to run. Times lie inside it, ascending.
   // False, and nothing changed, when the contact bounces more often than one tick can take.
@@ -170,6 +175,9 @@ class Rig {
   void make_foreign();
   void step_foreign() noexcept;
   void feel_water() noexcept;
+  // Whether axis c turns what hangs in the water (thesis 9.2.1), and by how much.
+  [[nodiscard]] bool turns_load() const noexcept;
+  [[nodiscard]] PlaneTurn load_turn() const noexcept;
   void measure_force() noexcept;
   void expose_frame() noexcept;
   void update_ready_lines() noexcept;
@@ -179,6 +187,8 @@ class Rig {
   std::unique_ptr<ForeignPlant> foreign_;  // null: the built-in equations
   core::PerAxis<ForeignOutput> foreign_outputs_;
   core::PerAxis<std::optional<RigAxis>> axes_;
+  std::uint8_t axes_mask_ = 0;
+  std::size_t axis_count_ = 0;
   Supply supply_;
   std::optional<Water> water_;
   core::PerAxis<double> water_N_{};

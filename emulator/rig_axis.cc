@@ -3,14 +3,6 @@
 namespace towbench::emulator {
 
 using core::Axis;
-using protocol::InputLine;
-
-namespace {
-
-constexpr core::PerAxis<InputLine> kHallMinLine{{InputLine::kHallYMin, InputLine::kHallXMin}};
-constexpr core::PerAxis<InputLine> kHallMaxLine{{InputLine::kHallYMax, InputLine::kHallXMax}};
-
-}  // namespace
 
 RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, const Seeds& seeds,
                  const ForeignOutput* at_start)
@@ -22,8 +14,8 @@ RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, const Seeds& seeds,
                               : state_.motor_angle_rad),
       disc_(p.encoder),
       wiring_(encoder_.levels()),
-      hall_min_(p.hall_min, TravelEnd::kMin, kHallMinLine[axis], p.start_m),
-      hall_max_(p.hall_max, TravelEnd::kMax, kHallMaxLine[axis], p.start_m),
+      hall_min_(p.hall_min, TravelEnd::kMin, protocol::hall_line(axis, false), p.start_m),
+      hall_max_(p.hall_max, TravelEnd::kMax, protocol::hall_line(axis, true), p.start_m),
       resistance_ohm_(p.plant.winding.resistance_ohm),
       torque_constant_Nm_per_A_(p.plant.torque_constant_Nm_per_A),
       motor_rad_per_m_(p.plant.gear_ratio / p.plant.sprocket_radius_m),

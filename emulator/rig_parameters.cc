@@ -1,5 +1,6 @@
 #include "emulator/rig_parameters.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -104,6 +105,14 @@ RigParameters::RigParameters() noexcept {
   x.plant = nominal_x_plant();
   x.plant.hard_ends.max_m = kXTravel_counts * metres_per_count(x);
   place_halls(x, kXHallMin_counts, kXHallMax_counts);
+  for (const core::Axis further : core::kFurtherAxes) {
+    axes[further].exists = false;
+  }
+}
+
+bool has_further_axes(const RigParameters& rig) noexcept {
+  return std::any_of(core::kFurtherAxes.begin(), core::kFurtherAxes.end(),
+                     [&](core::Axis which) { return rig.axes[which].exists; });
 }
 
 double metres_per_count(const RigAxisParameters& axis) noexcept {
@@ -118,6 +127,14 @@ const char* inconsistency(const RigParameters& rig) noexcept {
     if (const char* found = inconsistency(axis)) {
       return found;
     }
+  }
+  for (const core::Axis which : core::kFurtherAxes) {
+    if (rig.axes[which].exists && rig.axes[which].cross_axis_force_ratio != 0.0) {
+      return "cross_axis_force_ratio is of axes y and x";
+    }
+  }
+  for (const core::Axis which : core::kPlanarAxes) {
+    const RigAxisParameters& axis = rig.axes[which];
     if (axis.exists && rig.force_sensor.fitted &&
         rig.force_sensor.load_mass_kg > carriage_mass_kg(axis.plant)) {
       return "force_sensor.load_mass_kg is more than an axis moves";
@@ -130,7 +147,7 @@ const char* inconsistency(const RigParameters& rig) noexcept {
     return found;
   }
   if (!any_axis) {
-    return "axis.y.exists and axis.x.exists are both false";
+    return "no axis exists";
   }
   if (rig.supply.voltage_V < rig.supply.cut_out_V) {
     return "supply.voltage_V is below supply.cut_out_V";

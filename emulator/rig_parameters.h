@@ -1,14 +1,14 @@
-// The whole machine as a parameter set: two axes with their sensors and command paths, one supply,
-// one kill chain. SI inside; every default has its source in docs/reference/constants.md or says
-// "assumed".
+// The whole machine as a parameter set: up to six axes with their sensors and command paths, one
+// supply, one kill chain. SI inside; every default has its source in docs/reference/constants.md or
+// says "assumed".
 //
-// X rides on Y: the carriage of Y carries the X platform, motor and load, so Y's inertia and
-// friction include them (Table 7.4 was identified that way). X's platform moves along X only, and
-// the axes are orthogonal, so X's mass loads Y but X's motion does not push Y (MACS-A-6); what
-// residual push there is, is `cross_axis_force_ratio`, zero by default. In symbols: the kinetic
-// energy 1/2 (M_carriage + M_platform) y'^2 + 1/2 M_platform x'^2 has no product x' y' and depends
-// on no position, so neither Coriolis nor position terms arise. The water is what couples the two:
-// a body moves through it with both velocities (water/water.h).
+// In the tow tank X rides on Y: the carriage of Y carries the X platform, motor and load, so Y's
+// inertia and friction include them (Table 7.4 was identified that way). X's platform moves along X
+// only, and the axes are orthogonal, so X's mass loads Y but X's motion does not push Y (MACS-A-6);
+// what residual push there is, is `cross_axis_force_ratio`, zero by default. In symbols: the
+// kinetic energy 1/2 (M_carriage + M_platform) y'^2 + 1/2 M_platform x'^2 has no product x' y' and
+// depends on no position, so neither Coriolis nor position terms arise. The water is what couples
+// the two: a body moves through it with both velocities (water/water.h).
 #pragma once
 
 #include <cstdint>
@@ -87,7 +87,7 @@ struct SupplyParameters {
     v.value("source_resistance_ohm", source_resistance_ohm, core::between(0.0, 10.0),
             "of supply and cable: how far the voltage sags");
     v.value("over_current_A", over_current_A, core::above(0.0),
-            "current of both axes above which the supply trips");
+            "current of all axes above which the supply trips");
     v.value("over_current_delay_s", over_current_delay_s, core::between(0.0, 10.0),
             "how long the current may stay above that");
     v.value("cut_out_V", cut_out_V, core::between(0.0, 60.0),
@@ -107,7 +107,7 @@ struct KillSwitchParameters {
   void visit(Visitor& v) {
     v.value("fitted", fitted, core::any_finite(), "whether the machine has a kill switch");
     v.value("cuts_amplifiers", cuts_amplifiers, core::any_finite(),
-            "whether the contact also cuts both amplifiers in hardware");
+            "whether the contact also cuts the amplifiers in hardware");
   }
 };
 
@@ -116,6 +116,11 @@ struct RigAxes : core::PerAxis<RigAxisParameters> {
   void visit(Visitor& v) {
     v.group("y", (*this)[core::Axis::kY], "along the tank");
     v.group("x", (*this)[core::Axis::kX], "across the tank, on Y's carriage");
+    for (const core::Axis axis : core::kFurtherAxes) {
+      if ((*this)[axis].exists) {
+        v.group(core::name_of(axis), (*this)[axis], "an axis of its own");
+      }
+    }
   }
 };
 
@@ -136,7 +141,7 @@ struct RigParameters {
 
   template <typename Visitor>
   void visit(Visitor& v) {
-    v.group("axis", axes, "the two axes");
+    v.group("axis", axes, "the axes");
     v.group("supply", supply, "shared 12 V supply");
     v.group("kill_switch", kill_switch, "the operator's kill switch");
     v.group("force_sensor", force_sensor, "six-axis force/torque sensor at the load's mount");
@@ -144,6 +149,8 @@ struct RigParameters {
     v.group("water", water, "what hangs in the water");
   }
 };
+
+[[nodiscard]] bool has_further_axes(const RigParameters& rig) noexcept;
 
 // Carriage metres an encoder count, from gear and sprocket (3.42).
 [[nodiscard]] double metres_per_count(const RigAxisParameters& axis) noexcept;

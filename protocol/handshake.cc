@@ -63,7 +63,7 @@ class Text {
 
 void describe_axes(Text& text, std::uint8_t mask) noexcept {
   text << (mask == 0 ? "none" : "");
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kAllAxes) {
     text << ((static_cast<unsigned>(mask) >> core::index_of(axis) & 1U) != 0 ? core::name_of(axis)
                                                                              : "");
   }

@@ -121,8 +121,17 @@ enum class InputLine : std::uint8_t {
   kKillSwitch = 4,
   kAmplifierReadyY = 5,
   kAmplifierReadyX = 6,
+  kHallZMin = 7,
+  kHallZMax = 8,
+  kHallAMin = 9,
+  kHallAMax = 10,
+  kHallBMin = 11,
+  kHallBMax = 12,
+  kHallCMin = 13,
+  kHallCMax = 14,
+  kFurtherAmplifiersReady = 15,  // of z to c, their contacts in series
 };
-inline constexpr std::size_t kInputLineCount = 7;
+inline constexpr std::size_t kInputLineCount = 16;
 
 [[nodiscard]] constexpr std::uint16_t mask_of(InputLine line) noexcept {
   return static_cast<std::uint16_t>(1U << static_cast<unsigned>(line));
@@ -136,8 +145,36 @@ struct DigitalInputs {
   std::uint32_t sequence = 0;
 };
 
-enum class OutputLine : std::uint8_t { kAmplifierEnableY = 0, kAmplifierEnableX = 1 };
-inline constexpr std::size_t kOutputLineCount = 2;
+[[nodiscard]] constexpr InputLine hall_line(core::Axis axis, bool at_max) noexcept {
+  const std::size_t nth = core::index_of(axis);
+  const std::size_t first =
+      nth < 2 ? 2 * nth : static_cast<std::size_t>(InputLine::kHallZMin) + 2 * (nth - 2);
+  return static_cast<InputLine>(first + (at_max ? 1 : 0));
+}
+
+[[nodiscard]] constexpr InputLine ready_line(core::Axis axis) noexcept {
+  return axis == core::Axis::kY   ? InputLine::kAmplifierReadyY
+         : axis == core::Axis::kX ? InputLine::kAmplifierReadyX
+                                  : InputLine::kFurtherAmplifiersReady;
+}
+
+enum class OutputLine : std::uint8_t {
+  kAmplifierEnableY = 0,
+  kAmplifierEnableX = 1,
+  kAmplifierEnableZ = 2,
+  kAmplifierEnableA = 3,
+  kAmplifierEnableB = 4,
+  kAmplifierEnableC = 5,
+};
+inline constexpr std::size_t kOutputLineCount = 6;
+
+// A cable for lines, not for messages, carries those of a machine of two axes.
+inline constexpr std::size_t kWiredInputLines = 7;
+inline constexpr std::size_t kWiredOutputLines = 2;
+
+[[nodiscard]] constexpr OutputLine enable_line(core::Axis axis) noexcept {
+  return static_cast<OutputLine>(core::index_of(axis));
+}
 
 [[nodiscard]] constexpr std::uint16_t mask_of(OutputLine line) noexcept {
   return static_cast<std::uint16_t>(1U << static_cast<unsigned>(line));

@@ -18,8 +18,8 @@ namespace towbench::protocol {
 
 namespace legal {
 
-inline constexpr auto axis = [](core::Axis a) { return core::index_of(a) < core::kAxisCount; };
-inline constexpr auto axes_mask = [](std::uint8_t mask) { return mask < 1U << core::kAxisCount; };
+inline constexpr auto axis = [](core::Axis a) { return core::index_of(a) < core::kMostAxes; };
+inline constexpr auto axes_mask = [](std::uint8_t mask) { return mask < 1U << core::kMostAxes; };
 inline constexpr auto role = [](Role r) { return r <= Role::kObserver; };
 inline constexpr auto time = [](core::Nanoseconds t) { return t >= 0; };
 inline constexpr auto levels = [](EncoderLevels l) { return l < 8U; };

@@ -74,8 +74,8 @@ help_of() { # help_of PROGRAM VERB
   catalogue=$(find "$root/harness" -name fault_catalogue.cc)
   [ -n "$catalogue" ] || { echo "no fault_catalogue.cc" >&2; exit 1; }
   perl -0777 -ne '
-    my %part = (EndStop => "endstop.{y,x}_{min,max}", KillSwitch => "kill_switch", Encoder => "encoder.{y,x}",
-                Amplifier => "amplifier.{y,x}", Supply => "supply", DriveTrain => "drive.{y,x}",
+    my %part = (EndStop => "endstop.{y,x,z,a,b,c}_{min,max}", KillSwitch => "kill_switch", Encoder => "encoder.{y,x,z,a,b,c}",
+                Amplifier => "amplifier.{y,x,z,a,b,c}", Supply => "supply", DriveTrain => "drive.{y,x,z,a,b,c}",
                 Link => "link.to_{controller,plant}", Host => "host");
     my $last = "";
     while (/\{k(\w+), k\w+, "(\w+)", "([^"]+)",(.*?)\},\s*(?=\{k|\n|\/\/)/sg) {

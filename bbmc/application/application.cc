@@ -225,7 +225,7 @@ void Application::report() noexcept {
 
 void Application::write_debug() noexcept {
   const SystemStatus& status = system_.status();
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : kAxes) {
     if (!system_.configuration().axes[axis].exists) {
       continue;
     }

@@ -46,15 +46,15 @@ Configuration configuration() noexcept {
 struct Board {
   LineEdges edges;
   PaceClock clock;
-  core::PerAxis<RegisterPwm> pwm;
-  core::PerAxis<RegisterEqep> encoder;
+  PerAxis<RegisterPwm> pwm;
+  PerAxis<RegisterEqep> encoder;
   RegisterTimer timer{clock};
   std::array<RegisterLine, kLineCount> lines;
   RegisterUart console;
   RegisterInterrupts interrupts{edges};
 
   Board() noexcept {
-    for (const core::Axis axis : core::kAxes) {
+    for (const core::Axis axis : kAxes) {
       pwm[axis].attach(axis, edges);
       encoder[axis].attach(axis, clock);
     }
@@ -65,7 +65,7 @@ struct Board {
 
   [[nodiscard]] BoardPorts ports() noexcept {
     BoardPorts all;
-    for (const core::Axis axis : core::kAxes) {
+    for (const core::Axis axis : kAxes) {
       all.pwm[axis] = &pwm[axis];
       all.encoder[axis] = &encoder[axis];
     }
@@ -203,7 +203,7 @@ void bbmc_interrupt() {
 }
 
 void bbmc_halt() {
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : kAxes) {
     am335x::half(am335x::pwm(axis) + 0x30) = 1U << 2U;  // TZFRC: both pins low
   }
 }

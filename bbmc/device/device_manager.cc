@@ -36,14 +36,14 @@ DeviceManager::DeviceManager(const BoardPorts& ports) noexcept
 
 DeviceUnit DeviceManager::unit(std::size_t i) const noexcept {
   core::check(i < kUnitCount);
-  if (i < core::kAxisCount) {
-    return {Ehrpwm::kName, name_of(core::kAxes[i]), pwm_[core::kAxes[i]].state()};
+  if (i < kAxisCount) {
+    return {Ehrpwm::kName, name_of(kAxes[i]), pwm_[kAxes[i]].state()};
   }
-  i -= core::kAxisCount;
-  if (i < core::kAxisCount) {
-    return {Eqep::kName, name_of(core::kAxes[i]), encoder_[core::kAxes[i]].state()};
+  i -= kAxisCount;
+  if (i < kAxisCount) {
+    return {Eqep::kName, name_of(kAxes[i]), encoder_[kAxes[i]].state()};
   }
-  i -= core::kAxisCount;
+  i -= kAxisCount;
   if (i < kLineCount) {
     return {Gpio::kName, name_of(static_cast<Line>(i)), lines_[i].state()};
   }

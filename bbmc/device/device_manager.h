@@ -6,19 +6,19 @@
 #include <string_view>
 
 #include "bbmc/device/aintc.h"
+#include "bbmc/device/axes.h"
 #include "bbmc/device/dmtimer.h"
 #include "bbmc/device/ehrpwm.h"
 #include "bbmc/device/eqep.h"
 #include "bbmc/device/gpio.h"
 #include "bbmc/device/uart.h"
-#include "core/axis.h"
 
 namespace towbench::bbmc {
 
 // The back-ends that a board provides; each outlives the device manager.
 struct BoardPorts {
-  core::PerAxis<EhrpwmPort*> pwm;
-  core::PerAxis<EqepPort*> encoder;
+  PerAxis<EhrpwmPort*> pwm;
+  PerAxis<EqepPort*> encoder;
   DmtimerPort* control_timer = nullptr;
   std::array<GpioPort*, kLineCount> lines{};
   UartPort* console = nullptr;
@@ -44,15 +44,15 @@ class DeviceManager {
   [[nodiscard]] AintcDriver& interrupts() noexcept { return interrupts_; }
 
   // Every unit of the board: kUnitCount of them; i < kUnitCount.
-  static constexpr std::size_t kUnitCount = 2 * core::kAxisCount + kLineCount + 3;
+  static constexpr std::size_t kUnitCount = 2 * kAxisCount + kLineCount + 3;
   [[nodiscard]] DeviceUnit unit(std::size_t i) const noexcept;
 
   // Closes what is open: outputs go inactive.
   void close_all() noexcept;
 
  private:
-  core::PerAxis<EhrpwmDriver> pwm_;
-  core::PerAxis<EqepDriver> encoder_;
+  PerAxis<EhrpwmDriver> pwm_;
+  PerAxis<EqepDriver> encoder_;
   DmtimerDriver control_timer_;
   std::array<GpioDriver, kLineCount> lines_;
   UartDriver console_;

@@ -23,7 +23,7 @@ class ControllerNode::Implementation {
 
   [[nodiscard]] static std::uint8_t mask_of_axes(const Configuration& configuration) noexcept {
     unsigned mask = 0;
-    for (core::Axis axis : core::kAxes) {
+    for (core::Axis axis : kAxes) {
       mask |= configuration.axes[axis].exists ? 1U << core::index_of(axis) : 0U;
     }
     return static_cast<std::uint8_t>(mask);

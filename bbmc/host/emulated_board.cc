@@ -5,7 +5,7 @@ namespace towbench::bbmc {
 static_assert(static_cast<std::size_t>(protocol::InputLine::kAmplifierReadyX) ==
                   index_of(Line::kAmplifierReadyX),
               "input lines have the same numbers on the wire and on the board");
-static_assert(protocol::kInputLineCount == kInputLines);
+static_assert(protocol::kWiredInputLines == kInputLines);
 
 EmulatedBoard::EmulatedBoard() noexcept {
   for (std::size_t i = 0; i < kLineCount; ++i) {
@@ -15,7 +15,7 @@ EmulatedBoard::EmulatedBoard() noexcept {
 
 BoardPorts EmulatedBoard::ports() noexcept {
   BoardPorts ports;
-  for (core::Axis axis : core::kAxes) {
+  for (core::Axis axis : kAxes) {
     ports.pwm[axis] = &pwm_[axis];
     ports.encoder[axis] = &encoder_[axis];
   }
@@ -29,11 +29,11 @@ BoardPorts EmulatedBoard::ports() noexcept {
 }
 
 bool EmulatedBoard::take(const protocol::EncoderEdges& edges) noexcept {
-  return encoder_[edges.axis].decoder().take(edges);
+  return core::is_planar(edges.axis) && encoder_[edges.axis].decoder().take(edges);
 }
 
 bool EmulatedBoard::take(const protocol::EncoderReport& report) noexcept {
-  return encoder_[report.axis].decoder().take(report);
+  return core::is_planar(report.axis) && encoder_[report.axis].decoder().take(report);
 }
 
 bool EmulatedBoard::take(const protocol::DigitalInputs& inputs) noexcept {
@@ -56,7 +56,7 @@ bool EmulatedBoard::take(const protocol::DigitalInputs& inputs) noexcept {
 }
 
 void EmulatedBoard::flush(protocol::MessageSink& plant) noexcept {
-  for (core::Axis axis : core::kAxes) {
+  for (core::Axis axis : kAxes) {
     if (pwm_[axis].take_written()) {
       const Ehrpwm::Command& output = pwm_[axis].output();
       plant.on(protocol::PwmDuty{.axis = axis,

@@ -9,9 +9,9 @@
 #include <span>
 #include <string_view>
 
+#include "bbmc/device/axes.h"
 #include "bbmc/device/device_manager.h"
 #include "bbmc/host/emulated_ports.h"
-#include "core/axis.h"
 #include "core/time.h"
 #include "protocol/message_sink.h"
 
@@ -45,13 +45,13 @@ class EmulatedBoard {
  private:
   BoardClock clock_;
   LineBank lines_;
-  core::PerAxis<EmulatedPwm> pwm_;
-  core::PerAxis<EmulatedEqep> encoder_;
+  PerAxis<EmulatedPwm> pwm_;
+  PerAxis<EmulatedEqep> encoder_;
   EmulatedTimer timer_{clock_};
   EmulatedInterrupts interrupts_{clock_, lines_};
   std::array<EmulatedLine, kLineCount> line_ports_;
   EmulatedUart console_;
-  core::PerAxis<std::uint32_t> pwm_sequence_;
+  PerAxis<std::uint32_t> pwm_sequence_;
   std::uint32_t outputs_sequence_ = 0;
   std::uint32_t next_inputs_sequence_ = 0;
   bool inputs_started_ = false;

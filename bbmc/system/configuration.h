@@ -4,14 +4,14 @@
 
 #include <cstdint>
 
+#include "bbmc/device/axes.h"
 #include "bbmc/system/axis_configuration.h"
-#include "core/axis.h"
 #include "core/parameter.h"
 #include "core/time.h"
 
 namespace towbench::bbmc {
 
-struct AxesConfiguration : core::PerAxis<AxisConfiguration> {
+struct AxesConfiguration : PerAxis<AxisConfiguration> {
   template <typename Visitor>
   void visit(Visitor& v) {
     v.group("y", (*this)[core::Axis::kY], "along the tank");

@@ -5,9 +5,9 @@
 #include <cstdint>
 
 #include "bbmc/device/aintc.h"
+#include "bbmc/device/axes.h"
 #include "bbmc/device/eqep.h"
 #include "bbmc/device/gpio.h"
-#include "core/axis.h"
 #include "core/spsc_queue.h"
 #include "core/time.h"
 
@@ -19,7 +19,7 @@ using LineEdgeQueue = core::SpscQueue<Aintc::Reading, 64>;
 
 struct ControlSample {
   core::Nanoseconds time_ns = 0;
-  core::PerAxis<Eqep::Reading> encoder;
+  PerAxis<Eqep::Reading> encoder;
   std::uint16_t lines = 0;            // levels, bit index_of(line)
   bool tick_due = false;              // a control tick is to be computed
   std::uint32_t ticks_missed = 0;     // that came and went before this one
@@ -37,7 +37,7 @@ struct AxisDrive {
 };
 
 struct DriveCommand {
-  core::PerAxis<AxisDrive> axes;
+  PerAxis<AxisDrive> axes;
   bool tick = false;  // belongs to a control tick: written even when nothing changed
 };
 

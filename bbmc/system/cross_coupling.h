@@ -6,15 +6,15 @@
 // To first order in the error over the path's radius: 1 mm on 200 mm makes 2.5 um.
 #pragma once
 
+#include "bbmc/device/axes.h"
 #include "bbmc/system/trajectory/reference.h"
-#include "core/axis.h"
 #include "core/realtime.h"
 
 namespace towbench::bbmc {
 
 // m, in the axes' own frames. 0 while the reference is slower than 0.1 mm/s: no direction.
-TOWBENCH_REALTIME [[nodiscard]] inline core::PerAxis<double> error_across_path_m(
-    const core::PerAxis<Reference>& reference, const core::PerAxis<double>& error_m) noexcept {
+TOWBENCH_REALTIME [[nodiscard]] inline PerAxis<double> error_across_path_m(
+    const PerAxis<Reference>& reference, const PerAxis<double>& error_m) noexcept {
   constexpr double kSlowest_m2_per_s2 = 1e-8;
   const double vy = reference[core::Axis::kY].velocity_m_per_s;
   const double vx = reference[core::Axis::kX].velocity_m_per_s;

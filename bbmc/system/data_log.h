@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <span>
 
+#include "bbmc/device/axes.h"
 #include "bbmc/system/telemetry_row.h"
-#include "core/axis.h"
 #include "core/realtime.h"
 #include "core/time.h"
 
@@ -28,7 +28,7 @@ struct DataLogAxis {
 
 struct DataLogRow {
   core::Nanoseconds time_ns = 0;  // since the start of the motion
-  core::PerAxis<DataLogAxis> axes;
+  PerAxis<DataLogAxis> axes;
 };
 
 class DataLog {
@@ -56,7 +56,7 @@ class DataLog {
   std::span<DataLogRow> storage_;
   std::size_t size_ = 0;
   std::uint64_t refused_ = 0;
-  core::PerAxis<bool> enabled_{{true, true}};
+  PerAxis<bool> enabled_{{true, true}};
 };
 
 }  // namespace towbench::bbmc

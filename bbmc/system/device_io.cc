@@ -24,7 +24,7 @@ core::Status open_and_init(DriverType& driver,
 }  // namespace
 
 core::Status DeviceIo::start(const Configuration& configuration) noexcept {
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     exists_[which] = configuration.axes[which].exists;
     if (!exists_[which]) {
       continue;
@@ -87,7 +87,7 @@ bool DeviceIo::next_interrupt(Aintc::Reading& edge) noexcept {
 
 void DeviceIo::sample(core::Nanoseconds now_ns, ControlSample& sample) noexcept {
   sample.time_ns = now_ns;
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     if (exists_[which]) {
       must(devices_->encoder(which).read(sample.encoder[which]));
     }
@@ -121,7 +121,7 @@ void DeviceIo::sample(core::Nanoseconds now_ns, ControlSample& sample) noexcept 
 }
 
 void DeviceIo::drive(const DriveCommand& command) noexcept {
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     if (!exists_[which]) {
       continue;
     }
@@ -151,7 +151,7 @@ void DeviceIo::write(Axis which, const AxisDrive& drive) noexcept {
 }
 
 void DeviceIo::remove_drive() noexcept {
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     if (written_[which].enable) {
       write(which, {});
     }

@@ -39,9 +39,9 @@ class DeviceIo {
   void write(core::Axis which, const AxisDrive& drive) noexcept;
 
   DeviceManager* devices_;
-  core::PerAxis<bool> exists_{};
+  PerAxis<bool> exists_{};
   core::Nanoseconds period_ns_ = core::kNanosecondsPerMillisecond;
-  core::PerAxis<AxisDrive> written_;
+  PerAxis<AxisDrive> written_;
 };
 
 }  // namespace towbench::bbmc

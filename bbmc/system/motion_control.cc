@@ -26,7 +26,7 @@ void MotionControl::exchange(const ControlSample& sample, LineEdgeQueue& line_ed
                              DriveCommand& command) noexcept {
   now_ns_ = sample.time_ns;
   lines_ = sample.lines;
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     axes_[which].observe(sample.encoder[which]);
   }
   Aintc::Reading edge;
@@ -49,7 +49,7 @@ void MotionControl::exchange(const ControlSample& sample, LineEdgeQueue& line_ed
     record(sample);
   }
   publish();
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     command.axes[which] = axes_[which].drive();
   }
   command.tick = sample.tick_due;
@@ -60,7 +60,7 @@ void MotionControl::tick(const ControlSample& sample) noexcept {
   status_.late_ticks += sample.ticks_missed;
   const double step_s = core::seconds(last_tick_ns_ == 0 ? period_ns_ : now_ns_ - last_tick_ns_);
   last_tick_ns_ = now_ns_;
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     axes_[which].estimate_velocity();
   }
   begin_waiting_order(now_ns_);
@@ -75,7 +75,7 @@ void MotionControl::tick(const ControlSample& sample) noexcept {
     return;
   }
   find_error_across_path(time_s);
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     if (is_driven(axes_[which].mode())) {
       drive_axis(which, time_s, step_s);
     }
@@ -103,7 +103,7 @@ void MotionControl::begin_waiting_order(core::Nanoseconds now_ns) noexcept {
     return;
   }
   const GotoConfiguration& go_to = configuration_.go_to;
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     if (!order.driven[which]) {
       continue;
     }
@@ -167,16 +167,16 @@ void MotionControl::find_error_across_path(double time_s) noexcept {
       !order.driven[Axis::kX]) {
     return;
   }
-  core::PerAxis<Reference> reference;
-  core::PerAxis<double> error_m;
-  for (Axis which : core::kAxes) {
+  PerAxis<Reference> reference;
+  PerAxis<double> error_m;
+  for (Axis which : kAxes) {
     reference[which] = order.trajectory[which].at(time_s);
     // What an axis leads by on purpose is no error.
     error_m[which] =
         reference[which].position_m + axes_[which].lead_m() - axes_[which].position_m();
   }
-  const core::PerAxis<double> across_m = error_across_path_m(reference, error_m);
-  for (Axis which : core::kAxes) {
+  const PerAxis<double> across_m = error_across_path_m(reference, error_m);
+  for (Axis which : kAxes) {
     motion_.across_path_m[which] = coupling.ratio * across_m[which];
   }
 }
@@ -200,7 +200,7 @@ void MotionControl::drive_approach(Axis which, double step_s) noexcept {
 }
 
 void MotionControl::check_tracking() noexcept {
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     const AxisControl& axis = axes_[which];
     if (axis.mode() != AxisMode::kPosition && axis.mode() != AxisMode::kVelocity) {
       continue;

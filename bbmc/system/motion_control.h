@@ -22,13 +22,13 @@ namespace towbench::bbmc {
 // A request that has been checked, on its way into the control path.
 struct MotionOrder {
   MotionKind kind = MotionKind::kNone;
-  core::PerAxis<bool> driven{};
-  core::PerAxis<Trajectory> trajectory{};  // kReference
-  core::PerAxis<DutyProgram> program{};    // kOpenLoop
-  core::PerAxis<double> target_m{};        // kGoto
-  core::PerAxis<bool> homes{};             // kHoming: driven, but not homing, is held
-  core::PerAxis<End> home_end{};           // kHoming
-  RelayParameters relay{};                 // kTuning
+  PerAxis<bool> driven{};
+  PerAxis<Trajectory> trajectory{};  // kReference
+  PerAxis<DutyProgram> program{};    // kOpenLoop
+  PerAxis<double> target_m{};        // kGoto
+  PerAxis<bool> homes{};             // kHoming: driven, but not homing, is held
+  PerAxis<End> home_end{};           // kHoming
+  RelayParameters relay{};           // kTuning
   bool until_settled = false;
   bool fast = false;
   double stop_speed_count_per_s = 0;
@@ -69,15 +69,15 @@ class MotionControl {
  private:
   struct Motion {
     MotionOrder order;
-    core::PerAxis<ApproachProfile> approach;
-    core::PerAxis<HomingSequence> homing;
-    core::PerAxis<RelayTuner> tuner;
-    core::PerAxis<double> across_path_m;  // of this tick, times the gain ratio
+    PerAxis<ApproachProfile> approach;
+    PerAxis<HomingSequence> homing;
+    PerAxis<RelayTuner> tuner;
+    PerAxis<double> across_path_m;  // of this tick, times the gain ratio
     core::Nanoseconds start_ns = 0;
     core::Nanoseconds settled_since_ns = 0;
     double duration_s = 0;
     bool settled = false;
-    core::PerAxis<bool> has_stood{};  // for long enough to be at rest, since it began
+    PerAxis<bool> has_stood{};  // for long enough to be at rest, since it began
   };
 
   // motion_safety.cc: what stops the machine.
@@ -135,7 +135,7 @@ class MotionControl {
   DataLog* log_;
   core::Nanoseconds period_ns_;
   core::Nanoseconds exchange_ns_;
-  core::PerAxis<AxisControl> axes_;
+  PerAxis<AxisControl> axes_;
   Motion motion_;
   SystemStatus status_;
   core::Nanoseconds now_ns_ = 0;

@@ -43,7 +43,7 @@ bool MotionControl::motion_is_over(double time_s, ErrorCode& result) noexcept {
 
 bool MotionControl::tuning_is_over(ErrorCode& result) noexcept {
   bool over = true;
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     if (motion_.order.driven[which]) {
       over = over && motion_.tuner[which].over();
       status_.axes[which].tuning = motion_.tuner[which].result();
@@ -73,7 +73,7 @@ double MotionControl::settling_ratio(Axis which) const noexcept {
 
 bool MotionControl::settled_long_enough() noexcept {
   bool near = true;
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     if (is_driven(axes_[which].mode())) {
       near = near && is_near(which) && axes_[which].stands_still();
     }
@@ -95,7 +95,7 @@ bool MotionControl::broke_away() noexcept {
   if (threshold <= 0) {
     return false;
   }
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     const AxisControl& axis = axes_[which];
     // An axis that still swings from the motion before has not broken away.
     motion_.has_stood[which] = motion_.has_stood[which] || axis.is_at_rest();
@@ -115,7 +115,7 @@ void MotionControl::end_motion(ErrorCode result) noexcept {
   }
   motion_ending_ = true;
   motion_result_ = result;
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     AxisControl& axis = axes_[which];
     if (!is_driven(axis.mode())) {
       continue;
@@ -133,7 +133,7 @@ void MotionControl::finish_motion_when_at_rest() noexcept {
   if (status_.motion == MotionKind::kNone || !motion_ending_ || any_powered()) {
     return;
   }
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     if (motion_.order.driven[which]) {
       post(Kind::kMotionEnded, which, motion_result_);
     }

@@ -8,7 +8,7 @@ using Kind = SystemEvent::Kind;
 
 void MotionControl::publish() noexcept {
   status_.time_ns = now_ns_;
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     const AxisControl& axis = axes_[which];
     AxisStatus& status = status_.axes[which];
     status.mode = axis.mode();
@@ -32,7 +32,7 @@ void MotionControl::record(const ControlSample& sample) noexcept {
   TelemetryRow row;
   row.time_ns = sample.time_ns;
   row.fault = status_.fault;
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     AxisControl& axis = axes_[which];
     const bool has_reference = is_driven(axis.mode());
     row.axes[which] = {
@@ -56,7 +56,7 @@ void MotionControl::record(const ControlSample& sample) noexcept {
 void MotionControl::record_log() noexcept {
   DataLogRow row;
   row.time_ns = now_ns_ - motion_.start_ns;
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     if (!log_->enabled(which)) {
       continue;
     }

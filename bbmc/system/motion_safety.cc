@@ -65,7 +65,7 @@ void MotionControl::watch(const ControlSample& sample) noexcept {
   if (status_.kill_switch_pressed && (status_.fault == ErrorCode::kNone || any_powered())) {
     cut_all(ErrorCode::kFaultKillSwitch, Axis::kY);  // pressed before anybody listened for edges
   }
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     axes_[which].end_stops().see((sample.lines & mask_of(hall_min_of(which))) != 0,
                                  (sample.lines & mask_of(hall_max_of(which))) != 0);
     watch_axis(which, sample);
@@ -129,7 +129,7 @@ void MotionControl::watch_axis(Axis which, const ControlSample& sample) noexcept
 }
 
 void MotionControl::serve_brakes() noexcept {
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     AxisControl& axis = axes_[which];
     if (axis.mode() != AxisMode::kBraking) {
       continue;
@@ -167,7 +167,7 @@ void MotionControl::latch(ErrorCode code, Axis which) noexcept {
 
 void MotionControl::brake_all(ErrorCode code, Axis which) noexcept {
   latch(code, which);
-  for (Axis each : core::kAxes) {
+  for (Axis each : kAxes) {
     AxisControl& axis = axes_[each];
     if (is_driven(axis.mode())) {
       // A frozen encoder that nothing has noticed yet would say that there is nothing to brake, and
@@ -207,7 +207,7 @@ void MotionControl::give_up_encoder(ErrorCode code, Axis which, Suspect suspect)
 
 void MotionControl::give_up_encoders(ErrorCode code) noexcept {
   latch(code, Axis::kY);
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     const AxisMode mode = axes_[which].mode();
     if (is_driven(mode) || (mode == AxisMode::kBraking && !axes_[which].brakes_blind())) {
       give_up_encoder(code, which, Suspect::kLink);
@@ -217,7 +217,7 @@ void MotionControl::give_up_encoders(ErrorCode code) noexcept {
 
 void MotionControl::cut_all(ErrorCode code, Axis which) noexcept {
   latch(code, which);
-  for (Axis each : core::kAxes) {
+  for (Axis each : kAxes) {
     power_off(each, AxisMode::kFaulted, code);
   }
 }
@@ -226,7 +226,7 @@ void MotionControl::settle_after_fault() noexcept {
   if (status_.fault == ErrorCode::kNone) {
     return;
   }
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     if (axes_[which].mode() == AxisMode::kIdle) {
       power_off(which, AxisMode::kFaulted, status_.fault);
     }
@@ -249,7 +249,7 @@ void MotionControl::power_off(Axis which, AxisMode mode, ErrorCode why) noexcept
 void MotionControl::clear_fault() noexcept {
   status_.fault = ErrorCode::kNone;
   post(Kind::kReset, Axis::kY, ErrorCode::kNone);
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     if (axes_[which].mode() == AxisMode::kFaulted) {
       power_off(which, AxisMode::kIdle, ErrorCode::kNone);
     }

@@ -22,7 +22,7 @@ ErrorCode SystemManager::why_not_now() const noexcept {
 
 core::Status SystemManager::order(const MotionOrder& order) noexcept {
   bool any = false;
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     if (order.driven[which] && !configuration_.axes[which].exists) {
       return failure(ErrorCode::kRequestOutOfRange);
     }
@@ -38,7 +38,7 @@ core::Status SystemManager::request_motion(const MotionRequest& request) noexcep
   if (const ErrorCode why = why_not_now(); why != ErrorCode::kNone) {
     return failure(why);
   }
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     if (request.driven[which]) {
       const ErrorCode why =
           check_reference(motion_.axis(which), configuration_.safety, request.trajectory[which]);
@@ -60,7 +60,7 @@ core::Status SystemManager::request_open_loop(const OpenLoopRequest& request) no
   if (!(request.stop_speed_count_per_s >= 0)) {
     return failure(ErrorCode::kRequestBadArgument);
   }
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     if (request.driven[which]) {
       const ErrorCode why =
           check_duty(motion_.axis(which), configuration_.axes[which].drive.duty_limit_pct,
@@ -81,7 +81,7 @@ core::Status SystemManager::request_goto(const GotoRequest& request) noexcept {
     return failure(why);
   }
   MotionOrder wanted{.kind = MotionKind::kGoto, .target_m = request.target_m, .fast = request.fast};
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     wanted.driven[which] = configuration_.axes[which].exists;
     if (wanted.driven[which]) {
       const ErrorCode why = check_target(motion_.axis(which), request.target_m[which]);
@@ -101,7 +101,7 @@ core::Status SystemManager::request_homing(const HomingRequest& request) noexcep
     return failure(ErrorCode::kRequestBadArgument);
   }
   MotionOrder wanted{.kind = MotionKind::kHoming, .homes = request.wanted, .home_end = request.end};
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     const EndStopGuard& stops = motion_.axis(which).end_stops();
     if (request.wanted[which] && !configuration_.axes[which].exists) {
       return failure(ErrorCode::kRequestOutOfRange);

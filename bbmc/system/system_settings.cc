@@ -123,7 +123,7 @@ core::Status SystemManager::set_control_rate(double rate_Hz) noexcept {
   }
   configuration_.control_rate_Hz = rate_Hz;
   motion_.set_control_period(period_ns);
-  for (Axis which : core::kAxes) {
+  for (Axis which : kAxes) {
     motion_.axis(which).set_velocity_estimation(configuration_.axes[which].velocity, rate_Hz);
   }
   return {};

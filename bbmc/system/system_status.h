@@ -6,9 +6,9 @@
 
 #include <cstdint>
 
+#include "bbmc/device/axes.h"
 #include "bbmc/system/relay_tuner.h"
 #include "bbmc/system/telemetry_row.h"
-#include "core/axis.h"
 #include "core/error.h"
 #include "core/time.h"
 
@@ -50,7 +50,7 @@ struct AxisStatus {
 
 struct SystemStatus {
   core::Nanoseconds time_ns = 0;
-  core::PerAxis<AxisStatus> axes;
+  PerAxis<AxisStatus> axes;
   MotionKind motion = MotionKind::kNone;
   double motion_time_s = 0;         // since the motion began; its length when it has ended
   std::uint32_t motions_ended = 0;  // + 1 for each

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/axis.h"
+#include "bbmc/device/axes.h"
 #include "core/error.h"
 #include "core/time.h"
 
@@ -32,7 +32,7 @@ struct AxisTelemetry {
 
 struct TelemetryRow {
   core::Nanoseconds time_ns = 0;
-  core::PerAxis<AxisTelemetry> axes;
+  PerAxis<AxisTelemetry> axes;
   core::ErrorCode fault = core::ErrorCode::kNone;  // first one latched
 };
 

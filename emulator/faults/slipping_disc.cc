@@ -49,7 +49,8 @@ void SlippingDisc::turn(std::int64_t counts, std::int64_t shaft_count) noexcept 
 }
 
 bool SlippingDisc::at_index() const noexcept {
-  return modulo(disc_, counts_per_turn_) == modulo(index_count_, counts_per_turn_);
+  return index_count_ >= 0 &&
+         modulo(disc_, counts_per_turn_) == modulo(index_count_, counts_per_turn_);
 }
 
 protocol::EncoderLevels SlippingDisc::levels() const noexcept {

@@ -22,7 +22,7 @@ namespace towbench::emulator {
 
 struct CameraFrame {
   core::Nanoseconds arrived_ns = 0;
-  core::PerAxis<double> carriage_m{};
+  core::PerPlanarAxis<double> carriage_m{};
 };
 
 class Camera {
@@ -33,13 +33,13 @@ class Camera {
         clock_(parameters.frame_period_s) {}
 
   // The machine is there at `now_ns`, ascending; exposed or not.
-  [[nodiscard]] std::optional<CameraFrame> see(core::Nanoseconds now_ns,
-                                               const core::PerAxis<double>& carriage_m) noexcept {
+  [[nodiscard]] std::optional<CameraFrame> see(
+      core::Nanoseconds now_ns, const core::PerPlanarAxis<double>& carriage_m) noexcept {
     if (!clock_.due(now_ns)) {
       return std::nullopt;
     }
     CameraFrame frame{.arrived_ns = now_ns + core::nanoseconds(parameters_.delay_s)};
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kPlanarAxes) {
       const double seen_m = carriage_m[axis] + parameters_.noise_m * random_.gaussian();
       frame.carriage_m[axis] =
           parameters_.resolution_m * std::round(seen_m / parameters_.resolution_m);

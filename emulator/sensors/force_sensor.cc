@@ -22,8 +22,8 @@ ForceSensor::ForceSensor(const ForceSensorParameters& p, std::uint64_t seed) noe
               torque_channel(p, seed + 5)},
       clock_(p.sample_period_s) {}
 
-bool ForceSensor::step(core::Nanoseconds now_ns, const core::PerAxis<double>& load_N,
-                       const core::PerAxis<double>& acceleration_m_per_s2,
+bool ForceSensor::step(core::Nanoseconds now_ns, const core::PerPlanarAxis<double>& load_N,
+                       const core::PerPlanarAxis<double>& acceleration_m_per_s2,
                        protocol::ForceSample& sample) noexcept {
   const double mass_kg = parameters_.load_mass_kg;
   const double x_N = load_N[Axis::kX] - mass_kg * acceleration_m_per_s2[Axis::kX];

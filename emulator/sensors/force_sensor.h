@@ -27,10 +27,10 @@ class ForceSensor {
 
   // One plant step that ended at `now_ns`, with the mean acceleration over it. True when `sample`
   // was taken then.
-  TOWBENCH_REALTIME [[nodiscard]] bool step(core::Nanoseconds now_ns,
-                                            const core::PerAxis<double>& load_N,
-                                            const core::PerAxis<double>& acceleration_m_per_s2,
-                                            protocol::ForceSample& sample) noexcept;
+  TOWBENCH_REALTIME [[nodiscard]] bool step(
+      core::Nanoseconds now_ns, const core::PerPlanarAxis<double>& load_N,
+      const core::PerPlanarAxis<double>& acceleration_m_per_s2,
+      protocol::ForceSample& sample) noexcept;
 
  private:
   ForceSensorParameters parameters_;

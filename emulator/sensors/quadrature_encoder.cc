@@ -138,6 +138,9 @@ void QuadratureEncoder::run_gently(const Stretch& stretch, double end, StepEdges
 std::int64_t QuadratureEncoder::run_before_index(std::int64_t run, bool upwards) const noexcept {
   const std::int64_t turn = grating_.counts_per_turn();
   const std::int64_t to_end_of_turn = upwards ? turn - in_turn_ : in_turn_ + 1;
+  if (index_count_ < 0) {
+    return std::min(run, to_end_of_turn);
+  }
   std::int64_t to_index = upwards ? index_count_ - in_turn_ : in_turn_ - index_count_;
   if (to_index <= 0) {
     to_index = to_index == 0 ? 1 : to_index + turn;

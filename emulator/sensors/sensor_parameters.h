@@ -28,8 +28,8 @@ struct EncoderParameters {
   double pulse_width_deg = 180.0;       // electrical, high part of A and of B
   double eccentricity_counts = 0.0;     // amplitude of the once-a-turn error of the grating
   double eccentricity_phase_deg = 0.0;  // mechanical, where that error crosses zero upwards
-  std::int64_t index_count = 0;         // the index pulse is high while count mod turn = this
-  double max_channel_Hz = 200e3;        // data sheet; faster is flagged, not dropped
+  std::int64_t index_count = 0;   // the index pulse is high while count mod turn = this; -1: none
+  double max_channel_Hz = 200e3;  // data sheet; faster is flagged, not dropped
 
   template <typename Visitor>
   void visit(Visitor& v) {
@@ -42,8 +42,8 @@ struct EncoderParameters {
             "amplitude of the once-a-turn position error");
     v.value("eccentricity_phase_deg", eccentricity_phase_deg, core::between(-360.0, 360.0),
             "motor angle at which the once-a-turn error crosses zero upwards");
-    v.value("index_count", index_count, core::between(0, 1 << 22),
-            "count inside a turn at which the index pulse is high");
+    v.value("index_count", index_count, core::between(-1, 1 << 22),
+            "count inside a turn at which the index pulse is high; -1: there is none");
     v.value("max_channel_Hz", max_channel_Hz, core::above(0.0),
             "highest rate a channel carries; faster motion is flagged");
   }

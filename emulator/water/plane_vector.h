@@ -10,7 +10,7 @@
 
 namespace towbench::emulator {
 
-using PlaneVector = core::PerAxis<double>;
+using PlaneVector = core::PerPlanarAxis<double>;
 
 // Components in a body's own frame.
 struct BodyVector {
@@ -38,6 +38,31 @@ class BodyFrame {
   }
 
  private:
+  core::SineCosine turn_;
+};
+
+// Turns a vector about Z, counter-clockwise seen from above, and back.
+class PlaneTurn {
+ public:
+  explicit PlaneTurn(double turns) noexcept : turn_(core::sine_cosine_of_turns(turns)) {}
+
+  TOWBENCH_REALTIME [[nodiscard]] PlaneVector of(const PlaneVector& v) const noexcept {
+    return turned(v, turn_.sine);
+  }
+  TOWBENCH_REALTIME [[nodiscard]] PlaneVector back(const PlaneVector& v) const noexcept {
+    return turned(v, -turn_.sine);
+  }
+
+ private:
+  [[nodiscard]] PlaneVector turned(const PlaneVector& v, double sine) const noexcept {
+    const double x = v[core::Axis::kX];
+    const double y = v[core::Axis::kY];
+    PlaneVector turned;
+    turned[core::Axis::kX] = turn_.cosine * x - sine * y;
+    turned[core::Axis::kY] = sine * x + turn_.cosine * y;
+    return turned;
+  }
+
   core::SineCosine turn_;
 };
 

@@ -4,7 +4,7 @@ namespace towbench::emulator {
 namespace {
 
 PlaneVector operator+(PlaneVector a, const PlaneVector& b) noexcept {
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kPlanarAxes) {
     a[axis] += b[axis];
   }
   return a;

@@ -21,6 +21,14 @@ class Water {
   // platform's in the tank at the tick's middle, m/s.
   TOWBENCH_REALTIME [[nodiscard]] PlaneVector force_N(core::Nanoseconds start_ns,
                                                       const PlaneVector& velocity) const noexcept;
+  // The same with all that hangs there turned about Z, where the machine has an axis for it. Taken
+  // as if it turned about its centre of pressure: turning alone meets no drag, and no torque acts
+  // back on that axis (assumed; the thesis, 9.2.1, has no numbers).
+  TOWBENCH_REALTIME [[nodiscard]] PlaneVector force_N(core::Nanoseconds start_ns,
+                                                      const PlaneVector& velocity,
+                                                      const PlaneTurn& turn) const noexcept {
+    return turn.of(force_N(start_ns, turn.back(velocity)));
+  }
 
  private:
   BodyDrag shaft_;

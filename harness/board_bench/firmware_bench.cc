@@ -95,7 +95,7 @@ std::string FirmwareBench::failure() const {
 
 void FirmwareBench::take_records() {
   Decoded now{.time_ns = now_ns_, .edges = {}};
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kPlanarAxes) {
     now.edges[axis] = board_.encoder(wiring_.axes[axis].encoder).edges_decoded();
   }
   decoded_.push_back(now);
@@ -121,7 +121,7 @@ const FirmwareBench::Decoded& FirmwareBench::decoded_at(core::Nanoseconds time_n
 void FirmwareBench::write_pin_row() {
   PinRow row;
   row.time_ns = now_ns_;
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kPlanarAxes) {
     const std::uint64_t edges = decoded_.back().edges[axis];
     row.axes[axis] = {.count = board_.encoder(wiring_.axes[axis].encoder).count(),
                       .duty_pct = node_.duty_pct(axis),
@@ -143,7 +143,7 @@ void FirmwareBench::take_rows() {
     }
     row.time_ns += row_offset_ns_;
     const Decoded& decoded = decoded_at(row.time_ns);
-    for (const core::Axis axis : core::kAxes) {
+    for (const core::Axis axis : core::kPlanarAxes) {
       // What the decoder of the board has counted: the image sees positions, not edges.
       row.axes[axis].edges = static_cast<std::uint32_t>(decoded.edges[axis] - edges_told_[axis]);
       edges_told_[axis] = decoded.edges[axis];

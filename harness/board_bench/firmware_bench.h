@@ -69,7 +69,7 @@ class FirmwareBench {
  private:
   struct Decoded {
     core::Nanoseconds time_ns = 0;
-    core::PerAxis<std::uint64_t> edges;
+    core::PerPlanarAxis<std::uint64_t> edges;
   };
 
   void take_records();
@@ -88,7 +88,7 @@ class FirmwareBench {
   protocol::TeeSink to_plant_;
   DebugProbe probe_;
   std::deque<Decoded> decoded_;  // of the last exchanges
-  core::PerAxis<std::uint64_t> edges_told_;
+  core::PerPlanarAxis<std::uint64_t> edges_told_;
   core::Nanoseconds now_ns_ = 0;
   core::Nanoseconds next_pin_row_ns_ = 0;
   core::Nanoseconds row_offset_ns_ = 0;

@@ -69,7 +69,7 @@ void FirmwareNode::drive_pin(const std::optional<BoardPin>& pin, bool active,
 
 void FirmwareNode::on(const protocol::DigitalInputs& inputs) noexcept {
   const auto active = [&](Line line) { return is_set(inputs.lines, bbmc::index_of(line)); };
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kPlanarAxes) {
     const auto& wires = wiring_.axes[axis];
     const bool low_end = active(bbmc::hall_min_of(axis));
     const bool high_end = active(bbmc::hall_max_of(axis));
@@ -130,7 +130,7 @@ void FirmwareNode::send(core::Axis axis, const Drive& drive) noexcept {
 
 void FirmwareNode::send_outputs() noexcept {
   std::uint16_t outputs = 0;
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kPlanarAxes) {
     if (!is_set(axes_mask_, core::index_of(axis))) {
       continue;
     }
@@ -165,7 +165,7 @@ void FirmwareNode::say_bye() noexcept {
     return;
   }
   ended_ = true;
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kPlanarAxes) {
     if (is_set(axes_mask_, core::index_of(axis))) {
       send(axis, {});
     }

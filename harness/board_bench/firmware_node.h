@@ -59,9 +59,9 @@ class FirmwareNode final : public protocol::MessageSink {
   protocol::MessageSink* plant_ = nullptr;
   core::Status agreed_ = core::failure(core::ErrorCode::kPeerSilent);
   core::Nanoseconds plant_ns_ = 0;
-  core::PerAxis<Drive> sent_;
-  core::PerAxis<std::uint32_t> duty_sequence_;
-  core::PerAxis<bool> encoder_known_;
+  core::PerPlanarAxis<Drive> sent_;
+  core::PerPlanarAxis<std::uint32_t> duty_sequence_;
+  core::PerPlanarAxis<bool> encoder_known_;
   std::uint16_t outputs_ = 0;
   std::uint32_t outputs_sequence_ = 0;
   bool anything_sent_ = false;

@@ -38,7 +38,7 @@ void load(board::Board& board, const std::filesystem::path& file) {
 
 std::uint8_t axes_of(const emulator::RigParameters& rig) {
   unsigned mask = 0;
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kPlanarAxes) {
     mask |= rig.axes[axis].exists ? 1U << core::index_of(axis) : 0U;
   }
   return static_cast<std::uint8_t>(mask);

@@ -19,7 +19,7 @@ double last_drive_s(const std::filesystem::path& folder) {
   const auto log = CsvTable::load(folder / "log.csv");
   const auto time_s = log.column("time_s");
   double last_s = 0;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     const auto duty_pct = log.column(fmt::format("{}_duty_pct", core::name_of(axis)));
     for (std::size_t i = 0; i < duty_pct.size(); ++i) {
       last_s = duty_pct[i] != 0.0 ? std::max(last_s, time_s[i]) : last_s;

@@ -23,7 +23,7 @@ MachineFactors drawn_factors(std::size_t number, double spread,
   const double low = 1 - spread;
   const double high = 1 + spread;
   MachineFactors factors;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     if (rig.axes[axis].exists) {
       for (double& factor : factors[axis]) {
         factor = low + (high - low) * random.uniform();

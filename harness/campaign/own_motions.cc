@@ -1,7 +1,10 @@
 #include "harness/campaign/own_motions.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+
+#include <fmt/format.h>
 
 #include "harness/fault_plan/fault.h"
 #include "harness/fault_plan/fault_text.h"
@@ -16,12 +19,36 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+// any-end-z-max of any-end-y-max; empty: it is no motion of y.
+std::string motion_of(core::Axis further, const std::string& base) {
+  const auto place = (base + '-').find("-y-");
+  auto name = place == std::string::npos ? std::string{} : base;
+  if (!name.empty()) {
+    name.replace(place + 1, 1, core::name_of(further));
+  }
+  return name;
+}
+
+// Of a base, and for the further axes of a machine of its own.
+std::vector<std::string> replaceable_motions(const Campaign& campaign) {
+  std::vector<std::string> names;
+  for (const auto& motion : campaign.motions) {
+    const auto& base = motion.plain.experiment.name;
+    names.push_back(base);
+    for (const auto further : core::kFurtherAxes) {
+      if (auto name = motion_of(further, base); !name.empty()) {
+        names.push_back(std::move(name));
+      }
+    }
+  }
+  return names;
+}
+
 Names load_own(TableReader& table, Campaign& campaign) {
   Names names;
   std::vector<CampaignMotion> own;
   std::map<std::string, std::string> loaded;  // by file
-  for (const auto& motion : campaign.motions) {
-    const auto& base = motion.plain.experiment.name;
+  for (const auto& base : replaceable_motions(campaign)) {
     std::string file;
     table.text(base, file, "motion of this machine in its place");
     if (file.empty()) {
@@ -46,11 +73,6 @@ bool has_axis(const Campaign& campaign, core::Axis axis) {
       [&](const CampaignMotion& motion) { return motion.plain.rig.parameters.axes[axis].exists; });
 }
 
-bool is_of_an_axis(FaultPart part) {
-  return part == FaultPart::kEndStop || part == FaultPart::kEncoder ||
-         part == FaultPart::kAmplifier || part == FaultPart::kDriveTrain;
-}
-
 // Whether anything of it is left.
 bool moved_to(const Names& names, const Campaign& campaign, CampaignEntry& entry) {
   std::erase_if(entry.parts, [&](const std::string& part) {
@@ -69,6 +91,46 @@ bool moved_to(const Names& names, const Campaign& campaign, CampaignEntry& entry
   return !entry.parts.empty() && !(was_bound && entry.motions.empty());
 }
 
+// What a base does to y, done to a further axis: on that axis' own motions, and on those of all.
+CampaignEntry done_to(core::Axis further, const CampaignEntry& entry) {
+  CampaignEntry done = entry;
+  done.parts.clear();
+  for (const auto& part : entry.parts) {
+    auto place = *place_named(part);
+    if (is_of_an_axis(place.part) && place.axis == core::Axis::kY) {
+      place.axis = further;
+      done.parts.push_back(name_of(place));
+    }
+  }
+  for (auto& motion : done.motions) {
+    if (auto own = motion_of(further, motion); !own.empty()) {
+      motion = std::move(own);
+    }
+  }
+  return done;
+}
+
+std::vector<CampaignEntry> of_further_axes(const TableReader& reader, const Names& names,
+                                           const Campaign& campaign) {
+  std::vector<CampaignEntry> all;
+  for (const auto further : core::kFurtherAxes) {
+    const auto before = all.size();
+    for (const auto& entry : campaign.entries) {
+      auto done = done_to(further, entry);
+      if (!done.parts.empty() && moved_to(names, campaign, done)) {
+        all.push_back(std::move(done));
+      }
+    }
+    if (has_axis(campaign, further) && all.size() == before) {
+      throw FixtureError(reader.place_of("instead"),
+                         fmt::format("no motion of axis {}", core::name_of(further)),
+                         fmt::format("a motion of y with {} for y in its name = \"FILE\"",
+                                     core::name_of(further)));
+    }
+  }
+  return all;
+}
+
 void take_instead(TableReader& reader, Campaign& campaign) {
   auto table = reader.subtable("instead");
   if (!table) {
@@ -78,12 +140,14 @@ void take_instead(TableReader& reader, Campaign& campaign) {
   if (names.empty()) {
     throw FixtureError(reader.place_of("instead"), "no motion", "MOTION_OF_THE_BASE = \"FILE\"");
   }
+  auto further = of_further_axes(reader, names, campaign);
   std::vector<CampaignEntry> kept;
   for (auto& entry : campaign.entries) {
     if (moved_to(names, campaign, entry)) {
       kept.push_back(std::move(entry));
     }
   }
+  std::move(further.begin(), further.end(), std::back_inserter(kept));
   campaign.entries = std::move(kept);
 }
 

@@ -2,9 +2,9 @@
 // (docs/reference/run-folder.md).
 #pragma once
 
-#include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/axis.h"
 
@@ -25,9 +25,13 @@ inline constexpr std::string_view kCameraFile = "camera.csv";
   return std::string(core::name_of(axis)) + "_camera_m";
 }
 // All that a run folder may hold.
-[[nodiscard]] inline std::array<std::string, 2 + core::kAxisCount> sensor_files() {
-  return {std::string(kForceFile), current_file(core::Axis::kY), current_file(core::Axis::kX),
-          std::string(kCameraFile)};
+[[nodiscard]] inline std::vector<std::string> sensor_files() {
+  std::vector<std::string> files{std::string(kForceFile)};
+  for (const auto axis : core::kAllAxes) {
+    files.push_back(current_file(axis));
+  }
+  files.emplace_back(kCameraFile);
+  return files;
 }
 
 }  // namespace towbench::harness

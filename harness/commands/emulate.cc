@@ -56,6 +56,18 @@ protocol::Scheme scheme_of(const EmulateOptions& options) {
                                         : carrier_address("--carrier", options.carrier).scheme;
 }
 
+void refuse_what_lines_cannot_carry(const EmulateOptions& options, const Machine& machine) {
+  const auto& given = options.lines.empty() ? options.encoder_lines : options.lines;
+  for (const auto further : core::kFurtherAxes) {
+    if (!given.empty() && machine.rig.axes[further].exists) {
+      throw FixtureError(
+          {options.lines.empty() ? "--encoder-lines" : "--lines"},
+          fmt::format("{}, and a machine with axis {}", given, core::name_of(further)),
+          "lines of axes y and x");
+    }
+  }
+}
+
 Machine machine_of(const EmulateOptions& options) {
   Machine machine;
   if (!options.rig.empty()) {
@@ -76,6 +88,7 @@ Machine machine_of(const EmulateOptions& options) {
     throw FixtureError({"command line"}, "no machine", "--rig FILE, or an experiment");
   }
   machine.seed = options.seed.value_or(machine.seed);
+  refuse_what_lines_cannot_carry(options, machine);
   return machine;
 }
 

@@ -25,10 +25,11 @@ struct ExportOptions {
 };
 
 core::Axis axis_of(const ExportOptions& options, const emulator::RigParameters& rig) {
-  const auto found = std::find_if(core::kAxes.begin(), core::kAxes.end(), [&](core::Axis axis) {
-    return core::name_of(axis) == options.axis && rig.axes[axis].exists;
-  });
-  if (found == core::kAxes.end()) {
+  const auto found =
+      std::find_if(core::kAllAxes.begin(), core::kAllAxes.end(), [&](core::Axis axis) {
+        return core::name_of(axis) == options.axis && rig.axes[axis].exists;
+      });
+  if (found == core::kAllAxes.end()) {
     throw FixtureError({"--axis"}, '"' + options.axis + '"', "an axis that the rig has");
   }
   return *found;

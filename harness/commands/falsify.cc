@@ -51,7 +51,7 @@ std::vector<FaultSpace> fault_spaces(const FalsifyOptions& options,
                                      const ExperimentFixture& fixture, const Objective& objective) {
   const double end_s = objective.end_s();
   core::PerAxis<bool> exists;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     exists[axis] = fixture.rig.parameters.axes[axis].exists;
   }
   const SetupSpace setup(options.setup, exists, end_s);

@@ -22,19 +22,20 @@ struct ListOptions {
   bool json = false;
 };
 
+// A table of six axes would say the same six times.
+constexpr const char* kOfFurtherAxes = "z_, a_, b_ and c_: the same of each further axis";
+
 int list_metrics(bool json) {
   auto array = nlohmann::json::array();
   for (const auto& metric : all_metrics()) {
     if (json) {
       array.push_back({{"name", metric.name}, {"unit", metric.unit}, {"meaning", metric.meaning}});
-    } else {
+    } else if (core::is_planar(metric.axis)) {
       std::printf("%-36s %-5s %s\n", metric.name.c_str(), metric.unit.c_str(),
                   metric.meaning.c_str());
     }
   }
-  if (json) {
-    std::printf("%s\n", array.dump(2).c_str());
-  }
+  std::printf("%s\n", json ? array.dump(2).c_str() : kOfFurtherAxes);
   return kExitPass;
 }
 
@@ -48,19 +49,22 @@ int list_signals(bool json) {
                   std::string(meaning).c_str());
     }
   };
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     for (const auto& signal : run_signals()) {
+      if (!json && !core::is_planar(axis)) {
+        continue;
+      }
       tell(std::string(core::name_of(axis)) + '_' + std::string(signal.name), signal.unit,
            signal.meaning);
     }
   }
   tell("fault", "1", "number of the first latched fault; 0: none");
   for (const auto& event : run_event_names()) {
-    tell(std::string(event.name), "event", event.meaning);
+    if (json || core::is_planar(event.axis)) {
+      tell(event.name, "event", event.meaning);
+    }
   }
-  if (json) {
-    std::printf("%s\n", array.dump(2).c_str());
-  }
+  std::printf("%s\n", json ? array.dump(2).c_str() : kOfFurtherAxes);
   return kExitPass;
 }
 

@@ -7,7 +7,7 @@ namespace towbench::harness {
 std::string tank_controller_note(const RigFixture& rig) {
   std::string others;
   bool turns = false;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     const auto* const kind = rig.transmissions[axis];
     if (kind != nullptr && kind != &chain_and_sprocket()) {
       others +=

@@ -39,22 +39,22 @@ struct AxisWiring {
 };
 
 struct BoardWiring {
-  core::PerAxis<AxisWiring> axes{{{{.encoder = 1,
-                                    .pwm = 1,
-                                    .direction = BoardPin{1, 7},
-                                    .hall = BoardPin{1, 6},
-                                    .hall_min = BoardPin{1, 16},
-                                    .hall_max = BoardPin{1, 17},
-                                    .ready = BoardPin{1, 20},
-                                    .enable = BoardPin{1, 12}},
-                                   {.encoder = 2,
-                                    .pwm = 2,
-                                    .direction = BoardPin{1, 3},
-                                    .hall = BoardPin{1, 2},
-                                    .hall_min = BoardPin{1, 18},
-                                    .hall_max = BoardPin{1, 19},
-                                    .ready = BoardPin{1, 21},
-                                    .enable = BoardPin{1, 13}}}}};
+  core::PerPlanarAxis<AxisWiring> axes{{{{.encoder = 1,
+                                          .pwm = 1,
+                                          .direction = BoardPin{1, 7},
+                                          .hall = BoardPin{1, 6},
+                                          .hall_min = BoardPin{1, 16},
+                                          .hall_max = BoardPin{1, 17},
+                                          .ready = BoardPin{1, 20},
+                                          .enable = BoardPin{1, 12}},
+                                         {.encoder = 2,
+                                          .pwm = 2,
+                                          .direction = BoardPin{1, 3},
+                                          .hall = BoardPin{1, 2},
+                                          .hall_min = BoardPin{1, 18},
+                                          .hall_max = BoardPin{1, 19},
+                                          .ready = BoardPin{1, 21},
+                                          .enable = BoardPin{1, 13}}}}};
   std::optional<BoardPin> kill_switch = BoardPin{1, 14};
 };
 

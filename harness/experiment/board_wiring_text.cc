@@ -77,7 +77,7 @@ void read_axis_wiring(TableReader& reader, AxisWiring& wiring) {
 
 Used used_by(const BoardWiring& wiring) {
   Used used;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     for (const auto& each : kPinKeys) {
       if (const auto& pin = wiring.axes[axis].*each.pin) {
         used.emplace_back(fmt::format("axis.{}.{}", core::name_of(axis), each.key), *pin);
@@ -123,7 +123,7 @@ BoardWiring read_board_wiring(const FixtureFile& file) {
   reader.choice("console", console, {"uart0"});
   read_pin(reader, "kill_switch", "the kill switch", wiring.kill_switch);
   if (auto axes = reader.subtable("axis")) {
-    for (const auto which : core::kAxes) {
+    for (const auto which : core::kPlanarAxes) {
       if (auto axis = axes->subtable(core::name_of(which))) {
         read_axis_wiring(*axis, wiring.axes[which]);
       }

@@ -97,7 +97,7 @@ std::string changed_machine(const std::filesystem::path& rig_file,
   }
   auto text =
       with_line(file.text(), "plants", fmt::format("[{}]", fmt::join(plants, ", ")), rig_file);
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     if (rig.axes[axis].exists) {
       for (const auto& table : changed_tables(axis, rig.axes[axis], factors)) {
         text = with_table(text, table, source);

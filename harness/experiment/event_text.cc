@@ -26,7 +26,7 @@ emulator::ScheduledEvent read_event(TableReader& reader, bool takes_reset) {
   std::size_t kind = 0;
   reader.choice("do", kind, {kEventNames.begin(), kEventNames.end()});
   std::size_t axis = 0;
-  reader.choice("axis", axis, {"y", "x"});
+  reader.choice("axis", axis, {core::kAxisNames.begin(), core::kAxisNames.end()});
   emulator::ScheduledEvent event;
   reader.value("force_N", event.value, core::between(-1000, 1000), "push from then on");
   reader.require("at_s");

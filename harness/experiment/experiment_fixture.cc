@@ -178,7 +178,7 @@ void place_carriage(TableReader& reader, RigFixture& rig) {
   if (!start) {
     return;
   }
-  for (const auto which : core::kAxes) {
+  for (const auto which : core::kAllAxes) {
     auto& axis = rig.parameters.axes[which];
     const auto key = std::string(core::name_of(which)) + "_m";
     if (start->has(key) && !axis.exists) {
@@ -195,7 +195,15 @@ void place_carriage(TableReader& reader, RigFixture& rig) {
 }
 
 void check_axes_agree(const ExperimentFixture& fixture) {
-  for (const auto which : core::kAxes) {
+  for (const auto further : core::kFurtherAxes) {
+    if (fixture.rig.parameters.axes[further].exists) {
+      throw FixtureError(
+          {fixture.rig_file.string(), 0, "axis." + std::string(core::name_of(further))},
+          "an axis beside BBMC, which serves y and x",
+          "another controller: a [[reference]] instead of a console's script");
+    }
+  }
+  for (const auto which : core::kPlanarAxes) {
     const bool in_rig = fixture.rig.parameters.axes[which].exists;
     const bool in_controller = fixture.controller.configuration.axes[which].exists;
     if (in_rig != in_controller) {
@@ -223,7 +231,7 @@ void check_pushes(const ExperimentFixture& fixture) {
 }
 
 void check_axes_move(const ExperimentFixture& fixture) {
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     const auto& motions = fixture.experiment.reference;
     const bool moves = std::any_of(motions.begin(), motions.end(),
                                    [&](const auto& motion) { return motion.moves(axis); });
@@ -235,7 +243,7 @@ void check_axes_move(const ExperimentFixture& fixture) {
 
 // Tables are long, and what stands in their middle is easily overlooked.
 void check_tables_fit(const ExperimentFixture& fixture) {
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     const auto& rig = fixture.rig.parameters.axes[axis];
     double start_m = rig.start_m;
     for (const auto& motion : fixture.experiment.reference) {

@@ -47,7 +47,7 @@ std::string budget_toml(const Budget& budget) {
 
 std::string start_toml(const emulator::RigParameters& rig) {
   std::string text = "\n[start]\n";
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     if (rig.axes[axis].exists) {
       text += fmt::format("{}_m = {}\n", core::name_of(axis), toml_number(rig.axes[axis].start_m));
     }

@@ -51,7 +51,7 @@ struct ReferenceMotion {
 
   [[nodiscard]] double duration_s() const noexcept;
   [[nodiscard]] bool moves(core::Axis which) const noexcept {
-    return kind == ReferenceKind::kCircle || axis == which;
+    return kind == ReferenceKind::kCircle ? core::is_planar(which) : axis == which;
   }
   // Relative to where the axis stands when it begins; `time_s` since then, 0 .. duration.
   [[nodiscard]] ReferencePoint at(core::Axis which, double time_s) const noexcept;

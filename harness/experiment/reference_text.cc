@@ -62,7 +62,7 @@ ReferenceMotion read_motion(TableReader& reader) {
   reader.choice("move", kind, {kKindNames.begin(), kKindNames.end()});
   motion.kind = static_cast<ReferenceKind>(kind);
   std::size_t axis = 0;
-  reader.choice("axis", axis, {"y", "x"});
+  reader.choice("axis", axis, {core::kAxisNames.begin(), core::kAxisNames.end()});
   motion.axis = static_cast<core::Axis>(axis);
   reader.value("at_s", motion.at_s, core::between(0, kLongestRun_s), "when it begins");
   reader.require("move");
@@ -104,9 +104,9 @@ ReferenceMotion read_motion(TableReader& reader) {
 }
 
 bool overlap(const ReferenceMotion& one, const ReferenceMotion& next) {
-  const bool share = std::any_of(core::kAxes.begin(), core::kAxes.end(), [&](core::Axis axis) {
-    return one.moves(axis) && next.moves(axis);
-  });
+  const bool share =
+      std::any_of(core::kAllAxes.begin(), core::kAllAxes.end(),
+                  [&](core::Axis axis) { return one.moves(axis) && next.moves(axis); });
   return share && one.at_s + one.duration_s() > next.at_s;
 }
 

@@ -1,5 +1,6 @@
 #include "harness/external/conform_session.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "harness/external/arrival.h"
@@ -100,7 +101,8 @@ double ConformSession::now_s() const {
 }
 
 bool ConformSession::drives() const noexcept {
-  return to_plant_.driven[core::Axis::kY] || to_plant_.driven[core::Axis::kX];
+  const auto& driven = to_plant_.driven;
+  return std::find(driven.begin(), driven.end(), true) != driven.end();
 }
 
 std::uint64_t ConformSession::refused() const {
@@ -168,7 +170,7 @@ void ConformSession::ToController::handle(const protocol::EncoderEdges& edges) n
 void ConformSession::ToController::handle(const protocol::Advanced& advanced) noexcept {
   auto& peer = session.connection_->link().peer();
   if ((session.hello_.capabilities & protocol::kCapabilityReference) != 0) {
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kAllAxes) {
       if (session.rig_.axes[axis].exists) {
         peer.on(reference_message(session.reference_, axis, advanced.time_ns));
       }

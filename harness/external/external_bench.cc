@@ -211,7 +211,7 @@ void ExternalBench::ToPlant::handle(const protocol::Advance& advance) noexcept {
     return;
   }
   const bool is_new = advance.until_ns > now_ns && now_ns > bench.row_ns_;
-  const auto row = is_new ? bench.take_row(now_ns) : bbmc::TelemetryRow{};
+  const auto row = is_new ? bench.take_row(now_ns) : LogRow{};
   disturber.end_turn(now_ns);
   bench.until_ns_ = advance.until_ns;
   bench.plant_.node.on(advance);
@@ -221,10 +221,10 @@ void ExternalBench::ToPlant::handle(const protocol::Advance& advance) noexcept {
   }
 }
 
-bbmc::TelemetryRow ExternalBench::take_row(Nanoseconds time_ns) noexcept {
-  bbmc::TelemetryRow row;
+LogRow ExternalBench::take_row(Nanoseconds time_ns) noexcept {
+  LogRow row;
   row.time_ns = time_ns;
-  for (const auto which : core::kAxes) {
+  for (const auto which : core::kAllAxes) {
     const auto& rig = fixture_.rig.parameters.axes[which];
     if (!rig.exists) {
       continue;
@@ -249,13 +249,13 @@ bbmc::TelemetryRow ExternalBench::take_row(Nanoseconds time_ns) noexcept {
     record_.rows->log.push_back(row);
   }
   if (record_.tap != nullptr) {
-    record_.tap->row(row, {});
+    record_.tap->row(row, edges_.times());
   }
   return row;
 }
 
 void ExternalBench::send_reference(Nanoseconds time_ns) noexcept {
-  for (const auto which : core::kAxes) {
+  for (const auto which : core::kAllAxes) {
     if (fixture_.rig.parameters.axes[which].exists) {
       to_controller_.disturber.pass(reference_message(schedule_, which, time_ns), time_ns);
     }

@@ -14,16 +14,17 @@
 #include <string>
 #include <vector>
 
-#include "bbmc/system/telemetry_row.h"
 #include "emulator/plant_node.h"
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/experiment/reference.h"
 #include "harness/external/answer_watch.h"
 #include "harness/external/count_watch.h"
+#include "harness/external/edge_watch.h"
 #include "harness/external/standstill_watch.h"
 #include "harness/fault_cases/case_record.h"
 #include "harness/link/link_faults.h"
 #include "harness/lockstep/hand.h"
+#include "harness/lockstep/log_row.h"
 #include "harness/lockstep/run_outcome.h"
 #include "harness/lockstep/script_loop.h"
 #include "harness/realtime/report_thinner.h"
@@ -96,6 +97,9 @@ class ExternalBench final : public SteeredBench {
     template <typename Message>
     void handle(const Message& message) noexcept {
       bench.counts_.on(message);
+      if (bench.record_.tap != nullptr) {
+        bench.edges_.on(message);
+      }
       disturber.pass(message, bench.until_ns_);
     }
     void handle(const protocol::HelloReply& reply) noexcept;
@@ -115,7 +119,7 @@ class ExternalBench final : public SteeredBench {
   void note(const Message& /*message*/) noexcept {}
   void note(const protocol::PwmDuty& duty) noexcept;
   // The row of log.csv, told to whoever observes the run.
-  [[nodiscard]] bbmc::TelemetryRow take_row(core::Nanoseconds time_ns) noexcept;
+  [[nodiscard]] LogRow take_row(core::Nanoseconds time_ns) noexcept;
   void send_reference(core::Nanoseconds time_ns) noexcept;
   [[nodiscard]] bool over(core::Nanoseconds time_ns) noexcept;
   // False when the plant refuses it.
@@ -144,6 +148,7 @@ class ExternalBench final : public SteeredBench {
   ToPlant to_plant_;
   ToController to_controller_;
   CountWatch counts_;
+  EdgeWatch edges_;  // of a run that is observed
   core::PerAxis<AxisCommand> commands_;
   bool wants_reference_ = false;
   bool ended_ = false;

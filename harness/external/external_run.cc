@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <sys/mman.h>
 
+#include "harness/checks/recorded_axes.h"
 #include "harness/external/arrival.h"
 #include "harness/external/external_bench.h"
 #include "harness/fault_cases/machine_faults.h"
@@ -99,7 +100,8 @@ RunOutcome play_external(const Play& what, const std::filesystem::path& folder) 
   const auto& how = what.how;
   Arrival arrival(how.controller, folder / kPrinted, how.watchers);
   PlantRecorder files(folder, fixture.rig.parameters, how.tap);
-  FirmwareRecorder recorder(folder, FirmwareRecorder::Log::kTelemetry);
+  FirmwareRecorder recorder(folder, FirmwareRecorder::Log::kTelemetry,
+                            recorded_axes(fixture.rig.parameters.axes));
   TwoObservers both(files, what.record);
   RunOutcome outcome;
   outcome.reason = arrival.await();
@@ -142,6 +144,7 @@ std::shared_ptr<const ReferenceRun> play_aside(const ExperimentFixture& fixture,
                                                const ExternalPlay& how) {
   auto run = std::make_shared<ReferenceRun>();
   run->record.of_bbmc = false;
+  run->record.has_further_axes = emulator::has_further_axes(fixture.rig.parameters);
   std::vector<std::string> unused;
   std::unique_ptr<ExternalTiming> none;
   run->record.outcome =

@@ -1,4 +1,6 @@
 // ExternalBench by the wall clock.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "harness/external/external_bench.h"
@@ -35,8 +37,8 @@ void ExternalBench::tick_until_over(TickLoop& loop, AnswerWatch& answers,
       return;
     }
     const auto now_ns = plant_.node.now_ns();
-    answers.tick(now_ns,
-                 commands_[core::Axis::kY].duty != 0 || commands_[core::Axis::kX].duty != 0);
+    answers.tick(now_ns, std::any_of(commands_.begin(), commands_.end(),
+                                     [](const AxisCommand& axis) { return axis.duty != 0; }));
     if (now_ns % outcome_.exchange_ns == 0) {
       if (said_too_much()) {
         return;

@@ -29,11 +29,6 @@ bool is_whole(std::string_view key) noexcept {
          key == "level" || key == "reads_active";
 }
 
-bool has_axis(FaultPart part) noexcept {
-  return part == FaultPart::kEndStop || part == FaultPart::kEncoder ||
-         part == FaultPart::kAmplifier || part == FaultPart::kDriveTrain;
-}
-
 double told(double time_s) {
   return std::round(time_s * kSteps_a_second) / kSteps_a_second;
 }
@@ -50,7 +45,7 @@ std::vector<FaultChoice> fault_choices(const std::vector<std::string>& words,
   for (const auto& place_name : all_place_names()) {
     const auto place = *place_named(place_name);
     for (const auto& row : fault_catalogue()) {
-      const bool fits = row.part == place.part && (!has_axis(row.part) || exists[place.axis]);
+      const bool fits = row.part == place.part && (!is_of_an_axis(row.part) || exists[place.axis]);
       if (fits && row.start == FaultStart::kAnyTime && row.needs == FaultNeeds::kNothing) {
         all.push_back({place, row.kind});
       }

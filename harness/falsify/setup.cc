@@ -27,7 +27,7 @@ std::string with_number(const std::string& text, const std::string& before, Chan
 }
 
 void move_start(ExperimentFixture& made, const core::PerAxis<double>& offset_m) {
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     made.rig.parameters.axes[axis].start_m += offset_m[axis];
     for (auto& step : made.experiment.console) {
       step.send = with_number(step.send, fmt::format("reset poscalib {}", core::name_of(axis)),
@@ -72,7 +72,7 @@ bool Setup::is_nominal() const noexcept {
 
 SetupSpace::SetupSpace(SetupRanges ranges, const core::PerAxis<bool>& exists, double end_s)
     : ranges_(std::move(ranges)), exists_(exists) {
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     if (!exists[axis]) {
       continue;
     }
@@ -113,7 +113,7 @@ Setup SetupSpace::at(std::span<const double> shares) const {
       factors.fill(1);
     }
   }
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     if (exists_[axis] && setup.machine) {
       std::generate((*setup.machine)[axis].begin(), (*setup.machine)[axis].end(), value);
     }
@@ -133,7 +133,7 @@ Setup SetupSpace::at(std::span<const double> shares) const {
 
 std::vector<std::string> describe(const Setup& setup) {
   std::vector<std::string> phrases;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     const auto name = core::name_of(axis);
     for (std::size_t i = 0; setup.machine && i < kUncertainQuantities.size(); ++i) {
       const double factor = (*setup.machine)[axis][i];

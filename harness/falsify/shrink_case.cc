@@ -17,7 +17,7 @@ class Shrinking {
 
   ShrunkCase run() {
     machine();
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kAllAxes) {
       if (shrunk_.needed.setup.start_offset_m[axis] != 0) {
         try_without([axis](SearchCase& one) { one.setup.start_offset_m[axis] = 0; });
       }
@@ -42,7 +42,7 @@ class Shrinking {
       return;
     }
     try_without([](SearchCase& one) { one.setup.machine.reset(); });
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kAllAxes) {
       for (std::size_t i = 0; i < kUncertainQuantities.size() && shrunk_.needed.setup.machine;
            ++i) {
         if ((*shrunk_.needed.setup.machine)[axis][i] != 1) {

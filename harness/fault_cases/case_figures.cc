@@ -15,16 +15,20 @@ double way_between(const CaseRecord& run, core::Nanoseconds from_ns, core::Nanos
     if (row.time_ns < from_ns || row.time_ns > to_ns) {
       continue;
     }
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kAllAxes) {
       way_m = std::max(way_m, std::fabs(row.axes[axis].carriage_m - from.axes[axis].carriage_m));
     }
   }
   return way_m;
 }
 
-bool stands(const emulator::TruthRow& row) {
-  return std::all_of(row.axes.begin(), row.axes.end(), [](const auto& axis) {
-    return std::fabs(axis.carriage_speed_m_per_s) < kStandstill_m_per_s;
+bool any_of(const core::PerAxis<bool>& axes) {
+  return std::find(axes.begin(), axes.end(), true) != axes.end();
+}
+
+bool stands(const KeptTruth& row) {
+  return std::all_of(core::kAllAxes.begin(), core::kAllAxes.end(), [&](core::Axis axis) {
+    return std::fabs(row.axes[axis].carriage_speed_m_per_s) < kStandstill_m_per_s;
   });
 }
 
@@ -39,9 +43,9 @@ std::optional<core::Nanoseconds> drive_ends_ns(const CaseRecord& run, core::Nano
     if (duty.time_ns >= until_ns) {
       break;
     }
-    const bool before = driven[core::Axis::kY] || driven[core::Axis::kX];
+    const bool before = any_of(driven);
     driven[duty.axis] = duty.drives();
-    const bool after = driven[core::Axis::kY] || driven[core::Axis::kX];
+    const bool after = any_of(driven);
     if (duty.time_ns >= from_ns) {
       any = any || before || after;
       if (after) {

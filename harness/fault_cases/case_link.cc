@@ -6,8 +6,7 @@ namespace towbench::harness {
 namespace {
 
 [[nodiscard]] std::uint16_t enable_mask(core::Axis axis) noexcept {
-  return protocol::mask_of(axis == core::Axis::kY ? protocol::OutputLine::kAmplifierEnableY
-                                                  : protocol::OutputLine::kAmplifierEnableX);
+  return protocol::mask_of(protocol::enable_line(axis));
 }
 
 }  // namespace

@@ -8,7 +8,6 @@ namespace towbench::harness {
 namespace {
 
 using emulator::AxisTruth;
-using emulator::TruthRow;
 
 // Bit for bit; padding does not count.
 bool same(const AxisTruth& a, const AxisTruth& b) noexcept {
@@ -21,10 +20,10 @@ bool same(const AxisTruth& a, const AxisTruth& b) noexcept {
          a.edges_total == b.edges_total;
 }
 
-bool same(const TruthRow& a, const TruthRow& b) noexcept {
+bool same(const KeptTruth& a, const KeptTruth& b) noexcept {
   return a.time_ns == b.time_ns && a.input_lines == b.input_lines &&
-         same(a.axes[core::Axis::kY], b.axes[core::Axis::kY]) &&
-         same(a.axes[core::Axis::kX], b.axes[core::Axis::kX]);
+         std::all_of(core::kAllAxes.begin(), core::kAllAxes.end(),
+                     [&](core::Axis axis) { return same(a.axes[axis], b.axes[axis]); });
 }
 
 // "reset" and "reset systate"; "reset poscalib" clears no fault.
@@ -126,10 +125,10 @@ const bbmc::ControllerEvent* CaseRecord::first_fault() const noexcept {
   return found == controller_events.end() ? nullptr : &*found;
 }
 
-const TruthRow& CaseRecord::truth_at(core::Nanoseconds time_ns) const noexcept {
+const KeptTruth& CaseRecord::truth_at(core::Nanoseconds time_ns) const noexcept {
   const auto after = std::upper_bound(
       truth.begin(), truth.end(), time_ns,
-      [](core::Nanoseconds time, const TruthRow& row) { return time < row.time_ns; });
+      [](core::Nanoseconds time, const KeptTruth& row) { return time < row.time_ns; });
   return after == truth.begin() ? truth.front() : *(after - 1);
 }
 

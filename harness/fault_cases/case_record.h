@@ -12,6 +12,7 @@
 #include "emulator/plant_node.h"
 #include "harness/lockstep/bench_recorder.h"
 #include "harness/lockstep/host_schedule.h"
+#include "harness/lockstep/log_row.h"
 #include "harness/lockstep/run_outcome.h"
 #include "protocol/messages.h"
 
@@ -46,11 +47,21 @@ struct Arrivals {
   std::uint64_t digest = 0;
 };
 
+// A row of truth.csv.
+struct KeptTruth {
+  KeptTruth(const emulator::TruthRow& row, bool has_further_axes)
+      : time_ns(row.time_ns), axes(row.axes, has_further_axes), input_lines(row.input_lines) {}
+
+  core::Nanoseconds time_ns = 0;
+  KeptAxes<emulator::AxisTruth> axes;
+  std::uint16_t input_lines = 0;
+};
+
 class CaseRecord final : public BenchRecorder, public emulator::PlantObserver {
  public:
-  std::vector<emulator::TruthRow> truth;
+  std::vector<KeptTruth> truth;
   std::vector<emulator::PlantEvent> plant_events;  // without what the injector says of itself
-  std::vector<bbmc::TelemetryRow> log;
+  std::vector<LogRow> log;
   std::vector<bbmc::ControllerEvent> controller_events;
   std::vector<LineArrival> lines;
   std::vector<DutyMessage> duties;
@@ -62,6 +73,7 @@ class CaseRecord final : public BenchRecorder, public emulator::PlantObserver {
   // Rows and events of the log are BBMC's own. Of another controller they are the bench's, or there
   // are none.
   bool of_bbmc = true;
+  bool has_further_axes = false;  // the machine
 
   // The controller's clock may be off: rows and events are kept by the bench's. Null: it is
   // right.
@@ -79,13 +91,15 @@ class CaseRecord final : public BenchRecorder, public emulator::PlantObserver {
   [[nodiscard]] std::uint64_t rows() const noexcept override { return log.size(); }
   [[nodiscard]] bool good() const noexcept override { return true; }
 
-  void on_truth(const emulator::TruthRow& row) noexcept override { truth.push_back(row); }
+  void on_truth(const emulator::TruthRow& row) noexcept override {
+    truth.emplace_back(row, has_further_axes);
+  }
   void on_event(const emulator::PlantEvent& event) noexcept override;
 
   // First fault latched, or null.
   [[nodiscard]] const bbmc::ControllerEvent* first_fault() const noexcept;
   // The last truth row at or before a time; the first one when there is none.
-  [[nodiscard]] const emulator::TruthRow& truth_at(core::Nanoseconds time_ns) const noexcept;
+  [[nodiscard]] const KeptTruth& truth_at(core::Nanoseconds time_ns) const noexcept;
   // Command of an axis as sent, at a time.
   [[nodiscard]] bool driven_at(core::Nanoseconds time_ns) const noexcept;
   [[nodiscard]] std::string all_printed() const;

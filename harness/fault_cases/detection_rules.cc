@@ -36,9 +36,8 @@ MaybeCheck amplifier_fault_is_found(const CaseEvidence& evidence) {
   if (!applies) {
     return std::nullopt;
   }
-  for (const auto axis : core::kAxes) {
-    const auto ready = protocol::mask_of(axis == Axis::kY ? protocol::InputLine::kAmplifierReadyY
-                                                          : protocol::InputLine::kAmplifierReadyX);
+  for (const auto axis : core::kPlanarAxes) {
+    const auto ready = protocol::mask_of(protocol::ready_line(axis));
     Nanoseconds bad_since_ns = -1;
     for (const auto& row : run.truth) {
       // At a slow control rate the log still shows a mode that a fault has ended.
@@ -104,7 +103,7 @@ MaybeCheck tracking_is_guarded(const CaseEvidence& evidence) {
   const double limit_m =
       evidence.fixture.controller.configuration.safety.tracking_error_limit_m + kSlack_m;
   for (const auto& row : run.log) {
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kPlanarAxes) {
       const auto& state = row.axes[axis];
       const bool follows =
           state.mode == bbmc::AxisMode::kPosition || state.mode == bbmc::AxisMode::kVelocity;

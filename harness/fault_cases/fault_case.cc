@@ -97,7 +97,7 @@ PreparedPlan prepare_at(const FaultPlan& plan, const std::vector<core::Nanosecon
     throw FixtureError({.file = "fault plan"}, "a machine that cannot be", wrong);
   }
   for (const auto& fault : plan) {
-    if (!fixture.rig.parameters.axes[fault.place.axis].exists) {
+    if (is_of_an_axis(fault.place.part) && !fixture.rig.parameters.axes[fault.place.axis].exists) {
       throw FixtureError({.file = "fault plan"}, describe(fault), "an axis that the rig has");
     }
   }

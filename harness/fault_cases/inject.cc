@@ -16,6 +16,12 @@ using protocol::EncoderLine;
 using protocol::InputLine;
 using enum FaultKind;
 
+// Whose wires an installer takes for this one's.
+core::Axis neighbour_of(core::Axis axis) {
+  const auto nth = core::index_of(axis);
+  return nth == 0 ? core::Axis::kX : core::kAllAxes[nth - 1];
+}
+
 class Injector {
  public:
   Injector(const Fault& fault, core::Nanoseconds at_ns, const CaseRecord& reference,
@@ -137,8 +143,7 @@ class Injector {
                                .hall_line());
       case kSwappedAxes:
         return cross(line, FaultPlace{.part = FaultPart::kEndStop,
-                                      .axis = fault_.place.axis == core::Axis::kY ? core::Axis::kX
-                                                                                  : core::Axis::kY,
+                                      .axis = neighbour_of(fault_.place.axis),
                                       .at_max = fault_.place.at_max}
                                .hall_line());
       case kBounce:
@@ -264,8 +269,7 @@ class Injector {
 
   void amplifier() {
     constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-    const InputLine ready = fault_.place.axis == core::Axis::kY ? InputLine::kAmplifierReadyY
-                                                                : InputLine::kAmplifierReadyX;
+    const InputLine ready = protocol::ready_line(fault_.place.axis);
     switch (fault_.kind) {
       case kDisabled:
       case kOverTemperature:

@@ -115,7 +115,7 @@ double longest_at_limit_s(const std::filesystem::path& folder) {
   const auto log = CsvTable::load(folder / "log.csv");
   const auto time_s = log.column("time_s");
   double longest_s = 0;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     const auto duty_pct = log.column(fmt::format("{}_duty_pct", core::name_of(axis)));
     double since_s = -1;
     for (std::size_t i = 0; i < duty_pct.size(); ++i) {
@@ -142,7 +142,7 @@ Check reference_moves(const std::filesystem::path& reference) {
   std::string trouble = "without the fault nothing is driven and counted";
   try {
     const auto log = CsvTable::load(reference / "log.csv");
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kAllAxes) {
       moves = moves || (changes(log.column(fmt::format("{}_duty_pct", core::name_of(axis)))) &&
                         changes(log.column(fmt::format("{}_count", core::name_of(axis)))));
     }

@@ -199,7 +199,7 @@ MaybeCheck no_drive_while_latched(const CaseEvidence& evidence) {
       return failed(kName, kMeaning,
                     fmt::format("fault gone at {:.4f} s", core::seconds(row.time_ns)));
     }
-    for (const Axis axis : core::kAxes) {
+    for (const Axis axis : core::kPlanarAxes) {
       if (is_driven_mode(row.axes[axis].mode)) {
         return failed(kName, kMeaning,
                       fmt::format("{} is driven at {:.4f} s", core::name_of(axis),

@@ -23,10 +23,10 @@ Columns log_columns(const CaseRecord& record) {
   const auto& rows = record.log;
   add(columns, "time_s", rows, [](const auto& row) { return core::seconds(row.time_ns); });
   add(columns, "fault", rows, [](const auto& row) { return core::number_of(row.fault); });
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     const auto add_of_axis = [&](const char* name, auto field) {
       add(columns, fmt::format("{}_{}", core::name_of(axis), name), rows,
-          [&](const bbmc::TelemetryRow& row) { return row.axes[axis].*field; });
+          [&](const LogRow& row) { return row.axes[axis].*field; });
     };
     add_of_axis("reference_m", &bbmc::AxisTelemetry::reference_m);
     add_of_axis("position_m", &bbmc::AxisTelemetry::position_m);
@@ -41,10 +41,10 @@ Columns truth_columns(const CaseRecord& record) {
   Columns columns;
   const auto& rows = record.truth;
   add(columns, "time_s", rows, [](const auto& row) { return core::seconds(row.time_ns); });
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     const auto add_of_axis = [&](const char* name, auto field) {
       add(columns, fmt::format("{}_{}", core::name_of(axis), name), rows,
-          [&](const emulator::TruthRow& row) { return row.axes[axis].*field; });
+          [&](const KeptTruth& row) { return row.axes[axis].*field; });
     };
     add_of_axis("carriage_m", &emulator::AxisTruth::carriage_m);
     add_of_axis("carriage_speed_m_per_s", &emulator::AxisTruth::carriage_speed_m_per_s);

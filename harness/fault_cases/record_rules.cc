@@ -13,16 +13,18 @@ namespace {
 
 using core::Nanoseconds;
 
-bool finite(const bbmc::TelemetryRow& row) {
-  return std::all_of(row.axes.begin(), row.axes.end(), [](const auto& axis) {
+bool finite(const LogRow& row) {
+  return std::all_of(core::kAllAxes.begin(), core::kAllAxes.end(), [&](core::Axis which) {
+    const auto& axis = row.axes[which];
     return std::isfinite(axis.reference_m) && std::isfinite(axis.reference_velocity_m_per_s) &&
            std::isfinite(axis.position_m) && std::isfinite(axis.velocity_m_per_s) &&
            std::isfinite(axis.duty_pct);
   });
 }
 
-bool finite(const emulator::TruthRow& row) {
-  return std::all_of(row.axes.begin(), row.axes.end(), [](const auto& axis) {
+bool finite(const KeptTruth& row) {
+  return std::all_of(core::kAllAxes.begin(), core::kAllAxes.end(), [&](core::Axis which) {
+    const auto& axis = row.axes[which];
     return std::isfinite(axis.carriage_m) && std::isfinite(axis.carriage_speed_m_per_s) &&
            std::isfinite(axis.motor_angle_rad) && std::isfinite(axis.current_A);
   });
@@ -120,7 +122,7 @@ MaybeCheck comes_to_rest(const CaseEvidence& evidence) {
   const auto& last = evidence.run.truth.back();
   const auto& before = evidence.run.truth_at(last.time_ns - kStretch_ns);
   const double length_s = core::seconds(std::max<Nanoseconds>(last.time_ns - before.time_ns, 1));
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     const auto& now = last.axes[axis];
     const auto& then = before.axes[axis];
     const double turned_m = emulator::metres_per_count(evidence.prepared.built.axes[axis]) *

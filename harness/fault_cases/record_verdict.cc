@@ -93,7 +93,7 @@ Check recorded_run_check(const std::filesystem::path& folder, const CaseRecord& 
   };
   bool same = fits(truth.rows(), run.truth.size(), truth_may_be_short) &&
               fits(log.rows(), run.log.size(), log_may_be_short);
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     const auto column = truth.column(fmt::format("{}_carriage_m", core::name_of(axis)));
     const auto duty = log.column(fmt::format("{}_duty_pct", core::name_of(axis)));
     for (std::size_t i = 0; same && i < column.size(); ++i) {

@@ -71,7 +71,7 @@ core::Nanoseconds served_ns(const CaseEvidence& evidence, core::Nanoseconds time
 bbmc::AxisMode mode_at(const CaseRecord& run, core::Axis axis, core::Nanoseconds time_ns) {
   const auto after = std::upper_bound(
       run.log.begin(), run.log.end(), time_ns,
-      [](core::Nanoseconds time, const bbmc::TelemetryRow& row) { return time < row.time_ns; });
+      [](core::Nanoseconds time, const LogRow& row) { return time < row.time_ns; });
   return after == run.log.begin() ? bbmc::AxisMode::kIdle : (after - 1)->axes[axis].mode;
 }
 

@@ -80,7 +80,7 @@ MaybeCheck integral_does_not_wind_up(const CaseEvidence& evidence) {
   if (!applies) {
     return std::nullopt;
   }
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     const auto worst = worst_stretch(evidence.run, axis);
     if (worst.is_long() && worst.past_m > worst.allowed_m()) {
       return failed(kName, kMeaning,

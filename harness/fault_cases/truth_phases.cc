@@ -68,7 +68,7 @@ class Motion {
 
  private:
   // The motor's side of the chain moves more evenly than the carriage.
-  static double ratio_of(const std::vector<emulator::TruthRow>& truth, core::Axis axis) {
+  static double ratio_of(const std::vector<KeptTruth>& truth, core::Axis axis) {
     const auto way = [&](auto value) {
       const auto [low, high] = std::minmax_element(
           truth.begin(), truth.end(),
@@ -155,9 +155,16 @@ std::optional<Travel> travel_of(const CaseRecord& run, core::Axis axis) {
 }
 
 core::Axis first_to_travel(const CaseRecord& run) {
-  const auto y = travel_of(run, core::Axis::kY);
-  const auto x = travel_of(run, core::Axis::kX);
-  return x && (!y || x->from_ns < y->from_ns) ? core::Axis::kX : core::Axis::kY;
+  auto first = core::Axis::kY;
+  std::optional<Nanoseconds> from_ns;
+  for (const auto axis : core::kAllAxes) {
+    const auto travel = travel_of(run, axis);
+    if (travel && (!from_ns || travel->from_ns < *from_ns)) {
+      first = axis;
+      from_ns = travel->from_ns;
+    }
+  }
+  return first;
 }
 
 }  // namespace towbench::harness

@@ -6,30 +6,38 @@ namespace towbench::harness {
 namespace {
 
 struct NamedPlace {
-  std::string_view name;
+  std::string name;
   FaultPlace place;
 };
 
-constexpr auto kY = core::Axis::kY;
-constexpr auto kX = core::Axis::kX;
+void add_of_axes(std::vector<NamedPlace>& places, std::string_view prefix, FaultPart part) {
+  for (const auto axis : core::kAllAxes) {
+    const auto name = fmt::format("{}.{}", prefix, core::name_of(axis));
+    if (part == FaultPart::kEndStop) {
+      places.push_back({name + "_min", {.part = part, .axis = axis}});
+      places.push_back({name + "_max", {.part = part, .axis = axis, .at_max = true}});
+    } else {
+      places.push_back({name, {.part = part, .axis = axis}});
+    }
+  }
+}
 
-constexpr std::array<NamedPlace, 15> kPlaces{{
-    {"endstop.y_min", {.part = FaultPart::kEndStop, .axis = kY}},
-    {"endstop.y_max", {.part = FaultPart::kEndStop, .axis = kY, .at_max = true}},
-    {"endstop.x_min", {.part = FaultPart::kEndStop, .axis = kX}},
-    {"endstop.x_max", {.part = FaultPart::kEndStop, .axis = kX, .at_max = true}},
-    {"kill_switch", {.part = FaultPart::kKillSwitch}},
-    {"encoder.y", {.part = FaultPart::kEncoder, .axis = kY}},
-    {"encoder.x", {.part = FaultPart::kEncoder, .axis = kX}},
-    {"amplifier.y", {.part = FaultPart::kAmplifier, .axis = kY}},
-    {"amplifier.x", {.part = FaultPart::kAmplifier, .axis = kX}},
-    {"supply", {.part = FaultPart::kSupply}},
-    {"drive.y", {.part = FaultPart::kDriveTrain, .axis = kY}},
-    {"drive.x", {.part = FaultPart::kDriveTrain, .axis = kX}},
-    {"link.to_controller", {.part = FaultPart::kLink}},
-    {"link.to_plant", {.part = FaultPart::kLink, .to_plant = true}},
-    {"host", {.part = FaultPart::kHost}},
-}};
+const std::vector<NamedPlace>& all_places() {
+  static const auto kPlaces = [] {
+    std::vector<NamedPlace> places;
+    add_of_axes(places, "endstop", FaultPart::kEndStop);
+    places.push_back({"kill_switch", {.part = FaultPart::kKillSwitch}});
+    add_of_axes(places, "encoder", FaultPart::kEncoder);
+    add_of_axes(places, "amplifier", FaultPart::kAmplifier);
+    places.push_back({"supply", {.part = FaultPart::kSupply}});
+    add_of_axes(places, "drive", FaultPart::kDriveTrain);
+    places.push_back({"link.to_controller", {.part = FaultPart::kLink}});
+    places.push_back({"link.to_plant", {.part = FaultPart::kLink, .to_plant = true}});
+    places.push_back({"host", {.part = FaultPart::kHost}});
+    return places;
+  }();
+  return kPlaces;
+}
 
 std::string trigger_text(const FaultTrigger& trigger) {
   using Kind = FaultTrigger::Kind;
@@ -56,16 +64,8 @@ std::string trigger_text(const FaultTrigger& trigger) {
 
 }  // namespace
 
-protocol::InputLine FaultPlace::hall_line() const noexcept {
-  using protocol::InputLine;
-  if (axis == core::Axis::kY) {
-    return at_max ? InputLine::kHallYMax : InputLine::kHallYMin;
-  }
-  return at_max ? InputLine::kHallXMax : InputLine::kHallXMin;
-}
-
 std::optional<FaultPlace> place_named(std::string_view name) {
-  for (const auto& known : kPlaces) {
+  for (const auto& known : all_places()) {
     if (known.name == name) {
       return known.place;
     }
@@ -74,7 +74,7 @@ std::optional<FaultPlace> place_named(std::string_view name) {
 }
 
 std::string name_of(const FaultPlace& place) {
-  for (const auto& known : kPlaces) {
+  for (const auto& known : all_places()) {
     if (known.place == place) {
       return std::string(known.name);
     }
@@ -84,7 +84,7 @@ std::string name_of(const FaultPlace& place) {
 
 std::vector<std::string> all_place_names() {
   std::vector<std::string> names;
-  for (const auto& known : kPlaces) {
+  for (const auto& known : all_places()) {
     names.emplace_back(known.name);
   }
   return names;

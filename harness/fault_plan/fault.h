@@ -22,7 +22,9 @@ struct FaultPlace {
   bool at_max = false;               // of an end-stop
   bool to_plant = false;             // of a link
 
-  [[nodiscard]] protocol::InputLine hall_line() const noexcept;
+  [[nodiscard]] protocol::InputLine hall_line() const noexcept {
+    return protocol::hall_line(axis, at_max);
+  }
   friend bool operator==(const FaultPlace&, const FaultPlace&) = default;
 };
 

@@ -20,6 +20,12 @@ enum class FaultPart : std::uint8_t {
   kHost,
 };
 
+// Each axis has one of its own.
+[[nodiscard]] constexpr bool is_of_an_axis(FaultPart part) noexcept {
+  return part == FaultPart::kEndStop || part == FaultPart::kEncoder ||
+         part == FaultPart::kAmplifier || part == FaultPart::kDriveTrain;
+}
+
 enum class FaultKind : std::uint8_t {
   // end-stop
   kStuckOpen,

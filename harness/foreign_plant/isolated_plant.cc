@@ -98,7 +98,7 @@ class Source final : public emulator::ForeignPlantSource {
 
 IsolatedPlant::IsolatedPlant(PlantFile file, const core::PerAxis<std::optional<double>>& starts_m)
     : file_(std::move(file)) {
-  for (const auto which : core::kAxes) {
+  for (const auto which : core::kAllAxes) {
     if (starts_m[which]) {
       order_.push_back(which);
       axes_.push_back({std::string(core::name_of(which)), *starts_m[which]});

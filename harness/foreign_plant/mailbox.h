@@ -45,8 +45,8 @@ struct Mailbox {
   TurnWord answers;
   PlantOrder order = PlantOrder::kStep;
   double until_s = 0;
-  std::array<towbench_plant_input, core::kAxisCount> inputs{};
-  std::array<towbench_plant_output, core::kAxisCount> outputs{};
+  std::array<towbench_plant_input, core::kMostAxes> inputs{};
+  std::array<towbench_plant_output, core::kMostAxes> outputs{};
   double reached_s = 0;
   bool succeeded = false;
   std::array<char, 400> message{};

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "harness/checks/recorded_axes.h"
+
 namespace towbench::harness {
 namespace {
 
@@ -76,6 +78,9 @@ std::vector<Measurement> measure(const RunData& data, const std::vector<Resolved
   std::vector<Measurement> measurements;
   for (const auto& window : windows) {
     for (const auto& metric : all_metrics()) {
+      if (!is_recorded(data.limits, metric.axis)) {
+        continue;
+      }
       MetricValue value;
       if (window.found) {
         value = metric.compute(data, metric.axis, window.span);

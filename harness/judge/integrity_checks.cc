@@ -119,7 +119,7 @@ Check check_edges_seen(const RunData& data) {
   constexpr double kMoved_counts = 10;
   std::string reason;
   double edges_of_all = 0;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     const auto edges = edges_total(data, axis, {});
     edges_of_all += edges.value;
     const double travel_m = carriage_travel(data, axis, {}).value;
@@ -144,7 +144,7 @@ Check check_comes_to_rest(const RunData& data) {
         std::lower_bound(time_s.begin(), time_s.end(), time_s.back() - kStretch_s) -
         time_s.begin());
     const double length_s = std::max(time_s.back() - time_s[first], kSameTime_s);
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kAllAxes) {
       const auto speed = [&](std::string_view column, double scale) {
         const auto values = data.truth_of(axis, column);
         return values.size() == time_s.size()

@@ -32,7 +32,7 @@ std::vector<ExpectedSensor> sensors_of(const emulator::RigParameters& rig) {
     sensors.push_back(
         {std::string(kForceFile), core::nanoseconds(rig.force_sensor.sample_period_s)});
   }
-  for (const auto which : core::kAxes) {
+  for (const auto which : core::kAllAxes) {
     const auto& axis = rig.axes[which];
     if (axis.exists && axis.current_monitor.fitted) {
       sensors.push_back(
@@ -94,7 +94,7 @@ void judge_requirements(const Experiment& experiment, const RunData& data, Judge
 
 core::PerAxis<AxisLimits> limits_of(const emulator::RigParameters& rig) {
   core::PerAxis<AxisLimits> limits;
-  for (const auto which : core::kAxes) {
+  for (const auto which : core::kAllAxes) {
     const auto& axis = rig.axes[which];
     limits[which] = {.exists = axis.exists,
                      .hall_min_m = axis.hall_min.position_m,

@@ -118,7 +118,7 @@ Check starts_undriven(const RunData& data, const SafetyScope& scope) {
   auto check = named("starts_undriven",
                      "the first duty of each axis is zero, and so before a command", "ANY-1");
   const auto time_s = data.log.column("time_s");
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     const auto duty_pct = data.log_of(axis, "duty_pct");
     for (std::size_t i = 0; i < duty_pct.size(); ++i) {
       if (drives(duty_pct[i]) && check.verdict == Verdict::kPass &&
@@ -135,7 +135,7 @@ Check starts_undriven(const RunData& data, const SafetyScope& scope) {
 double driven_until_s(const RunData& data, double from_s, double to_s) {
   const auto time_s = data.log.column("time_s");
   double until_s = from_s;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     const auto duty_pct = data.log_of(axis, "duty_pct");
     for (std::size_t i = 0; i < duty_pct.size() && time_s[i] < to_s; ++i) {
       // A row's duty lasts until the next one.
@@ -204,25 +204,19 @@ std::optional<Check> reset_told(const RunData& data) {
 }
 
 std::optional<Check> end_stop_not_outwards(const RunData& data) {
-  struct Sensor {
-    InputLine line;
-    Axis axis;
-    double outwards;
-  };
-  constexpr std::array kSensors{
-      Sensor{InputLine::kHallYMin, Axis::kY, -1}, Sensor{InputLine::kHallYMax, Axis::kY, 1},
-      Sensor{InputLine::kHallXMin, Axis::kX, -1}, Sensor{InputLine::kHallXMax, Axis::kX, 1}};
   auto check = named("end_stop_not_outwards",
                      "2 ms after an end-stop's edge the axis is not driven on towards it", "ANY-3");
   bool occasion = false;
-  for (const auto& sensor : kSensors) {
-    for (const auto& activation : activations(data, sensor.line)) {
-      occasion = true;
-      const auto wrong_s = driven_on(data, sensor.axis, sensor.outwards,
-                                     activation.from_s + kReaction_s, activation.to_s);
-      if (wrong_s && check.verdict == Verdict::kPass) {
-        fail(check, fmt::format("{}: edge at {:.4f} s, driven on at {:.4f} s",
-                                core::name_of(sensor.axis), activation.from_s, *wrong_s));
+  for (const auto axis : core::kAllAxes) {
+    for (const bool at_max : {false, true}) {
+      for (const auto& activation : activations(data, protocol::hall_line(axis, at_max))) {
+        occasion = true;
+        const auto wrong_s = driven_on(data, axis, at_max ? 1.0 : -1.0,
+                                       activation.from_s + kReaction_s, activation.to_s);
+        if (wrong_s && check.verdict == Verdict::kPass) {
+          fail(check, fmt::format("{}: edge at {:.4f} s, driven on at {:.4f} s",
+                                  core::name_of(axis), activation.from_s, *wrong_s));
+        }
       }
     }
   }
@@ -253,7 +247,7 @@ Check no_runaway(const RunData& data) {
   check.value = 0;
   const auto truth_s = data.truth.column("time_s");
   const auto time_s = data.log.column("time_s");
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     const auto carriage_m = data.truth_of(axis, "carriage_m");
     const auto reference_m = data.log_of(axis, "reference_m");
     const auto duty_pct = data.log_of(axis, "duty_pct");
@@ -281,7 +275,7 @@ Check no_runaway(const RunData& data) {
 }
 
 void blame_who_drives_at_end(const RunData& data, std::vector<Check>& checks) {
-  const bool driven = std::any_of(core::kAxes.begin(), core::kAxes.end(), [&](Axis axis) {
+  const bool driven = std::any_of(core::kAllAxes.begin(), core::kAllAxes.end(), [&](Axis axis) {
     const auto duty_pct = data.log_of(axis, "duty_pct");
     return !duty_pct.empty() && drives(duty_pct.back());
   });

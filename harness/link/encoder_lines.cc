@@ -49,6 +49,10 @@ void EncoderLinesAtController::ToController::handle(
     owner.status_ = core::failure(core::ErrorCode::kProtocolCapabilities);
     return;
   }
+  if (!core::is_planar(report.axis)) {
+    owner.status_ = core::failure(core::ErrorCode::kMessageBadField);  // it has no lines
+    return;
+  }
   Encoder& encoder = owner.encoders_[report.axis];
   encoder.told_count = sum_of(encoder.told_count, report.count_change);
   encoder.told_pulses = static_cast<std::uint16_t>(encoder.told_pulses + report.index_pulses);
@@ -65,7 +69,7 @@ core::Status EncoderLinesAtController::wait_for(protocol::Turn expected) noexcep
   if (const auto gathered = gather(); !gathered) {
     return gathered;
   }
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kPlanarAxes) {
     if (((static_cast<unsigned>(axes_mask_) >> core::index_of(axis)) & 1U) != 0) {
       report(axis);
     }
@@ -84,7 +88,7 @@ core::Status EncoderLinesAtController::start() noexcept {
   if (!levels) {
     return core::failure(levels.error());
   }
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kPlanarAxes) {
     unsigned own = 0;
     for (const EncoderLine line : kLines) {
       const unsigned level = static_cast<unsigned>(*levels) >> protocol::place_of(axis, line);
@@ -161,10 +165,10 @@ void EncoderLinesAtController::report(core::Axis axis) noexcept {
 EncoderLinesAtPlant::EncoderLinesAtPlant(protocol::MessageSink& plant,
                                          protocol::MessageSink& controller,
                                          protocol::EdgeDriver& driver,
-                                         const core::PerAxis<EncoderLevels>& start_levels,
+                                         const core::PerPlanarAxis<EncoderLevels>& start_levels,
                                          bool tells_count) noexcept
     : in_(plant), out_(*this, controller), driver_(driver), tells_count_(tells_count) {
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kPlanarAxes) {
     for (const EncoderLine line : kLines) {
       if (line != EncoderLine::kIndex || driver_.has_index()) {
         const auto set =
@@ -184,6 +188,10 @@ void EncoderLinesAtPlant::In::handle(const protocol::Hello& hello) noexcept {
 }
 
 void EncoderLinesAtPlant::Out::handle(const protocol::EncoderEdges& edges) noexcept {
+  if (!core::is_planar(edges.axis)) {
+    owner.status_ = core::failure(core::ErrorCode::kMessageBadField);  // it has no lines
+    return;
+  }
   owner.encoders_[edges.axis].is_there = true;
   owner.adopt(edges.axis, edges.start_levels);
   for (const protocol::EncoderEdge edge : edges.edges.view()) {
@@ -192,7 +200,7 @@ void EncoderLinesAtPlant::Out::handle(const protocol::EncoderEdges& edges) noexc
 }
 
 void EncoderLinesAtPlant::Out::handle(const protocol::Advanced& advanced) noexcept {
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kPlanarAxes) {
     if (owner.tells_count_ && owner.encoders_[axis].is_there) {
       owner.tell(axis, advanced.time_ns);
     }

@@ -88,7 +88,7 @@ class EncoderLinesAtController final : public PlantEnd {
   EdgeTimes times_;
   ToPlant to_plant_{*this};
   ToController to_controller_{*this};
-  core::PerAxis<Encoder> encoders_;
+  core::PerPlanarAxis<Encoder> encoders_;
   core::Status status_;
   core::Nanoseconds until_ns_ = 0;
   core::Nanoseconds start_ns_ = 0;  // of the run, by the reader's clock
@@ -103,7 +103,7 @@ class EncoderLinesAtPlant {
   // lockstep.
   EncoderLinesAtPlant(protocol::MessageSink& plant, protocol::MessageSink& controller,
                       protocol::EdgeDriver& driver,
-                      const core::PerAxis<protocol::EncoderLevels>& start_levels,
+                      const core::PerPlanarAxis<protocol::EncoderLevels>& start_levels,
                       bool tells_count) noexcept;
 
   [[nodiscard]] protocol::MessageSink& from_controller() noexcept { return in_; }
@@ -149,7 +149,7 @@ class EncoderLinesAtPlant {
   Out out_;
   protocol::EdgeDriver& driver_;
   bool tells_count_;
-  core::PerAxis<Encoder> encoders_;
+  core::PerPlanarAxis<Encoder> encoders_;
   core::Status status_;
 };
 

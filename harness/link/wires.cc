@@ -77,8 +77,8 @@ WiredPath::WiredPath(const emulator::PlantNode& node, protocol::MessageSink& to_
     from_plant_ = &lines_->to_controller();
   }
   if (wires.encoders != nullptr) {
-    core::PerAxis<protocol::EncoderLevels> levels;
-    for (const core::Axis axis : core::kAxes) {
+    core::PerPlanarAxis<protocol::EncoderLevels> levels;
+    for (const core::Axis axis : core::kPlanarAxes) {
       levels[axis] = node.encoder_levels(axis);
     }
     encoders_.emplace(*from_controller_, *from_plant_, *wires.encoders, levels,

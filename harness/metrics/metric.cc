@@ -69,7 +69,7 @@ constexpr std::array kMachineMetrics{
 
 std::vector<Metric> build() {
   std::vector<Metric> metrics;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     for (const auto& row : kAxisMetrics) {
       metrics.push_back({fmt::format("{}_{}", core::name_of(axis), row.name), std::string(row.unit),
                          std::string(row.meaning), axis, row.compute});

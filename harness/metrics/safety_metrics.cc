@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "harness/checks/recorded_axes.h"
 #include "harness/metrics/statistics.h"
 #include "protocol/messages.h"
 
@@ -52,10 +53,8 @@ struct HallEdge {
 };
 std::optional<HallEdge> first_hall_edge(const RunData& data, core::Axis axis,
                                         const TimeSpan& span) {
-  using protocol::InputLine;
-  const bool is_y = axis == core::Axis::kY;
-  const auto min = protocol::mask_of(is_y ? InputLine::kHallYMin : InputLine::kHallXMin);
-  const auto max = protocol::mask_of(is_y ? InputLine::kHallYMax : InputLine::kHallXMax);
+  const auto min = protocol::mask_of(protocol::hall_line(axis, false));
+  const auto max = protocol::mask_of(protocol::hall_line(axis, true));
   const auto edge = first_edge(data, static_cast<std::uint16_t>(min | max), span);
   if (!edge) {
     return std::nullopt;
@@ -91,7 +90,7 @@ bool command_stays_zero(const RunData& data, double from_s) {
     if ((static_cast<std::uint16_t>(lines[i]) & kKill) == 0) {
       break;
     }
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : recorded_axes(data.limits)) {
       const auto command_V = data.truth_of(axis, "command_V");
       if (command_V.empty() || command_V[i] != 0.0) {
         return false;

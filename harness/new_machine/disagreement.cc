@@ -74,7 +74,7 @@ void compare(const emulator::RigAxisParameters& rig, const bbmc::AxisConfigurati
 std::vector<std::string> disagreements(const emulator::RigParameters& rig,
                                        const bbmc::Configuration& controller) {
   std::vector<std::string> found;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     if (rig.axes[axis].exists && controller.axes[axis].exists) {
       Comparison all(core::name_of(axis), found);
       compare(rig.axes[axis], controller.axes[axis], all);

@@ -45,6 +45,12 @@ void add(std::string& text, float value) {
   text += ',';
   add(text, static_cast<double>(value), 1e6, "e-6");
 }
+void add(std::string& text, const LiveTruthAxis& axis) {
+  add(text, axis.carriage_m);
+  add(text, axis.carriage_speed_m_per_s);
+  add(text, axis.current_A);
+  add(text, axis.chain_force_N);
+}
 template <typename Integer>
 void add_whole(std::string& text, Integer value) {
   const auto digits = fmt::format_int(value);
@@ -82,14 +88,14 @@ void begin_row(std::string& text, core::Nanoseconds time_ns) {
 
 double FrameMaker::worst_error_m(const SeenRow& row) {
   double worst = 0;
-  for (const auto axis : core::kAxes) {
-    worst = std::max(worst, std::fabs(row.live.reference_m[axis] - row.position_m[axis]));
+  for (const auto which : core::kPlanarAxes) {
+    worst = std::max(worst, std::fabs(row.live.reference_m[which] - row.position_m[which]));
   }
   return worst;
 }
 
 double FrameMaker::worst_error_m(const LiveTruth& row) {
-  return std::fabs(static_cast<double>(row.chain_force_N[core::Axis::kY]));
+  return std::fabs(static_cast<double>(row.axis(core::Axis::kY).chain_force_N));
 }
 
 template <typename Row>
@@ -125,8 +131,9 @@ void FrameMaker::begin(std::uint64_t number) {
   if (const auto* const fixture = session_.fixture()) {
     const auto shown = shown_configuration(*fixture);
     estimators_.emplace(shown);
-    for (const auto axis : core::kAxes) {
-      m_per_count_[axis] = shown.axes[axis].m_per_count();
+    shown_ = shown.shown;
+    for (const auto which : shown_) {
+      m_per_count_[which] = shown.axes[which].m_per_count();
     }
   }
 }
@@ -152,8 +159,9 @@ std::vector<FrameMaker::SeenRow> FrameMaker::take_rows() {
     if (estimators_) {
       seen.speeds = estimators_->update(live);
     }
-    for (const auto axis : core::kAxes) {
-      seen.position_m[axis] = (static_cast<double>(live.count[axis]) + 0.5) * m_per_count_[axis];
+    for (const auto which : shown_) {
+      seen.position_m[which] =
+          (static_cast<double>(live.axis(which).count) + 0.5) * m_per_count_[which];
     }
   }
   forget_what_is_not_shown(seen_, [](const SeenRow& row) { return row.live.time_ns; });
@@ -172,7 +180,7 @@ std::vector<LiveTruth> FrameMaker::take_truths() {
 
 void FrameMaker::take_words() {
   if (const auto folder = session_.tap().folder(); !tail_ && !folder.empty()) {
-    tail_.emplace(folder);
+    tail_.emplace(folder, shown_);
   }
   untold_.events += session_.tap().take_events();
   if (tail_ && session_.state().clock == RunClock::kReal) {
@@ -186,44 +194,58 @@ void FrameMaker::take_words() {
   }
 }
 
+void FrameMaker::add_axis(std::string& text, const SeenRow& row, core::Axis which) {
+  const auto axis = row.live.axis(which);
+  add(text, axis.reference_m);
+  add(text, row.position_m[which]);
+  add(text, axis.reference_velocity_m_per_s);
+  add(text, axis.velocity_m_per_s);
+  add(text, axis.duty_pct);
+  add_whole(text, axis.mode);
+  for (const double speed : row.speeds[which]) {
+    add(text, speed);
+  }
+}
+
 // [t, then for y and x: reference, position, reference velocity, velocity, duty, mode, and velocity
-// by frequency, by period and by the hybrid; then fault, and the force sensor's y and x]
-std::string FrameMaker::text_of(const std::vector<SeenRow>& rows) {
+// by frequency, by period and by the hybrid; then fault, and the force sensor's y and x; of a
+// machine with further axes then the same nine for each of z to c]
+std::string FrameMaker::text_of(const std::vector<SeenRow>& rows) const {
   std::string text;
-  for (const auto& [live, position_m, speeds] : rows) {
-    begin_row(text, live.time_ns);
-    for (const auto axis : core::kAxes) {
-      add(text, live.reference_m[axis]);
-      add(text, position_m[axis]);
-      add(text, live.reference_velocity_m_per_s[axis]);
-      add(text, live.velocity_m_per_s[axis]);
-      add(text, live.duty_pct[axis]);
-      add_whole(text, live.mode[axis]);
-      for (const double speed : speeds[axis]) {
-        add(text, speed);
-      }
+  for (const auto& row : rows) {
+    begin_row(text, row.live.time_ns);
+    for (const auto which : core::kPlanarAxes) {
+      add_axis(text, row, which);
     }
-    add_whole(text, live.fault);
-    for (const float force : live.force_N) {
-      add(text, live.has_force ? force : std::nanf(""));
+    add_whole(text, row.live.fault);
+    for (const float force : row.live.force_N) {
+      add(text, row.live.has_force ? force : std::nanf(""));
+    }
+    if (shows_further_axes()) {
+      for (const auto which : core::kFurtherAxes) {
+        add_axis(text, row, which);
+      }
     }
     text += ']';
   }
   return text;
 }
 
-// [t, then for y and x: carriage, carriage speed, current, chain force; then input lines]
-std::string FrameMaker::text_of(const std::vector<LiveTruth>& rows) {
+// [t, then for y and x: carriage, carriage speed, current, chain force; then input lines; of a
+// machine with further axes then the same four for each of z to c]
+std::string FrameMaker::text_of(const std::vector<LiveTruth>& rows) const {
   std::string text;
   for (const auto& row : rows) {
     begin_row(text, row.time_ns);
-    for (const auto axis : core::kAxes) {
-      add(text, row.carriage_m[axis]);
-      add(text, row.carriage_speed_m_per_s[axis]);
-      add(text, row.current_A[axis]);
-      add(text, row.chain_force_N[axis]);
+    for (const auto which : core::kPlanarAxes) {
+      add(text, row.axis(which));
     }
     add_whole(text, row.input_lines);
+    if (shows_further_axes()) {
+      for (const auto which : core::kFurtherAxes) {
+        add(text, row.axis(which));
+      }
+    }
     text += ']';
   }
   return text;
@@ -255,7 +277,7 @@ std::string FrameMaker::state_text() {
     auto& followed = object["followed"];
     const auto ends = limits_of(fixture->rig.parameters);
     const auto shown = shown_configuration(*fixture);
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : shown.shown) {
       const auto& believed = shown.axes[axis];
       const double m_per_count = believed.m_per_count();
       constexpr std::array<const char*, LiveEstimators::kMethods> kMethods{"frequency", "period",

@@ -65,14 +65,19 @@ class FrameMaker {
   [[nodiscard]] std::vector<SeenRow> take_rows();
   [[nodiscard]] std::vector<LiveTruth> take_truths();
   [[nodiscard]] bool holds_back();
-  [[nodiscard]] static std::string text_of(const std::vector<SeenRow>& rows);
-  [[nodiscard]] static std::string text_of(const std::vector<LiveTruth>& rows);
+  static void add_axis(std::string& text, const SeenRow& row, core::Axis which);
+  [[nodiscard]] std::string text_of(const std::vector<SeenRow>& rows) const;
+  [[nodiscard]] std::string text_of(const std::vector<LiveTruth>& rows) const;
+  [[nodiscard]] bool shows_further_axes() const noexcept {
+    return shown_.size() > core::kPlanarAxes.size();
+  }
   [[nodiscard]] std::string state_text();
 
   Session& session_;
   std::uint64_t number_ = 0;  // of the run that these belong to
   std::optional<LiveEstimators> estimators_;
   core::PerAxis<double> m_per_count_;
+  RecordedAxes shown_ = planar_axes();
   std::optional<TruthTail> tail_;  // of a plant in another process, once its folder is there
   Untold untold_;
   std::uint64_t next_row_ = 0;  // to be read, of the tap's

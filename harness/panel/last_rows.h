@@ -29,7 +29,7 @@ class LastRows {
     const auto number = written_.load(std::memory_order_relaxed);
     auto& words = slots_[number & mask_].words;
     const auto* const from = static_cast<const std::byte*>(static_cast<const void*>(&row));
-    for (std::size_t i = 0; i < kWords; ++i) {
+    for (std::size_t i = 0; i < words_; ++i) {
       std::uint64_t word = 0;
       std::memcpy(&word, from + i * sizeof(word), sizeof(word));
       // Whoever reads this word knows that all rows before have been written (read(), below).
@@ -61,8 +61,10 @@ class LastRows {
   }
 
   // ---- while nobody writes or reads ----
-  void clear(std::size_t least) {
+  // Of each row the first `bytes` are passed on, whole words; the rest is read as it was made.
+  void clear(std::size_t least, std::size_t bytes = sizeof(Row)) {
     least_ = least;
+    words_ = bytes / sizeof(std::uint64_t);
     const auto capacity = std::bit_ceil(least + least / 4);
     if (slots_ == nullptr || capacity != mask_ + 1) {
       slots_ = std::make_unique<Slot[]>(capacity);
@@ -85,7 +87,7 @@ class LastRows {
   void read(std::uint64_t number, Row& row) const noexcept {
     const auto& words = slots_[number & mask_].words;
     auto* const to = static_cast<std::byte*>(static_cast<void*>(&row));
-    for (std::size_t i = 0; i < kWords; ++i) {
+    for (std::size_t i = 0; i < words_; ++i) {
       const auto word = words[i].load(std::memory_order_acquire);
       std::memcpy(to + i * sizeof(word), &word, sizeof(word));
     }
@@ -94,6 +96,7 @@ class LastRows {
   std::unique_ptr<Slot[]> slots_;
   std::size_t mask_ = 0;
   std::size_t least_ = 0;
+  std::size_t words_ = kWords;
   // On a cache line that is read twice a copy, not once a row.
   alignas(64) std::atomic<std::uint64_t> written_{0};
 };

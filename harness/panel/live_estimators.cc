@@ -17,23 +17,25 @@ LiveEstimators::OfAxis LiveEstimators::of_axis(const bbmc::AxisConfiguration& ax
           .capture_clock_Hz = axis.velocity.capture_clock_Hz};
 }
 
-LiveEstimators::LiveEstimators(const bbmc::Configuration& configuration) noexcept
-    : axes_{{of_axis(configuration.axes[core::Axis::kY], configuration.control_rate_Hz),
-             of_axis(configuration.axes[core::Axis::kX], configuration.control_rate_Hz)}} {}
+LiveEstimators::LiveEstimators(const ShownMachine& machine) {
+  for (const auto which : machine.shown) {
+    axes_.emplace_back(which, of_axis(machine.axes[which], machine.control_rate_Hz));
+  }
+}
 
 LiveEstimators::Speeds LiveEstimators::update(const LiveRow& row) noexcept {
   Speeds speeds;
-  for (const auto which : core::kAxes) {
-    auto& axis = axes_[which];
+  for (auto& [which, axis] : axes_) {
+    const auto now = row.axis(which);
     // A count that moved further than there were edges has been declared anew, not driven there.
-    const auto count = row.count[which];
+    const auto count = now.count;
     const auto change = count - axis.last_count;
-    if (axis.started && std::llabs(change) > static_cast<long long>(row.edges[which])) {
+    if (axis.started && std::llabs(change) > static_cast<long long>(now.edges)) {
       axis.declared += change;
     }
     axis.started = true;
     axis.last_count = count;
-    const auto reading = registers_of(row.last_edges[which], row.time_ns, axis.capture_clock_Hz);
+    const auto reading = registers_of(now.last_edges, row.time_ns, axis.capture_clock_Hz);
     for (std::size_t method = 0; method < kMethods; ++method) {
       speeds[which][method] =
           axis.by[method].update(reading, count - axis.declared) * axis.m_per_count;

@@ -4,11 +4,13 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
-#include "bbmc/system/configuration.h"
 #include "bbmc/system/velocity_estimator.h"
 #include "core/axis.h"
 #include "harness/panel/live_row.h"
+#include "harness/panel/shown_configuration.h"
 
 namespace towbench::harness {
 
@@ -17,7 +19,7 @@ class LiveEstimators {
   static constexpr std::size_t kMethods = 3;  // in the order of bbmc::VelocityMethod
   using Speeds = core::PerAxis<std::array<double, kMethods>>;
 
-  explicit LiveEstimators(const bbmc::Configuration& configuration) noexcept;
+  explicit LiveEstimators(const ShownMachine& machine);
 
   // Rows in order. Speeds in m/s, motor side.
   [[nodiscard]] Speeds update(const LiveRow& row) noexcept;
@@ -33,7 +35,7 @@ class LiveEstimators {
   };
   static OfAxis of_axis(const bbmc::AxisConfiguration& axis, double control_rate_Hz) noexcept;
 
-  core::PerAxis<OfAxis> axes_;
+  std::vector<std::pair<core::Axis, OfAxis>> axes_;
 };
 
 }  // namespace towbench::harness

@@ -27,7 +27,7 @@ void refuse_unless_possible(const Fault& fault, const ExperimentFixture& fixture
     throw FixtureError({.file = "fault"}, place,
                        "before the start: a machine is built like that or not");
   }
-  if (!fixture.rig.parameters.axes[fault.place.axis].exists) {
+  if (is_of_an_axis(fault.place.part) && !fixture.rig.parameters.axes[fault.place.axis].exists) {
     throw FixtureError({.file = "fault"}, place, "an axis that the rig has");
   }
   if (!fixture.experiment.reference.empty()) {

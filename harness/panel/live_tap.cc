@@ -24,20 +24,23 @@ std::filesystem::path LiveTap::folder() const {
   return folder_;
 }
 
-void LiveTap::row(const bbmc::TelemetryRow& row,
-                  const core::PerAxis<bbmc::EdgeTimes>& edges) noexcept {
+void LiveTap::row(const LogRow& row, const core::PerAxis<bbmc::EdgeTimes>& edges) noexcept {
   latest_.time_ns = row.time_ns;
   latest_.fault = core::number_of(row.fault);
-  for (const auto axis : core::kAxes) {
-    const auto& now = row.axes[axis];
-    latest_.reference_m[axis] = now.reference_m;
-    latest_.velocity_m_per_s[axis] = now.velocity_m_per_s;
-    latest_.count[axis] = now.count;
-    latest_.reference_velocity_m_per_s[axis] = static_cast<float>(now.reference_velocity_m_per_s);
-    latest_.duty_pct[axis] = static_cast<float>(now.duty_pct);
-    latest_.last_edges[axis] = last_edges_of(edges[axis], row.time_ns);
-    latest_.edges[axis] = now.edges;
-    latest_.mode[axis] = static_cast<std::uint8_t>(now.mode);
+  for (const auto which : core::kAllAxes) {
+    if (!core::is_planar(which) && !has_further_axes_) {
+      break;
+    }
+    const auto& now = row.axes[which];
+    latest_.set(which,
+                {.reference_m = now.reference_m,
+                 .velocity_m_per_s = now.velocity_m_per_s,
+                 .count = now.count,
+                 .reference_velocity_m_per_s = static_cast<float>(now.reference_velocity_m_per_s),
+                 .duty_pct = static_cast<float>(now.duty_pct),
+                 .last_edges = last_edges_of(edges[which], row.time_ns),
+                 .edges = now.edges,
+                 .mode = static_cast<std::uint8_t>(now.mode)});
   }
   rows_.add(latest_);
 }
@@ -74,9 +77,13 @@ std::array<std::uint64_t, LiveTap::kBins> LiveTap::exchange_times() const noexce
   return counts;
 }
 
-void LiveTap::clear(core::Nanoseconds exchange_ns, Histogram histogram, bool has_force_sensor) {
-  rows_.clear(rows_of(exchange_ns));
-  truths_.clear(rows_of(exchange_ns));
+void LiveTap::clear(core::Nanoseconds exchange_ns, Histogram histogram, bool has_force_sensor,
+                    bool has_further_axes) {
+  has_further_axes_ = has_further_axes;
+  rows_.clear(rows_of(exchange_ns),
+              has_further_axes ? sizeof(LiveRow) : offsetof(LiveRow, further));
+  truths_.clear(rows_of(exchange_ns),
+                has_further_axes ? sizeof(LiveTruth) : offsetof(LiveTruth, further));
   dropped_ = 0;
   for (auto& bin : exchange_times_) {
     bin = 0;

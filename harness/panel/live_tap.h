@@ -34,8 +34,7 @@ class LiveTap final : public RunTap, private protocol::MessageSink {
   [[nodiscard]] protocol::MessageSink* witness() noexcept override {
     return hears_force_ ? this : nullptr;
   }
-  void row(const bbmc::TelemetryRow& row,
-           const core::PerAxis<bbmc::EdgeTimes>& edges) noexcept override;
+  void row(const LogRow& row, const core::PerAxis<bbmc::EdgeTimes>& edges) noexcept override;
   void truth(const emulator::TruthRow& row) noexcept override;
   void exchange(core::Nanoseconds took_ns) noexcept override;
   void event(std::string_view line) noexcept override { add(queues_->events, line); }
@@ -54,8 +53,9 @@ class LiveTap final : public RunTap, private protocol::MessageSink {
   // Of the run under way or the last one; empty before.
   [[nodiscard]] std::filesystem::path folder() const;
   // Before a run; nobody else is at it then. `exchange_ns`: the machine's time between two of them.
-  // `has_force_sensor`: of the rig.
-  void clear(core::Nanoseconds exchange_ns, Histogram histogram, bool has_force_sensor);
+  // `has_force_sensor`, `has_further_axes`: of the rig.
+  void clear(core::Nanoseconds exchange_ns, Histogram histogram, bool has_force_sensor,
+             bool has_further_axes = false);
 
  private:
   static constexpr std::size_t kMostText = 1U << 20U;
@@ -79,6 +79,7 @@ class LiveTap final : public RunTap, private protocol::MessageSink {
   LiveRow latest_;                   // its force is the last sample's
   core::Nanoseconds period_ns_ = 0;  // of exchanges that are to keep one
   bool hears_force_ = false;
+  bool has_further_axes_ = false;
   std::atomic<std::uint64_t> dropped_{0};
   std::array<std::atomic<std::uint64_t>, kBins> exchange_times_{};
   mutable std::mutex folder_mutex_;  // taken before anything runs, and by the reader

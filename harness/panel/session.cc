@@ -13,6 +13,7 @@
 #include "harness/panel/autogroup.h"
 #include "harness/panel/live_operator.h"
 #include "harness/panel/realtime_operator.h"
+#include "harness/panel/shown_configuration.h"
 #include "harness/panel/turns.h"
 #include "harness/report/report.h"
 
@@ -107,7 +108,8 @@ void Session::start(const SessionStart& wanted) {
   const bool real = wanted.clock == RunClock::kReal;
   tap_.clear(bbmc::exchange_period_ns(controller.control_period_ns()),
              real ? LiveTap::Histogram::kOffPeriod : LiveTap::Histogram::kTook,
-             fixture_->rig.parameters.force_sensor.fitted);
+             fixture_->rig.parameters.force_sensor.fitted,
+             emulator::has_further_axes(fixture_->rig.parameters));
   stop_ = false;
   if (real) {
     hand_ = std::make_unique<RealtimeOperator>(fixture_->experiment.hand, wanted.holds);

@@ -4,12 +4,20 @@
 
 namespace towbench::harness {
 
-bbmc::Configuration shown_configuration(const ExperimentFixture& fixture) {
-  auto shown = fixture.controller.configuration;
+ShownMachine::ShownMachine(const bbmc::Configuration& configuration)
+    : shown(planar_axes()), control_rate_Hz(configuration.control_rate_Hz) {
+  for (const auto which : core::kAllAxes) {
+    axes[which] = configuration.axes[core::is_planar(which) ? which : core::Axis::kY];
+  }
+}
+
+ShownMachine shown_configuration(const ExperimentFixture& fixture) {
+  ShownMachine shown(fixture.controller.configuration);
   if (fixture.experiment.reference.empty()) {
     return shown;
   }
-  for (const auto which : core::kAxes) {
+  shown.shown = recorded_axes(fixture.rig.parameters.axes);
+  for (const auto which : shown.shown) {
     const auto& rig = fixture.rig.parameters.axes[which];
     auto& axis = shown.axes[which];
     axis.gear_ratio = rig.plant.gear_ratio;

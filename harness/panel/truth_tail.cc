@@ -1,7 +1,6 @@
 #include "harness/panel/truth_tail.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <fstream>
 #include <string_view>
@@ -14,13 +13,12 @@ namespace {
 constexpr std::size_t kMostAtOnce = 1U << 20U;
 constexpr std::size_t kColumnsPerAxis =
     12;  // of truth.csv (docs/reference/run-folder.md), behind time_s
-constexpr std::size_t kColumns = 2 + core::kAxisCount * kColumnsPerAxis;
 
 // Columns by place. False for a line that is none.
-bool columns_of(std::string_view line, std::array<double, kColumns>& values) {
-  for (std::size_t i = 0; i < kColumns; ++i) {
+bool columns_of(std::string_view line, std::vector<double>& values) {
+  for (double& value : values) {
     const auto end = std::min(line.find(','), line.size());
-    const auto [stop, error] = std::from_chars(line.data(), line.data() + end, values[i]);
+    const auto [stop, error] = std::from_chars(line.data(), line.data() + end, value);
     if (error != std::errc() || stop != line.data() + end) {
       return false;
     }
@@ -29,18 +27,19 @@ bool columns_of(std::string_view line, std::array<double, kColumns>& values) {
   return line.empty();
 }
 
-LiveTruth row_of(const std::array<double, kColumns>& values) {
+LiveTruth row_of(const RecordedAxes& axes, const std::vector<double>& values) {
   emulator::TruthRow row;
   row.time_ns = core::nanoseconds(values[0]);
-  for (const auto which : core::kAxes) {
-    const double* at = values.data() + 1 + core::index_of(which) * kColumnsPerAxis;
+  const double* at = values.data() + 1;
+  for (const auto which : axes) {
     auto& axis = row.axes[which];
     axis.carriage_m = at[2];
     axis.carriage_speed_m_per_s = at[3];
     axis.current_A = at[4];
     axis.chain_force_N = at[8];
+    at += kColumnsPerAxis;
   }
-  row.input_lines = static_cast<std::uint16_t>(values[kColumns - 1]);
+  row.input_lines = static_cast<std::uint16_t>(*at);
   return live(row);
 }
 
@@ -67,12 +66,12 @@ std::string TruthTail::whole_lines(const std::filesystem::path& file, Tail& tail
 std::vector<LiveTruth> TruthTail::rows() {
   std::vector<LiveTruth> rows;
   const auto lines = whole_lines(folder_ / "truth.csv", truth_);
-  std::array<double, kColumns> values{};
+  std::vector<double> values(2 + axes_.size() * kColumnsPerAxis);
   for (std::size_t from = 0; from < lines.size();) {
     const auto end = lines.find('\n', from);
     // The header is no row, and says so.
     if (columns_of(std::string_view(lines).substr(from, end - from), values)) {
-      rows.push_back(row_of(values));
+      rows.push_back(row_of(axes_, values));
     }
     from = end + 1;
   }

@@ -8,13 +8,15 @@
 #include <utility>
 #include <vector>
 
+#include "harness/checks/recorded_axes.h"
 #include "harness/panel/live_row.h"
 
 namespace towbench::harness {
 
 class TruthTail {
  public:
-  explicit TruthTail(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  explicit TruthTail(std::filesystem::path folder, const RecordedAxes& axes = planar_axes())
+      : folder_(std::move(folder)), axes_(axes) {}
 
   // What has been written since the last call, whole lines only, so much at once.
   [[nodiscard]] std::vector<LiveTruth> rows();
@@ -28,6 +30,7 @@ class TruthTail {
   static std::string whole_lines(const std::filesystem::path& file, Tail& tail);
 
   std::filesystem::path folder_;
+  RecordedAxes axes_;  // that it has columns of
   Tail truth_;
   Tail events_;
 };

@@ -5,14 +5,16 @@
 
 namespace towbench::harness {
 
-FirmwareRecorder::FirmwareRecorder(const std::filesystem::path& folder, Log log)
-    : log_(folder / "log.csv", log == Log::kPins ? pin_log_header() : log_header()),
+FirmwareRecorder::FirmwareRecorder(const std::filesystem::path& folder, Log log,
+                                   const RecordedAxes& axes)
+    : axes_(axes),
+      log_(folder / "log.csv", log == Log::kPins ? pin_log_header() : log_header(axes)),
       timing_(folder / "timing.csv", "time_s,host_s,exchange_us"),
       events_(folder / kControllerEventsFile),
       console_(folder / "console.txt") {}
 
-void FirmwareRecorder::row(const bbmc::TelemetryRow& row) noexcept {
-  write_log_row(log_, row);
+void FirmwareRecorder::row(const LogRow& row) noexcept {
+  write_log_row(log_, row, axes_);
 }
 
 void FirmwareRecorder::event(const bbmc::SystemEvent& event) noexcept {

@@ -4,7 +4,9 @@
 
 #include <filesystem>
 
+#include "harness/checks/recorded_axes.h"
 #include "harness/lockstep/bench_recorder.h"
+#include "harness/lockstep/log_row.h"
 #include "harness/record/csv_writer.h"
 #include "harness/record/line_writer.h"
 #include "harness/record/pin_row.h"
@@ -14,9 +16,10 @@ namespace towbench::harness {
 class FirmwareRecorder final : public BenchRecorder {
  public:
   enum class Log : std::uint8_t { kTelemetry, kPins };
-  FirmwareRecorder(const std::filesystem::path& folder, Log log);
+  FirmwareRecorder(const std::filesystem::path& folder, Log log,
+                   const RecordedAxes& axes = planar_axes());
 
-  void row(const bbmc::TelemetryRow& row) noexcept;
+  void row(const LogRow& row) noexcept;
   void pins(const PinRow& row) noexcept { write_pin_row(log_, row); }
   void event(const bbmc::SystemEvent& event) noexcept;
 
@@ -33,6 +36,7 @@ class FirmwareRecorder final : public BenchRecorder {
   }
 
  private:
+  RecordedAxes axes_;
   CsvWriter log_;
   CsvWriter timing_;
   LineWriter events_;

@@ -29,9 +29,10 @@ constexpr std::array<std::string_view, 12> kTruthColumns{"motor_angle_rad",
                                                          "count",
                                                          "edges_total"};
 
-std::string header(std::span<const std::string_view> columns, std::string_view last) {
+std::string header(const RecordedAxes& axes, std::span<const std::string_view> columns,
+                   std::string_view last) {
   std::string text = "time_s";
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : axes) {
     for (const auto column : columns) {
       text.append(",").append(core::name_of(axis)).append("_").append(column);
     }
@@ -41,16 +42,17 @@ std::string header(std::span<const std::string_view> columns, std::string_view l
 
 }  // namespace
 
-std::string log_header() {
-  return header(kLogColumns, "fault");
+std::string log_header(const RecordedAxes& axes) {
+  return header(axes, kLogColumns, "fault");
 }
-std::string truth_header() {
-  return header(kTruthColumns, "input_lines");
+std::string truth_header(const RecordedAxes& axes) {
+  return header(axes, kTruthColumns, "input_lines");
 }
 
-void write_log_row(CsvWriter& csv, const bbmc::TelemetryRow& row) noexcept {
+void write_log_row(CsvWriter& csv, const LogRow& row, const RecordedAxes& axes) noexcept {
   csv.time(row.time_ns);
-  for (const auto& axis : row.axes) {
+  for (const auto which : axes) {
+    const auto& axis = row.axes[which];
     csv.number(axis.reference_m)
         .number(axis.reference_velocity_m_per_s)
         .number(axis.count)
@@ -63,9 +65,11 @@ void write_log_row(CsvWriter& csv, const bbmc::TelemetryRow& row) noexcept {
   csv.number(core::number_of(row.fault)).end_row();
 }
 
-void write_truth_row(CsvWriter& csv, const emulator::TruthRow& row) noexcept {
+void write_truth_row(CsvWriter& csv, const emulator::TruthRow& row,
+                     const RecordedAxes& axes) noexcept {
   csv.time(row.time_ns);
-  for (const auto& axis : row.axes) {
+  for (const auto which : axes) {
+    const auto& axis = row.axes[which];
     csv.number(axis.motor_angle_rad)
         .number(axis.motor_speed_rad_per_s)
         .number(axis.carriage_m)

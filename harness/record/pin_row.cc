@@ -4,7 +4,7 @@ namespace towbench::harness {
 
 std::string pin_log_header() {
   std::string text = "time_s";
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     for (const auto* column : {"count", "duty_pct", "edges"}) {
       text.append(",").append(core::name_of(axis)).append("_").append(column);
     }

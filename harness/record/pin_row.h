@@ -18,7 +18,7 @@ struct AxisPins {
 
 struct PinRow {
   core::Nanoseconds time_ns = 0;
-  core::PerAxis<AxisPins> axes;
+  core::PerPlanarAxis<AxisPins> axes;
 };
 
 [[nodiscard]] std::string pin_log_header();

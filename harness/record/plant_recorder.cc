@@ -7,9 +7,9 @@ namespace towbench::harness {
 PlantRecorder::PlantRecorder(const std::filesystem::path& folder,
                              const emulator::RigParameters& rig, RunTap* tap)
     : tap_(tap),
-      truth_(folder / "truth.csv", truth_header()),
+      truth_(folder / "truth.csv", truth_header(recorded_axes(rig.axes))),
       events_(folder / kPlantEventsFile),
-      rows_(writer_, WriteTruth{&truth_}),
+      rows_(writer_, WriteTruth{&truth_, recorded_axes(rig.axes)}),
       sensors_(folder, rig, writer_) {}
 
 PlantRecorder::~PlantRecorder() {
@@ -19,7 +19,7 @@ PlantRecorder::~PlantRecorder() {
 void PlantRecorder::WriteTruth::operator()(
     std::span<const emulator::TruthRow> rows) const noexcept {
   for (const auto& row : rows) {
-    write_truth_row(*csv, row);
+    write_truth_row(*csv, row, axes);
   }
 }
 

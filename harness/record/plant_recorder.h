@@ -38,6 +38,7 @@ class PlantRecorder final : public emulator::PlantObserver {
  private:
   struct WriteTruth {
     CsvWriter* csv = nullptr;
+    RecordedAxes axes;
     void operator()(std::span<const emulator::TruthRow> rows) const noexcept;
   };
 

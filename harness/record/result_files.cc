@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/checks/recorded_axes.h"
 #include "harness/fixtures/canonical_hash.h"
 #include "harness/record/junit.h"
 #include "harness/record/line_writer.h"
@@ -56,7 +57,7 @@ json head(const ExperimentFixture& fixture, const RunIdentity& identity) {
 json limits_json(const emulator::RigParameters& rig) {
   const auto limits = limits_of(rig);
   json object = json::object();
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : recorded_axes(limits)) {
     const auto& ends = limits[axis];
     object[std::string(core::name_of(axis))] = {
         {"exists", ends.exists},         {"hall_min_m", ends.hall_min_m},

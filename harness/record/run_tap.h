@@ -9,6 +9,7 @@
 #include "core/axis.h"
 #include "core/time.h"
 #include "emulator/plant_node.h"
+#include "harness/lockstep/log_row.h"
 #include "protocol/message_sink.h"
 
 namespace towbench::harness {
@@ -26,8 +27,7 @@ class RunTap {
   [[nodiscard]] virtual protocol::MessageSink* witness() noexcept { return nullptr; }
 
   // `edges`: as the row's own control tick knew them.
-  virtual void row(const bbmc::TelemetryRow& row,
-                   const core::PerAxis<bbmc::EdgeTimes>& edges) noexcept = 0;
+  virtual void row(const LogRow& row, const core::PerAxis<bbmc::EdgeTimes>& edges) noexcept = 0;
   // Not of a plant in another process: its record is what there is of it.
   virtual void truth(const emulator::TruthRow& row) noexcept = 0;
   virtual void exchange(core::Nanoseconds took_ns) noexcept = 0;

@@ -11,7 +11,7 @@ SensorRecorder::SensorRecorder(const std::filesystem::path& folder,
   if (rig.force_sensor.fitted) {
     force_.emplace(folder / kForceFile, kForceHeader, writer);
   }
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     if (rig.axes[axis].exists && rig.axes[axis].current_monitor.fitted) {
       currents_[axis].emplace(folder / current_file(axis), current_header(axis), writer);
     }
@@ -19,7 +19,7 @@ SensorRecorder::SensorRecorder(const std::filesystem::path& folder,
   if (rig.camera.fitted) {
     WriteFrame write;
     std::string header = "time_s";
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kPlanarAxes) {
       write.exists[axis] = rig.axes[axis].exists;
       header += rig.axes[axis].exists ? "," + camera_column(axis) : "";
     }
@@ -51,7 +51,7 @@ void SensorRecorder::WriteFrame::operator()(
     std::span<const emulator::CameraFrame> frames) const noexcept {
   for (const auto& frame : frames) {
     csv->time(frame.arrived_ns);
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kPlanarAxes) {
       if (exists[axis]) {
         csv->number(frame.carriage_m[axis]);
       }

@@ -28,11 +28,11 @@ const Json& elements_of(const Json& object, std::string_view key) {
 
 core::PerAxis<AxisLimits> limits_in(const Json& result) {
   core::PerAxis<AxisLimits> limits;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     const Json& ends = member(member(result, "limits"), core::name_of(axis));
     const auto value = [&](const char* key) { return number_at(ends, key).value_or(0); };
     const Json& exists = member(ends, "exists");
-    limits[axis] = {.exists = !exists.is_boolean() || exists.get<bool>(),
+    limits[axis] = {.exists = ends.is_object() && (!exists.is_boolean() || exists.get<bool>()),
                     .hall_min_m = value("hall_min_m"),
                     .hall_max_m = value("hall_max_m"),
                     .hard_min_m = value("hard_min_m"),

@@ -20,9 +20,12 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::array<std::string_view, protocol::kInputLineCount> kLineNames{
-    "end-stop switch Y min", "end-stop switch Y max", "end-stop switch X min",
-    "end-stop switch X max", "kill switch",           "amplifier Y ready",
-    "amplifier X ready"};
+    "end-stop switch Y min",   "end-stop switch Y max", "end-stop switch X min",
+    "end-stop switch X max",   "kill switch",           "amplifier Y ready",
+    "amplifier X ready",       "end-stop switch Z min", "end-stop switch Z max",
+    "end-stop switch A min",   "end-stop switch A max", "end-stop switch B min",
+    "end-stop switch B max",   "end-stop switch C min", "end-stop switch C max",
+    "further amplifiers ready"};
 
 // bbmc::AxisMode, by number.
 constexpr std::array<std::string_view, 6> kModeNames{

@@ -138,7 +138,7 @@ std::string force_figure(const PlotTable& table, core::Axis axis) {
 
 std::string force_section(const PlotTable& table, int level) {
   std::string figures;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     figures += table.columns.empty() ? std::string{} : force_figure(table, axis);
   }
   if (figures.empty()) {

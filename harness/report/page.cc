@@ -27,7 +27,7 @@ constexpr std::size_t kPlotBytes = 5'000'000;
 // The rig's limits in the controller's frame, as the positions in the plots are.
 Json shifted_limits(const Json& limits, const core::PerAxis<double>& offset_m) {
   Json shifted = Json::object();
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kAllAxes) {
     const std::string name(core::name_of(axis));
     for (const char* key : {"hall_min_m", "hall_max_m", "hard_min_m", "hard_max_m"}) {
       if (const std::optional<double> limit = number_at(member(limits, name), key)) {

@@ -141,7 +141,7 @@ void add_truth(const CsvTable& truth, const nlohmann::json& limits, PlotTable& t
   }
   const std::vector<std::size_t> rows = rows_in_order(*time_s);
   const TimedSource source{truth, rows, picked(*time_s, rows)};
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kAllAxes) {
     const nlohmann::json& ends = member(limits, core::name_of(axis));
     add_carriage(source, axis, number_at(ends, "metres_per_count").value_or(0), table);
     if (std::fabs(table.frame_offset_m[axis]) > kFrameTolerance_m) {
@@ -235,7 +235,7 @@ PlotTable plot_table(const RunContents& run) {
   for (const auto& [file, csv] : run.sensors) {
     add_sensor(file, csv, table);
   }
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kAllAxes) {
     add_error(table, axis, "position_m", "error_m");
     add_error(table, axis, "carriage_m", "carriage_error_m");
   }

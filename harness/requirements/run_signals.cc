@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/axis.h"
+#include "harness/checks/recorded_axes.h"
 #include "protocol/messages.h"
 
 namespace towbench::harness {
@@ -32,29 +33,29 @@ constexpr std::array<RunSignal, 13> kSignals{
      {"command", "V", "command_V", true, "that the plant heard"},
      {"chain_force", "N", "chain_force_N", true, "in the elastic chain"}}};
 
-constexpr std::array<RunEventName, 11> kEvents{
-    {{"kill_edge", "the kill switch is pressed"},
-     {"kill_release", "the kill switch is released"},
-     {"y_min_edge", "the end-stop at Y's minimum operates"},
-     {"y_max_edge", "the end-stop at Y's maximum operates"},
-     {"x_min_edge", "the end-stop at X's minimum operates"},
-     {"x_max_edge", "the end-stop at X's maximum operates"},
-     {"fault_latched", "the controller latches a fault"},
-     {"reset", "the operator's reset is carried out, or told to a controller without a console"},
-     {"motion_started", "the controller begins a motion"},
-     {"motion_ended", "a motion ends"},
-     {"hard_end_contact", "a carriage meets a hard end"}}};
+std::string end_stop_event(core::Axis axis, bool at_max) {
+  return fmt::format("{}_{}_edge", core::name_of(axis), at_max ? "max" : "min");
+}
 
-struct LineEvents {
-  InputLine line;
-  const char* becomes_active;
-  const char* becomes_inactive;  // null: no event
-};
-constexpr std::array<LineEvents, 5> kLines{{{InputLine::kKillSwitch, "kill_edge", "kill_release"},
-                                            {InputLine::kHallYMin, "y_min_edge", nullptr},
-                                            {InputLine::kHallYMax, "y_max_edge", nullptr},
-                                            {InputLine::kHallXMin, "x_min_edge", nullptr},
-                                            {InputLine::kHallXMax, "x_max_edge", nullptr}}};
+std::vector<RunEventName> make_events() {
+  std::vector<RunEventName> events{{"kill_edge", "the kill switch is pressed"},
+                                   {"kill_release", "the kill switch is released"}};
+  for (const auto axis : core::kAllAxes) {
+    for (const bool at_max : {false, true}) {
+      events.push_back({end_stop_event(axis, at_max),
+                        fmt::format("the end-stop at {}'s {} operates", core::name_of(axis),
+                                    at_max ? "maximum" : "minimum"),
+                        axis});
+    }
+  }
+  events.push_back({"fault_latched", "the controller latches a fault"});
+  events.push_back(
+      {"reset", "the operator's reset is carried out, or told to a controller without a console"});
+  events.push_back({"motion_started", "the controller begins a motion"});
+  events.push_back({"motion_ended", "a motion ends"});
+  events.push_back({"hard_end_contact", "a carriage meets a hard end"});
+  return events;
+}
 
 std::vector<double> tracking_error(const RunData& data, core::Axis axis) {
   const auto state = data.log_of(axis, "state");
@@ -130,19 +131,29 @@ class SignalReader {
   std::vector<std::size_t> rows_;
 };
 
+// Empty name: no event.
+void add_events_of(InputLine line, const std::string& becomes_active,
+                   const std::string& becomes_inactive, const RunData& data, Trace& trace) {
+  bool active = false;
+  for (const auto& event : data.events) {
+    if (event.kind != "input_line_changed") {
+      continue;
+    }
+    const bool now = (event.lines & protocol::mask_of(line)) != 0;
+    const auto& name = now ? becomes_active : becomes_inactive;
+    if (now != active && !name.empty()) {
+      trace.events[name].push_back(event.time_s);
+    }
+    active = now;
+  }
+}
+
 void add_line_events(const RunData& data, Trace& trace) {
-  for (const auto& line : kLines) {
-    bool active = false;
-    for (const auto& event : data.events) {
-      if (event.kind != "input_line_changed") {
-        continue;
-      }
-      const bool now = (event.lines & protocol::mask_of(line.line)) != 0;
-      const char* name = now ? line.becomes_active : line.becomes_inactive;
-      if (now != active && name != nullptr) {
-        trace.events[name].push_back(event.time_s);
-      }
-      active = now;
+  add_events_of(InputLine::kKillSwitch, "kill_edge", "kill_release", data, trace);
+  for (const auto axis : recorded_axes(data.limits)) {
+    for (const bool at_max : {false, true}) {
+      add_events_of(protocol::hall_line(axis, at_max), end_stop_event(axis, at_max), {}, data,
+                    trace);
     }
   }
 }
@@ -170,21 +181,22 @@ std::span<const RunSignal> run_signals() noexcept {
   return kSignals;
 }
 
-std::span<const RunEventName> run_event_names() noexcept {
+std::span<const RunEventName> run_event_names() {
+  static const auto kEvents = make_events();
   return kEvents;
 }
 
 Vocabulary run_vocabulary(std::vector<std::string> windows) {
   Vocabulary vocabulary;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     for (const auto& signal : kSignals) {
       vocabulary.signals.push_back(
           {fmt::format("{}_{}", core::name_of(axis), signal.name), std::string(signal.unit)});
     }
   }
   vocabulary.signals.push_back({"fault", "1"});
-  for (const auto& event : kEvents) {
-    vocabulary.events.emplace_back(event.name);
+  for (const auto& event : run_event_names()) {
+    vocabulary.events.push_back(event.name);
   }
   vocabulary.windows = std::move(windows);
   return vocabulary;
@@ -196,7 +208,7 @@ Trace trace_of(const RunData& data, std::map<std::string, TraceWindow> windows) 
   const auto time_s = data.log.column("time_s");
   trace.time_s.assign(time_s.begin(), time_s.end());
   const SignalReader reader(data);
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kAllAxes) {
     for (const auto& signal : kSignals) {
       trace.signals.push_back(reader.read(signal, axis));
     }

@@ -25,10 +25,11 @@ struct RunSignal {
 [[nodiscard]] std::span<const RunSignal> run_signals() noexcept;
 
 struct RunEventName {
-  std::string_view name;
-  std::string_view meaning;
+  std::string name;
+  std::string meaning;
+  core::Axis axis = core::Axis::kY;  // of an end-stop's
 };
-[[nodiscard]] std::span<const RunEventName> run_event_names() noexcept;
+[[nodiscard]] std::span<const RunEventName> run_event_names();
 
 [[nodiscard]] Vocabulary run_vocabulary(std::vector<std::string> windows);
 

@@ -56,7 +56,7 @@ class CanPacker final : public EachMessage<CanPacker> {
   bool carries_fd_;
   CanFrameSink& out_;
   core::PerAxis<CanDigest> digests_;
-  core::PerAxis<std::uint32_t> last_duty_{{~0U, ~0U}};
+  core::PerAxis<std::uint32_t> last_duty_{{~0U, ~0U, ~0U, ~0U, ~0U, ~0U}};
   std::uint32_t last_lines_ = ~0U;
   std::uint32_t last_heartbeat_ = ~0U;
   std::uint64_t refused_ = 0;

@@ -38,7 +38,7 @@ void CanUnpacker::take(const CanFrame& frame, MessageSink& sink) noexcept {
   }
   const bool carries_edges = (frame.id & ~std::uint32_t{1}) == can_id::kEdges;
   if (carries_edges && frame.is_fd) {
-    take_payload(edges_[static_cast<core::Axis>(frame.id & 1U)].take(frame, counts_), sink);
+    take_payload(edges_[static_cast<core::Axis>(frame.id & 7U)].take(frame, counts_), sink);
     return;
   }
   if (carries_edges || frame.is_fd || frame.size != kCanDataSize) {
@@ -64,7 +64,7 @@ bool CanUnpacker::is_carried(CanDirection direction, std::uint32_t id) noexcept 
     }
   }
   const auto is_axis_of = [id](std::uint32_t base) {
-    return id >= base && id < base + core::kAxisCount;
+    return id >= base && id < base + core::kMostAxes;
   };
   return direction == CanDirection::kToPlant
              ? is_axis_of(can_id::kDuty)
@@ -75,8 +75,9 @@ bool CanUnpacker::is_carried(CanDirection direction, std::uint32_t id) noexcept 
 void CanUnpacker::take_packed(const CanFrame& frame, MessageSink& sink) noexcept {
   const std::uint64_t word = word_of(frame);
   const auto time_ns = static_cast<core::Nanoseconds>(word);
-  const auto axis = static_cast<core::Axis>(frame.id & 1U);
-  switch (frame.id & ~std::uint32_t{1}) {
+  const auto axis = static_cast<core::Axis>(frame.id & 7U);
+  const bool is_of_an_axis = frame.id >= can_id::kDuty && frame.id < can_id::kLockstep;
+  switch (frame.id & (is_of_an_axis ? ~std::uint32_t{7} : ~std::uint32_t{1})) {
     case can_id::kDuty:
       return take_duty(axis, word, sink);
     case can_id::kIndex:

@@ -50,7 +50,7 @@ class CanUnpacker {
   std::uint64_t reports_without_reference_ = 0;
   core::PerAxis<CanDigest> digests_;
   core::PerAxis<std::optional<std::uint64_t>> index_;
-  core::PerAxis<std::uint32_t> last_duty_{{~0U, ~0U}};
+  core::PerAxis<std::uint32_t> last_duty_{{~0U, ~0U, ~0U, ~0U, ~0U, ~0U}};
   std::uint32_t last_lines_ = ~0U;
   std::uint32_t last_heartbeat_ = ~0U;
   CanReassembler faults_;

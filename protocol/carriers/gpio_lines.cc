@@ -14,7 +14,7 @@ namespace towbench::protocol {
 namespace {
 
 constexpr const char* kLineConsumer = "towbench";
-constexpr unsigned kAllLines = kInputLineCount + kOutputLineCount;
+constexpr unsigned kAllLines = kWiredInputLines + kWiredOutputLines;
 
 core::Nanoseconds monotonic_now() noexcept {
   timespec now{};
@@ -30,8 +30,8 @@ struct Group {
   unsigned first;  // of the nine
   unsigned count;
 };
-constexpr Group kFromMachine{0, kInputLineCount};
-constexpr Group kToMachine{kInputLineCount, kOutputLineCount};
+constexpr Group kFromMachine{0, kWiredInputLines};
+constexpr Group kToMachine{kWiredInputLines, kWiredOutputLines};
 
 }  // namespace
 
@@ -65,7 +65,7 @@ class GpioLines::Chip {
     if (!trouble.empty()) {
       return trouble;
     }
-    const std::array<int, kInputLineCount> inactive{};
+    const std::array<int, kWiredInputLines> inactive{};
     if (::gpiod_line_request_bulk_output(&driven_, kLineConsumer, inactive.data()) != 0) {
       return "cannot drive its lines: " + line_reason(errno);
     }
@@ -77,7 +77,7 @@ class GpioLines::Chip {
   }
 
   core::Status drive(std::uint16_t lines) noexcept {
-    std::array<int, kInputLineCount> values{};
+    std::array<int, kWiredInputLines> values{};
     for (unsigned i = 0; i < ::gpiod_line_bulk_num_lines(&driven_); ++i) {
       values[i] = (lines >> i) & 1;
     }
@@ -88,7 +88,7 @@ class GpioLines::Chip {
 
   // The lines' levels now, without their events.
   core::Result<std::uint16_t> levels() noexcept {
-    std::array<int, kInputLineCount> values{};
+    std::array<int, kWiredInputLines> values{};
     if (::gpiod_line_get_value_bulk(&heard_, values.data()) != 0) {
       return core::failure(core::ErrorCode::kTransportFailed);
     }

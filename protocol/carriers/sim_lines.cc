@@ -18,20 +18,20 @@ CarrierResult<std::unique_ptr<SimLines>> SimLines::open(const std::string& chip,
     return ::open(path.c_str(), mode | O_CLOEXEC);
   };
   bool is_complete = true;
-  for (std::size_t i = 0; i < kInputLineCount; ++i) {
+  for (std::size_t i = 0; i < kWiredInputLines; ++i) {
     lines->pulls_[i] = file(i, "pull", O_WRONLY);
     is_complete = is_complete && lines->pulls_[i] >= 0;
   }
-  for (std::size_t i = 0; i < kOutputLineCount; ++i) {
-    lines->values_[i] = file(kInputLineCount + i, "value", O_RDONLY);
+  for (std::size_t i = 0; i < kWiredOutputLines; ++i) {
+    lines->values_[i] = file(kWiredInputLines + i, "value", O_RDONLY);
     is_complete = is_complete && lines->values_[i] >= 0;
   }
   if (!is_complete) {
-    return carrier_failure(core::ErrorCode::kTransportFailed,
-                           chip + ": is no simulated GPIO chip with lines " +
-                               std::to_string(first_line) + " to " +
-                               std::to_string(first_line + kInputLineCount + kOutputLineCount - 1) +
-                               " (gpio-sim), or no right to drive it");
+    return carrier_failure(
+        core::ErrorCode::kTransportFailed,
+        chip + ": is no simulated GPIO chip with lines " + std::to_string(first_line) + " to " +
+            std::to_string(first_line + kWiredInputLines + kWiredOutputLines - 1) +
+            " (gpio-sim), or no right to drive it");
   }
   return lines;
 }

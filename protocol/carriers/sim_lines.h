@@ -26,8 +26,8 @@ class SimLines final : public LinePort {
  private:
   SimLines() = default;
 
-  std::array<int, kInputLineCount> pulls_{};  // file descriptors
-  std::array<int, kOutputLineCount> values_{};
+  std::array<int, kWiredInputLines> pulls_{};  // file descriptors
+  std::array<int, kWiredOutputLines> values_{};
   std::uint16_t written_ = 0;
   bool is_written_ = false;
 };

@@ -46,7 +46,7 @@ void refuse_another_machine(const harness::ExperimentFixture& recorded,
                             const std::filesystem::path& rig) {
   harness::SourceFiles sources;
   auto parameters = harness::load_rig(rig, sources).parameters;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     parameters.axes[axis].start_m = recorded.rig.parameters.axes[axis].start_m;
   }
   if (harness::canonical_hash(parameters) != recorded.rig.hash) {

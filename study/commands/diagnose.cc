@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/axis.h"
 #include "harness/checks/check.h"
 #include "harness/commands/option_checks.h"
 #include "study/commands/diagnose_active.h"
@@ -75,7 +76,9 @@ void add_diagnose(CLI::App& app, int& exit_code) {
       ->check(CLI::ExistingPath);
   verb->add_option("--columns", options->columns, "TOML map of a foreign log's columns")
       ->check(CLI::ExistingFile);
-  verb->add_option("--axis", options->axis, "axis of the plant")->check(CLI::IsMember({"y", "x"}));
+  verb->add_option("--axis", options->axis, "axis of the plant")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(core::kAxisNames.begin(), core::kAxisNames.end())));
   verb->add_option("--explain", options->explain,
                    "why this effect was named, or not; may be repeated")
       ->check(CLI::IsMember(names_of_effects()));

@@ -43,7 +43,7 @@ PlantModel load_plant_model(const std::filesystem::path& path, const std::string
     throw harness::FixtureError({.file = path.string(), .key = "axis." + axis}, "nothing",
                                 "the axis that is to be diagnosed");
   }
-  const auto which = axis == "x" ? core::Axis::kX : core::Axis::kY;
+  const auto which = *core::axis_named(axis);  // the plant file has it
   const auto& a = rig.parameters.axes[which];
   const auto& p = a.plant;
   const double r = p.sprocket_radius_m / p.gear_ratio;

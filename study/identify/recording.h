@@ -28,12 +28,12 @@ struct AxisRecording {
 
 struct Recording {
   std::vector<double> time_s;
-  core::PerAxis<AxisRecording> axes;
+  core::PerPlanarAxis<AxisRecording> axes;
   // Between mount and shaft, tank frame: X across, Y along the tank.
-  core::PerAxis<std::vector<double>> force_N;
+  core::PerPlanarAxis<std::vector<double>> force_N;
   double period_s = 0;  // of the rows
-  core::PerAxis<double> metres_per_count{};
-  core::PerAxis<double> rad_per_count{};  // of the motor
+  core::PerPlanarAxis<double> metres_per_count{};
+  core::PerPlanarAxis<double> rad_per_count{};  // of the motor
   // The controller's console, as far as it is kept.
   std::string console;
   std::string trouble;  // empty: the run went to its end and latched no fault

@@ -73,7 +73,7 @@ void tell_swing(const identify::Estimates& known, core::Axis which,
 bbmc::Configuration studied_configuration(const ProcedureContext& context) {
   constexpr double kFrictionRoom = 1.6;  // *assumed*: no machine of a kind has more than that
   auto configuration = context.machine.configuration();
-  for (const auto which : core::kAxes) {
+  for (const auto which : core::kPlanarAxes) {
     auto& axis = configuration.axes[which];
     const auto of = [&](std::string_view quantity, double& field) {
       if (const auto* found = identify::find(context.known, quantity, core::name_of(which))) {

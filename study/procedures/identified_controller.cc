@@ -164,7 +164,7 @@ class AxisSetUp {
 SetUpController set_up_controller(const bbmc::Configuration& before, const Machine& machine,
                                   const Estimates& estimates) {
   SetUpController made{.configuration = before, .sources = {}};
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     if (machine.nameplate(axis).exists) {
       AxisSetUp(made.configuration.axes[axis], estimates, axis, made.sources).apply();
     }

@@ -168,7 +168,7 @@ class AxisWriter {
 
 std::string identified_plant(const Machine& machine, const Estimates& estimates) {
   std::string text;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     const bool studied = std::any_of(estimates.begin(), estimates.end(), [&](const Estimate& each) {
       return each.axis == core::name_of(axis);
     });

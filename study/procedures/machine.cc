@@ -54,14 +54,14 @@ Machine::Machine(harness::RigFixture rig, harness::ControllerFixture controller,
       watchers_(std::move(watchers)),
       source_(source),
       has_force_sensor_(rig_.parameters.force_sensor.fitted) {
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     nameplates_[axis] = nameplate_of(rig_.parameters, axis);
   }
 }
 
 Machine Machine::documented_by(const emulator::RigParameters& documents) const {
   auto machine = *this;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     machine.nameplates_[axis] = nameplate_of(documents, axis);
   }
   return machine;
@@ -83,7 +83,7 @@ identify::Recording Machine::play(const Conversation& conversation,
   const auto seed = seed_of(seed_, conversation.name);
   core::Random random(seed);
   auto rig = rig_;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     const double off_m = kHandIsOff_m * (2 * random.uniform() - 1);
     if (rig.parameters.axes[axis].exists) {
       rig.parameters.axes[axis].start_m = conversation.start_m[axis] + off_m;
@@ -106,7 +106,7 @@ identify::Recording Machine::play(const Conversation& conversation,
   if (recording.period_s == 0) {
     recording.period_s = core::seconds(configuration.control_period_ns());
   }
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     recording.rad_per_count[axis] = 2 * std::numbers::pi / nameplates_[axis].counts_per_turn;
     recording.metres_per_count[axis] =
         recording.rad_per_count[axis] * nameplates_[axis].metres_per_rad();
@@ -157,7 +157,7 @@ harness::ConsoleStep move(std::string text, double timeout_s) {
 std::vector<harness::ConsoleStep> declare_position(const Conversation& conversation,
                                                    const Machine& machine) {
   std::vector<harness::ConsoleStep> steps;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     if (machine.nameplate(axis).exists) {
       steps.push_back(say(fmt::format("reset poscalib {} {:.6f}m", core::name_of(axis),
                                       conversation.start_m[axis])));

@@ -35,7 +35,7 @@ struct Nameplate {
 // One conversation with the controller, from power-on.
 struct Conversation {
   std::string name;
-  core::PerAxis<double> start_m{};  // where the carriage stands, about
+  core::PerPlanarAxis<double> start_m{};  // where the carriage stands, about
   std::vector<harness::ConsoleStep> steps{};
   std::vector<emulator::ScheduledEvent> events{};  // sorted by time
   double limit_s = 60;
@@ -81,7 +81,7 @@ class Machine {
   std::uint64_t seed_;
   harness::LoopWatchers watchers_;
   RunSource* source_;
-  core::PerAxis<Nameplate> nameplates_;
+  core::PerPlanarAxis<Nameplate> nameplates_;
   bool has_force_sensor_;
   mutable double simulated_s_ = 0;
 };

@@ -30,7 +30,7 @@ void MemoryRecorder::keep(const bbmc::TelemetryRow& row) {
     }
   }
   recording_.time_s.push_back(core::seconds(row.time_ns));
-  for (const auto which : core::kAxes) {
+  for (const auto which : core::kPlanarAxes) {
     const auto& from = row.axes[which];
     auto& to = recording_.axes[which];
     to.count.push_back(from.count);

@@ -37,9 +37,9 @@ class MemoryRecorder final : public harness::BenchRecorder, public protocol::Mes
   identify::Recording recording_;
   core::ErrorCode fault_ = core::ErrorCode::kNone;
   bool has_force_ = false;
-  core::PerAxis<bool> has_current_{};
-  core::PerAxis<double> force_N_{};
-  core::PerAxis<double> current_A_{};
+  core::PerPlanarAxis<bool> has_current_{};
+  core::PerPlanarAxis<double> force_N_{};
+  core::PerPlanarAxis<double> current_A_{};
 };
 
 // A plant whose sensors are also heard by the recorder: the controller has no use for them.

@@ -26,9 +26,9 @@ Track track_of(const bbmc::AxisConfiguration& belief) {
           belief.position_m(belief.ends.soft_max_count)};
 }
 
-core::PerAxis<double> middle_of_tracks(const Machine& machine) {
-  core::PerAxis<double> middle;
-  for (const auto axis : core::kAxes) {
+core::PerPlanarAxis<double> middle_of_tracks(const Machine& machine) {
+  core::PerPlanarAxis<double> middle;
+  for (const auto axis : core::kPlanarAxes) {
     const auto track = track_of(machine.configuration().axes[axis]);
     middle[axis] = 0.5 * (track.min_m + track.max_m);
   }

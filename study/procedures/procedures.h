@@ -28,7 +28,7 @@ struct Track {
   [[nodiscard]] double length_m() const noexcept { return max_m - min_m; }
 };
 [[nodiscard]] Track track_of(const bbmc::AxisConfiguration& belief);
-[[nodiscard]] core::PerAxis<double> middle_of_tracks(const Machine& machine);
+[[nodiscard]] core::PerPlanarAxis<double> middle_of_tracks(const Machine& machine);
 
 // What was estimated, at some place when nowhere in general, else what the controller believes.
 [[nodiscard]] double value_or(const ProcedureContext& context, std::string_view quantity,

@@ -24,7 +24,7 @@ void drop_other_frames(identify::Recording& recording) {
       }
     }
   }
-  for (const auto which : core::kAxes) {
+  for (const auto which : core::kPlanarAxes) {
     auto& axis = recording.axes[which];
     drop_front(axis.count, from);
     drop_front(axis.duty_pct, from);

@@ -27,7 +27,7 @@ template <typename Settings>
   reader.group("settings", settings, "for both axes");
   if (auto axes = reader.subtable("axis")) {
     Settings other = settings;
-    for (const auto which : core::kAxes) {
+    for (const auto which : core::kPlanarAxes) {
       axes->group(core::name_of(which), which == axis ? settings : other, "one axis");
     }
     axes->finish();

@@ -73,7 +73,7 @@ const ForeignStructure* find_structure(std::string_view name) noexcept {
 }
 
 emulator::RigParameters built(emulator::RigParameters rig, const ForeignStructure& structure) {
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     structure.build(rig.axes[axis].plant);
   }
   return rig;

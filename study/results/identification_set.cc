@@ -110,7 +110,7 @@ harness::RigFixture drawn_machine(harness::RigFixture rig, std::uint64_t number,
   }
   core::Random random(0x6d616368 + number);
   const auto factor = [&] { return 1 - spread + 2 * spread * random.uniform(); };
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     auto& plant = rig.parameters.axes[axis].plant;
     // The rotor itself is well known; what is drawn is what it carries.
     plant.inertia_kg_m2 =

@@ -108,7 +108,7 @@ harness::RigFixture drawn_for_towing(harness::RigFixture rig, std::uint64_t numb
   const auto factor = [&](double low, double high) {
     return low + (high - low) * random.uniform();
   };
-  for (const auto which : core::kAxes) {
+  for (const auto which : core::kPlanarAxes) {
     auto& plant = rig.parameters.axes[which].plant;
     plant.inertia_kg_m2 *= factor(0.9, 1.1);
     plant.viscous_friction_Nm_s_per_rad *= factor(0.7, 1.1);

@@ -27,7 +27,7 @@ std::vector<harness::ConsoleStep> find_place(const harness::RigFixture& rig, Pla
                          kLongestHoming_s));
     return steps;
   }
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     steps.push_back(procedures::say(
         fmt::format("reset poscalib {} {:.6f}m", core::name_of(axis), start_m(axis))));
   }
@@ -53,8 +53,8 @@ std::unique_ptr<harness::CaseRecord> record_of(const harness::RigFixture& rig,
 }
 
 // Its first row: what was driven before, to find its place, is none of it.
-auto last_motion(const std::vector<bbmc::TelemetryRow>& log) {
-  const auto driven = [](const bbmc::TelemetryRow& row) {
+auto last_motion(const std::vector<harness::LogRow>& log) {
+  const auto driven = [](const harness::LogRow& row) {
     return row.axes[Axis::kY].mode == bbmc::AxisMode::kPosition;
   };
   auto at = log.end();
@@ -153,7 +153,7 @@ TrackedCircle track_circle(const harness::RigFixture& rig,
       record_of(rig, controller, "run -circle --radius 0.2m --period 7s --turns 2", 40, seed);
   TrackedCircle tracked;
   tracked.trouble = trouble_of(*record);
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     CircleError& of = tracked.axes[axis];
     double followed = 0;
     double speed_at_peak = 0;

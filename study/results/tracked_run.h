@@ -71,7 +71,7 @@ struct CircleError {
 
 struct TrackedCircle {
   std::string trouble;  // empty: it ran to its end
-  core::PerAxis<CircleError> axes{};
+  core::PerPlanarAxis<CircleError> axes{};
 };
 
 // Two turns of the thesis's circle, Figs 7.14, 7.15: radius 0.2 m, period 7 s (7.3.2).

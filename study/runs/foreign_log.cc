@@ -141,7 +141,7 @@ void read_force(const LogFile& whole, const ListedTow& tow, const LogColumns& co
     refuse(own, own.table.rows(), "force that does not cover the log's time",
            fmt::format("{:.3f} to {:.3f} s", data.time_s.front(), data.time_s.back()));
   }
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     data.force_N[axis] =
         columns.force[axis].empty()
             ? std::vector<double>(data.rows())
@@ -158,7 +158,7 @@ LogColumns read_log_columns(const std::filesystem::path& path) {
   columns.file = path;
   reader.text("time", columns.time, "column of time");
   reader.value("time_scale_s", columns.time_scale_s, core::above(0.0), "seconds a unit");
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     if (auto inner = reader.subtable(core::name_of(axis))) {
       columns.axes[axis] = read_axis_columns(*inner);
     }
@@ -190,7 +190,7 @@ identify::Recording read_foreign_log(const ListedTow& tow, const LogColumns& col
   identify::Recording data;
   data.time_s = rising_time(log, columns.time, columns.time_scale_s);
   data.period_s = period_of(log, data.time_s);
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     data.metres_per_count[axis] = emulator::metres_per_count(rig.axes[axis]);
     read_axis(log, tow, columns.axes[axis], axis, data);
   }

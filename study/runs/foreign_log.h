@@ -41,8 +41,8 @@ struct LogColumns {
   std::filesystem::path file;
   std::string time = "time_s";
   double time_scale_s = 1;
-  core::PerAxis<AxisColumns> axes;
-  core::PerAxis<std::string> force;
+  core::PerPlanarAxis<AxisColumns> axes;
+  core::PerPlanarAxis<std::string> force;
   std::string force_time;  // empty: as the log's
   double force_time_scale_s = 1;
   double force_scale_N = 1;

@@ -95,7 +95,7 @@ identify::Recording read_run_columns(const std::filesystem::path& folder) {
   for (const double time : time_s) {
     recording.time_s.push_back(core::seconds(core::nanoseconds(time)));  // as in memory, to the bit
   }
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     const auto name = std::string(core::name_of(axis));
     read_axis(log, file, axis, recording.axes[axis]);
     recording.axes[axis].current_A =

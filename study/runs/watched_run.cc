@@ -45,7 +45,7 @@ std::vector<WatchedAxis> read_watched_run(const std::filesystem::path& folder) t
   const auto log = harness::CsvTable::load(folder / "log.csv");
   const auto camera = harness::CsvTable::load(folder / harness::kCameraFile);
   std::vector<WatchedAxis> axes;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     if (camera.has(harness::camera_column(axis))) {
       axes.push_back({axis, identify::elastic_error(input_of(log, camera, axis))});
     }

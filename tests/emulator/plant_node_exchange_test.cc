@@ -62,9 +62,9 @@ TEST(PlantNodeExchange, TheEdgesAddUpToTheTrueCountWithoutGapOrOverlap) {
   auto c = greeted(rig_starting_at(1.0, 0.2));
   c.greet();
   c.enable();
-  core::PerAxis<std::int64_t> start{};
+  core::PerPlanarAxis<std::int64_t> start{};
   c.advance_by(100'000);
-  core::PerAxis<ReferenceDecoder> decoders{{ReferenceDecoder(0, 0), ReferenceDecoder(0, 0)}};
+  core::PerPlanarAxis<ReferenceDecoder> decoders{{ReferenceDecoder(0, 0), ReferenceDecoder(0, 0)}};
   for (const auto& m : c.peer.all<EdgeInterval>()) {
     start[m.axis] = c.peer.truth[0].axes[m.axis].count;
     decoders[m.axis] = ReferenceDecoder(m.start_levels, start[m.axis]);
@@ -76,9 +76,9 @@ TEST(PlantNodeExchange, TheEdgesAddUpToTheTrueCountWithoutGapOrOverlap) {
     c.drive(Axis::kX, static_cast<int>(100 * std::cos(0.09 * i)));
     c.advance_by(1'000'000);
   }
-  core::PerAxis<core::Nanoseconds> until{{100'000, 100'000}};
-  core::PerAxis<std::uint32_t> sequence{{1, 1}};
-  core::PerAxis<std::int64_t> ab_edges{};
+  core::PerPlanarAxis<core::Nanoseconds> until{{100'000, 100'000}};
+  core::PerPlanarAxis<std::uint32_t> sequence{{1, 1}};
+  core::PerPlanarAxis<std::int64_t> ab_edges{};
   for (const auto& m : c.peer.all<EdgeInterval>()) {
     ASSERT_EQ(m.start_ns, until[m.axis]);
     ASSERT_EQ(m.sequence, sequence[m.axis]++);
@@ -94,7 +94,7 @@ TEST(PlantNodeExchange, TheEdgesAddUpToTheTrueCountWithoutGapOrOverlap) {
     ASSERT_LT(t, m.end_ns);
     until[m.axis] = m.end_ns;
   }
-  for (const Axis axis : core::kAxes) {
+  for (const Axis axis : core::kPlanarAxes) {
     EXPECT_EQ(decoders[axis].count(), c.peer.truth.back().axes[axis].count);
     EXPECT_EQ(ab_edges[axis], c.peer.truth.back().axes[axis].edges_total);
     EXPECT_GT(ab_edges[axis], 100);
@@ -195,7 +195,7 @@ TEST(PlantNodeExchange, HowTimeIsCutIntoExchangesChangesNoBit) {
   const TruthRow coarse = run(30'000'000);
   for (const core::Nanoseconds exchange_ns : {100'000, 1'000'000, 5'000'000}) {
     const TruthRow fine = run(exchange_ns);
-    for (const Axis axis : core::kAxes) {
+    for (const Axis axis : core::kPlanarAxes) {
       EXPECT_EQ(fine.axes[axis].motor_angle_rad, coarse.axes[axis].motor_angle_rad);
       EXPECT_EQ(fine.axes[axis].carriage_m, coarse.axes[axis].carriage_m);
       EXPECT_EQ(fine.axes[axis].current_A, coarse.axes[axis].current_A);

@@ -41,8 +41,8 @@ struct DefaultsInRange {
     note(key, inside, meaning);
   }
   template <typename Nested>
-  void group(const char* key, Nested& nested, const char* /*meaning*/) {
-    DefaultsInRange inner{prefix + key + ".", keys};
+  void group(std::string_view key, Nested& nested, const char* /*meaning*/) {
+    DefaultsInRange inner{prefix + std::string(key) + ".", keys};
     nested.visit(inner);
   }
 };

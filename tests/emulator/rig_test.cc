@@ -25,7 +25,7 @@ protocol::PwmDuty duty(Axis axis, int ticks, std::uint32_t sequence) {
 // Enabled, with constant duty on both axes.
 Rig driven_rig(const RigParameters& parameters, int y_ticks, int x_ticks) {
   Rig rig(parameters, 1);
-  for (const Axis which : core::kAxes) {
+  for (const Axis which : core::kPlanarAxes) {
     rig.axis(which)->enable_line = true;
     EXPECT_EQ(
         rig.axis(which)->command.accept(duty(which, which == Axis::kY ? y_ticks : x_ticks, 0)),
@@ -51,14 +51,14 @@ TEST(Rig, TheCountIsTheFloorOfTheMotorsAngleAtTheEndOfEveryTick) {
   for (int tick = 0; tick < 30'000; ++tick) {
     if (tick % 350 == 0) {
       const int sign = tick % 700 == 0 ? 1 : -1;
-      for (const Axis which : core::kAxes) {
+      for (const Axis which : core::kPlanarAxes) {
         ASSERT_EQ(rig.axis(which)->command.accept(duty(which, sign * 120, sequence)),
                   core::ErrorCode::kNone);
       }
       ++sequence;
     }
     rig.step();
-    for (const Axis which : core::kAxes) {
+    for (const Axis which : core::kPlanarAxes) {
       const AxisTruth axis = rig.truth().axes[which];
       const double counts = axis.motor_angle_rad * 4000.0 / (2.0 * std::numbers::pi);
       if (std::fabs(counts - std::round(counts)) > 1e-6) {

@@ -29,7 +29,7 @@ void check(Session& session) {
   for (const char c : session.heard()) {
     require(may_be_sent(c));
   }
-  for (const towbench::core::Axis axis : towbench::core::kAxes) {
+  for (const towbench::core::Axis axis : towbench::core::kPlanarAxes) {
     const PidGains& gains = session.system().configuration().axes[axis].gains;
     require(std::isfinite(gains.proportional_Nm_per_rad) && gains.proportional_Nm_per_rad >= 0);
     require(std::isfinite(gains.integral_Nm_per_rad_s) && gains.integral_Nm_per_rad_s >= 0);

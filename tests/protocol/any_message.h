@@ -24,7 +24,7 @@ class AnyMessage {
   }
   std::uint64_t below(std::uint64_t bound) noexcept { return random_.bits() % bound; }
   core::Nanoseconds time() noexcept { return static_cast<core::Nanoseconds>(random_.bits() >> 1U); }
-  core::Axis axis() noexcept { return static_cast<core::Axis>(below(core::kAxisCount)); }
+  core::Axis axis() noexcept { return static_cast<core::Axis>(below(core::kMostAxes)); }
   float real() noexcept { return static_cast<float>(random_.gaussian() * 100.0); }
   Hello hello() noexcept;
   const EncoderEdges& edges() noexcept;

@@ -45,7 +45,7 @@ TEST(CanFd, EveryNumberOfEdgesArrivesAsItWasSent) {
   CanPacker packer(CanDirection::kToController, bus, true);
   RecordingSink sent;
   for (std::uint32_t count = 0; count <= kMaxEdgesPerMessage; ++count) {
-    const auto edges = some_edges(core::kAxes[count % 2], count, count);
+    const auto edges = some_edges(core::kPlanarAxes[count % 2], count, count);
     packer.on(edges);
     sent.on(edges);
   }

@@ -153,9 +153,9 @@ TEST(Codec, RefusesUnknownMessages) {
 TEST(Codec, RefusesEveryFieldOutOfItsRange) {
   const auto bad = ErrorCode::kMessageBadField;
   EXPECT_EQ(decode_error_with("Hello", 3, "03"), bad) << "role";
-  EXPECT_EQ(decode_error_with("Hello", 4, "04"), bad) << "an axis that is none";
+  EXPECT_EQ(decode_error_with("Hello", 4, "40"), bad) << "an axis that is none";
   EXPECT_EQ(decode_error_with("HelloReply", 25, "0100"), bad) << "error number 1";
-  EXPECT_EQ(decode_error_with("PwmDuty", 1, "02"), bad) << "axis";
+  EXPECT_EQ(decode_error_with("PwmDuty", 1, "06"), bad) << "axis";
   EXPECT_EQ(decode_error_with("PwmDuty", 2, "02"), bad) << "enable neither 0 nor 1";
   EXPECT_EQ(decode_error_with("PwmDuty", 3, "8913"), bad) << "channel A beyond the period";
   EXPECT_EQ(decode_error_with("PwmDuty", 5, "8913"), bad) << "channel B beyond the period";
@@ -171,13 +171,12 @@ TEST(Codec, RefusesEveryFieldOutOfItsRange) {
   EXPECT_EQ(decode_error_with("EncoderReport", 2, "08"), bad) << "levels";
   EXPECT_EQ(decode_error_with("EncoderReport", 15, "0907060504030201"), bad)
       << "last edge after the interval";
-  EXPECT_EQ(decode_error_with("DigitalInputs", 1, "8000"), bad) << "line 7";
-  EXPECT_EQ(decode_error_with("DigitalOutputs", 1, "0400"), bad) << "line 2";
+  EXPECT_EQ(decode_error_with("DigitalOutputs", 1, "4000"), bad) << "line 6";
   EXPECT_EQ(decode_error_with("ForceSample", 9, "0000c07f"), bad) << "NaN";
   EXPECT_EQ(decode_error_with("ForceSample", 29, "000080ff"), bad) << "minus infinity";
   EXPECT_EQ(decode_error_with("CurrentSample", 10, "0000807f"), bad) << "infinity";
   EXPECT_EQ(decode_error_with("Fault", 1, "ffff"), bad) << "error number 65535";
-  EXPECT_EQ(decode_error_with("Reference", 1, "02"), bad) << "axis 2";
+  EXPECT_EQ(decode_error_with("Reference", 1, "06"), bad) << "axis 6";
   EXPECT_EQ(decode_error_with("Reference", 10, "0000c07f"), bad) << "NaN";
   for (const char* name : {"Advance", "Advanced", "Heartbeat", "Bye", "Reset"}) {
     EXPECT_EQ(decode_error_with(name, 1, "0000000000000080"), bad) << name << ": negative time";

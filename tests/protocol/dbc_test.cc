@@ -46,7 +46,7 @@ TEST_F(Dbc, IsReadWhole) {
 
 TEST_F(Dbc, GivesEveryBitOfAFrameToOneSignal) {
   for (const auto& [id, message] : messages_) {
-    const bool is_fd = (id & ~1U) == can_id::kEdges;
+    const bool is_fd = (id & ~7U) == can_id::kEdges;
     EXPECT_EQ(message.size, is_fd ? kCanFdDataSize : kCanDataSize) << message.name;
     std::set<unsigned> bits;
     for (const DbcSignal& s : message.signals) {

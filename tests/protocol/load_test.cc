@@ -46,7 +46,7 @@ TEST(SerialLoad, BoundsWhatIsReallyWritten) {
     const auto byte = static_cast<std::uint8_t>(fill);
     const auto word = static_cast<std::uint32_t>(byte * 0x01010101U);
     const auto time_ns = static_cast<core::Nanoseconds>(byte * 0x0001010101010101ULL);
-    for (const core::Axis axis : core::kAxes) {
+    for (const core::Axis axis : core::kPlanarAxes) {
       writer.on(EncoderReport{.axis = axis, .time_ns = time_ns, .sequence = word});
       writer.on(CurrentSample{axis, time_ns, 1.0F});
       writer.on(Reference{axis, time_ns, 1.0F, 1.0F, 1.0F});

@@ -3,8 +3,8 @@
 
 #include "bbmc/application/console/text_writer.h"
 #include "bbmc/application/reports/report.h"
+#include "bbmc/device/axes.h"
 #include "bbmc/system/trajectory/chain.h"
-#include "core/axis.h"
 #include "core/bounded_vector.h"
 
 namespace towbench::bbmc {
@@ -14,7 +14,7 @@ class SystemManager;
 struct CommandContext;
 
 inline constexpr std::size_t kMaxWayPoints = kMaxSegments;
-using WayPoints = core::BoundedVector<core::PerAxis<double>, kMaxWayPoints>;
+using WayPoints = core::BoundedVector<PerAxis<double>, kMaxWayPoints>;
 
 // What the console itself remembers between commands.
 struct ConsoleSettings {

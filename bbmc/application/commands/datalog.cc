@@ -16,9 +16,9 @@ constexpr std::array<OptionSpec, 1> kLogOptions{{{.name = "DOF",
                                                   .presence = Presence::kOptional,
                                                   .meaning = "axis; both if not given"}}};
 
-core::PerAxis<bool> wanted_axes(const CommandContext& context, const Arguments& arguments) {
+PerAxis<bool> wanted_axes(const CommandContext& context, const Arguments& arguments) {
   const AxesConfiguration& axes = context.system.configuration().axes;
-  core::PerAxis<bool> wanted{{axes[core::Axis::kY].exists, axes[core::Axis::kX].exists}};
+  PerAxis<bool> wanted{{axes[core::Axis::kY].exists, axes[core::Axis::kX].exists}};
   if (arguments.given(kLogDof)) {
     wanted = {};
     wanted[arguments.axis(kLogDof)] = true;
@@ -47,8 +47,8 @@ ErrorCode log_print(CommandContext& context, const Arguments& arguments) {
 }
 
 ErrorCode log_switch(CommandContext& context, const Arguments& arguments, bool on) {
-  const core::PerAxis<bool> wanted = wanted_axes(context, arguments);
-  for (const core::Axis axis : core::kAxes) {
+  const PerAxis<bool> wanted = wanted_axes(context, arguments);
+  for (const core::Axis axis : kAxes) {
     if (wanted[axis]) {
       context.system.data_log().enable(axis, on);
     }

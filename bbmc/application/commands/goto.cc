@@ -11,7 +11,7 @@ namespace {
 using core::ErrorCode;
 
 // Where BBMC 0.5 began its runs (RUN_POSINIT_Y, RUN_POSINIT_X): far from the ends on both axes.
-constexpr core::PerAxis<std::int64_t> kHome_count{{200'000, 250'000}};
+constexpr PerAxis<std::int64_t> kHome_count{{200'000, 250'000}};
 
 constexpr OptionSpec kFast{.name = "--fast",
                            .short_name = "-f",
@@ -34,7 +34,7 @@ constexpr std::array kGotoOptions{target("Y", CountsOf::kY), target("X", CountsO
 enum HomeOption : std::size_t { kHomeFast };
 constexpr std::array kHomeOptions{kFast};
 
-ErrorCode go(CommandContext& context, const core::PerAxis<double>& target_m, bool fast) {
+ErrorCode go(CommandContext& context, const PerAxis<double>& target_m, bool fast) {
   const core::Status status = context.system.request_goto({.target_m = target_m, .fast = fast});
   if (!status) {
     return explained(context, status.error());
@@ -48,8 +48,8 @@ ErrorCode go_to(CommandContext& context, const Arguments& arguments) {
 }
 
 ErrorCode go_home(CommandContext& context, const Arguments& arguments) {
-  core::PerAxis<double> target_m;
-  for (const core::Axis axis : core::kAxes) {
+  PerAxis<double> target_m;
+  for (const core::Axis axis : kAxes) {
     target_m[axis] = context.system.configuration().axes[axis].position_m(kHome_count[axis]);
   }
   return go(context, target_m, arguments.given(kHomeFast));

@@ -79,7 +79,7 @@ bool HelpReport::next(const SystemManager& system, TextWriter& out) noexcept {
     }
     out.text("Speeds are limited further by each axis (");
     std::string_view separator;
-    for (const core::Axis axis : core::kAxes) {
+    for (const core::Axis axis : kAxes) {
       if (!system.configuration().axes[axis].exists) {
         continue;
       }

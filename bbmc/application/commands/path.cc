@@ -41,9 +41,9 @@ ErrorCode clear(CommandContext& context, const Arguments& /*arguments*/) {
 
 ErrorCode print(CommandContext& context, const Arguments& /*arguments*/) {
   const AxesConfiguration& axes = context.system.configuration().axes;
-  for (const core::PerAxis<double>& point : context.settings.way_points) {
+  for (const PerAxis<double>& point : context.settings.way_points) {
     std::string_view separator;
-    for (const Axis axis : core::kAxes) {
+    for (const Axis axis : kAxes) {
       if (axes[axis].exists) {
         context.out.text(separator).text(core::name_of(axis)).text(" ");
         context.out.fixed(point[axis], 6).text("m");
@@ -118,12 +118,12 @@ ErrorCode run_path(CommandContext& context, const Arguments& arguments) {
     context.why.text("`path add Y X` first");
     return ErrorCode::kRequestWrongState;
   }
-  core::PerAxis<std::array<Segment, kMaxSegments>> segments;
+  PerAxis<std::array<Segment, kMaxSegments>> segments;
   std::size_t count = 0;
   const AxesConfiguration& axes = context.system.configuration().axes;
-  core::PerAxis<double> at_m{{position_m(context, Axis::kY), position_m(context, Axis::kX)}};
-  for (core::PerAxis<double> point : points) {
-    for (const Axis axis : core::kAxes) {
+  PerAxis<double> at_m{{position_m(context, Axis::kY), position_m(context, Axis::kX)}};
+  for (PerAxis<double> point : points) {
+    for (const Axis axis : kAxes) {
       point[axis] = axes[axis].exists ? point[axis] : at_m[axis];
     }
     const double dy_m = point[Axis::kY] - at_m[Axis::kY];
@@ -132,7 +132,7 @@ ErrorCode run_path(CommandContext& context, const Arguments& arguments) {
     if (length_m == 0) {
       continue;
     }
-    for (const Axis axis : core::kAxes) {
+    for (const Axis axis : kAxes) {
       const auto segment = leg(at_m[axis], point[axis], length_m, arguments);
       if (!segment) {
         return segment.error();
@@ -146,7 +146,7 @@ ErrorCode run_path(CommandContext& context, const Arguments& arguments) {
   MotionRequest request;
   request.driven = {{axes[Axis::kY].exists, axes[Axis::kX].exists}};
   double duration_s = 0;
-  for (const Axis axis : core::kAxes) {
+  for (const Axis axis : kAxes) {
     const auto chain = Chain::make(std::span<const Segment>(segments[axis]).first(count));
     if (!chain) {
       context.why.text("the path leads nowhere");

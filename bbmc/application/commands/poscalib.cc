@@ -25,7 +25,7 @@ constexpr std::array<OptionSpec, kOptionCount> kOptions{{
 }};
 
 void report(const SystemManager& system, core::Axis /*axis*/, TextWriter& out) {
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : kAxes) {
     if (!system.configuration().axes[axis].exists) {
       continue;
     }
@@ -43,7 +43,7 @@ void report(const SystemManager& system, core::Axis /*axis*/, TextWriter& out) {
 
 ErrorCode run(CommandContext& context, const Arguments& arguments) {
   HomingRequest request;
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : kAxes) {
     request.wanted[axis] = arguments.given(kDof) ? axis == arguments.axis(kDof)
                                                  : context.system.configuration().axes[axis].exists;
     request.end[axis] = arguments.choice(kEnd) == 0 ? End::kMin : End::kMax;

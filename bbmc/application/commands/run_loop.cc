@@ -105,7 +105,7 @@ constexpr auto kEllipseOptions =
 
 // The common options begin at `first`.
 ErrorCode run_loop(CommandContext& context, const Arguments& arguments, std::size_t first,
-                   const core::PerAxis<double>& radius_m) {
+                   const PerAxis<double>& radius_m) {
   if (const ErrorCode code = must_have_both(context.system.configuration(), context.why);
       code != ErrorCode::kNone) {
     return code;

@@ -76,7 +76,7 @@ ErrorCode explained(CommandContext& context, ErrorCode code) noexcept {
       why.text(context.system.at_rest() ? "" : "a motion runs");
       break;
     case ErrorCode::kRequestBeyondSoftLimit:
-      for (const core::Axis axis : core::kAxes) {
+      for (const core::Axis axis : kAxes) {
         if (!configuration.axes[axis].exists) {
           continue;
         }
@@ -91,7 +91,7 @@ ErrorCode explained(CommandContext& context, ErrorCode code) noexcept {
       }
       break;
     case ErrorCode::kRequestTooFast:
-      for (const core::Axis axis : core::kAxes) {
+      for (const core::Axis axis : kAxes) {
         if (!configuration.axes[axis].exists) {
           continue;
         }

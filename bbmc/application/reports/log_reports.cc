@@ -38,13 +38,13 @@ void write_bucket(std::size_t bucket, const PerfLog::Statistics& statistics,
 }  // namespace
 
 bool DataLogReport::next(SystemManager& system, TextWriter& out) noexcept {
-  while (axis_ < core::kAxisCount && !wanted_[core::kAxes[axis_]]) {
+  while (axis_ < kAxisCount && !wanted_[kAxes[axis_]]) {
     ++axis_;
   }
-  if (axis_ == core::kAxisCount) {
+  if (axis_ == kAxisCount) {
     return false;
   }
-  const core::Axis axis = core::kAxes[axis_];
+  const core::Axis axis = kAxes[axis_];
   const auto rows = system.data_log().rows();
   if (stage_ == Stage::kHeader) {
     out.text("DATALOG_BEGIN: ").text(core::name_of(axis)).end_line();

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "bbmc/application/console/text_writer.h"
-#include "core/axis.h"
+#include "bbmc/device/axes.h"
 
 namespace towbench::bbmc {
 
@@ -41,12 +41,12 @@ class StatusReport {
 class DataLogReport {
  public:
   DataLogReport() noexcept = default;
-  explicit DataLogReport(core::PerAxis<bool> wanted) noexcept : wanted_(wanted) {}
+  explicit DataLogReport(PerAxis<bool> wanted) noexcept : wanted_(wanted) {}
   [[nodiscard]] bool next(SystemManager& system, TextWriter& out) noexcept;
 
  private:
   enum class Stage : unsigned char { kHeader, kRows };
-  core::PerAxis<bool> wanted_{};
+  PerAxis<bool> wanted_{};
   std::size_t axis_ = 0;
   std::size_t row_ = 0;
   Stage stage_ = Stage::kHeader;

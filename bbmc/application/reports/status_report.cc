@@ -62,17 +62,17 @@ void write_axis(const SystemManager& system, core::Axis axis, TextWriter& out) n
 }  // namespace
 
 bool StatusReport::next(const SystemManager& system, TextWriter& out) noexcept {
-  while (part_ > 0 && part_ <= core::kAxisCount &&
-         !system.configuration().axes[core::kAxes[part_ - 1]].exists) {
+  while (part_ > 0 && part_ <= kAxisCount &&
+         !system.configuration().axes[kAxes[part_ - 1]].exists) {
     ++part_;
   }
-  if (part_ > core::kAxisCount) {
+  if (part_ > kAxisCount) {
     return false;
   }
   if (part_ == 0) {
     write_machine(system, out);
   } else {
-    write_axis(system, core::kAxes[part_ - 1], out);
+    write_axis(system, kAxes[part_ - 1], out);
   }
   ++part_;
   return true;

@@ -14,7 +14,7 @@ LinuxBoard::LinuxBoard(core::Nanoseconds origin_ns) noexcept : origin_ns_(origin
 
 BoardPorts LinuxBoard::ports() noexcept {
   BoardPorts ports;
-  for (core::Axis axis : core::kAxes) {
+  for (core::Axis axis : kAxes) {
     ports.pwm[axis] = &pwm_[axis];
     ports.encoder[axis] = &counters_[axis];
   }
@@ -42,7 +42,7 @@ Status LinuxBoard::open_line(Line line, const std::string& place, const std::str
 
 Status LinuxBoard::open(const LinuxDevices& devices) {
   // Outputs first: the machine is without power before anything is read.
-  for (core::Axis which : core::kAxes) {
+  for (core::Axis which : kAxes) {
     const LinuxAxis& axis = devices.axes[which];
     if (axis.encoder.counter.empty()) {
       continue;

@@ -59,8 +59,8 @@ class LinuxBoard {
   DeviceTrouble trouble_;
   BoardClock clock_;
   LineBank bank_;
-  core::PerAxis<LinuxPwm> pwm_;
-  core::PerAxis<LinuxCounter> counters_;
+  PerAxis<LinuxPwm> pwm_;
+  PerAxis<LinuxCounter> counters_;
   EmulatedTimer timer_{clock_};
   EmulatedInterrupts interrupts_{clock_, bank_};
   std::array<EmulatedLine, kLineCount> line_ports_;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/axis.h"
+#include "bbmc/device/axes.h"
 
 namespace towbench::bbmc {
 
@@ -40,7 +40,7 @@ struct LinuxAxis {
 };
 
 struct LinuxDevices {
-  core::PerAxis<LinuxAxis> axes;
+  PerAxis<LinuxAxis> axes;
   std::string kill_switch;
   std::string root;  // stands before every path: a folder that imitates a board, else empty
 };

@@ -15,7 +15,7 @@ const char* inconsistency(const LinuxDevices& devices,
   if (devices.kill_switch.empty()) {
     return "kill_switch must be named";
   }
-  for (core::Axis which : core::kAxes) {
+  for (core::Axis which : kAxes) {
     const AxisConfiguration& axis = configuration.axes[which];
     const LinuxAxis& wired = devices.axes[which];
     if (axis.exists != !wired.encoder.counter.empty()) {

@@ -17,9 +17,9 @@ using core::Axis;
 constexpr double kAtSpeed = 0.98;  // of the path's highest speed
 
 struct Row {
-  core::PerAxis<double> velocity{};  // of the reference
-  core::PerAxis<double> acceleration{};
-  core::PerAxis<double> force_N{};  // what the water adds, by the columns
+  core::PerPlanarAxis<double> velocity{};  // of the reference
+  core::PerPlanarAxis<double> acceleration{};
+  core::PerPlanarAxis<double> force_N{};  // what the water adds, by the columns
   double speed = 0;
   double turned_rad = 0;  // heading since the first row, not wrapped
   std::size_t row_with = 0;
@@ -36,21 +36,21 @@ std::size_t first_driven(const Recording& run) {
 }
 
 // Heading from +Y, counter-clockwise seen from above: left of +Y is -X.
-double heading_of(const core::PerAxis<double>& velocity) {
+double heading_of(const core::PerPlanarAxis<double>& velocity) {
   return std::atan2(-velocity[Axis::kX], velocity[Axis::kY]);
 }
 
 std::vector<Row> rows_of(const Recording& with,
-                         const core::PerAxis<std::span<const double>>& columns_with,
+                         const core::PerPlanarAxis<std::span<const double>>& columns_with,
                          const Recording& without,
-                         const core::PerAxis<std::span<const double>>& columns_without,
-                         const core::PerAxis<double>& scale) {
+                         const core::PerPlanarAxis<std::span<const double>>& columns_without,
+                         const core::PerPlanarAxis<double>& scale) {
   const std::size_t start = first_driven(with);
   const std::size_t other = first_driven(without);
   std::vector<Row> rows;
   for (std::size_t i = 0; start + i < with.rows() && other + i < without.rows(); ++i) {
     Row row{.row_with = start + i, .row_without = other + i};
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kPlanarAxes) {
       const auto& speed = with.axes[axis].reference_velocity_m_per_s;
       row.velocity[axis] = speed[start + i];
       row.acceleration[axis] = (speed[start + i] - speed[start + i - 1]) / with.period_s;
@@ -100,7 +100,7 @@ Eigen::Vector4d fit(std::span<const Row> turn, double slow_share) {
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
   Eigen::Vector4d right = Eigen::Vector4d::Zero();
   for (const auto& row : turn) {
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kPlanarAxes) {
       if (std::fabs(row.velocity[axis]) < slow_share * row.speed) {
         continue;
       }
@@ -119,7 +119,7 @@ struct Repeats {
   std::vector<double> across;
 };
 
-// One turn of both axes, Y first as in core::kAxes.
+// One turn of both axes, Y first as in core::kPlanarAxes.
 struct Turn {
   std::vector<CarriageTurn> carriage;
   std::vector<WaterForce> water;
@@ -128,9 +128,9 @@ struct Turn {
 };
 
 Turn turn_of(std::span<const Row> rows, const Recording& with, const Recording& without,
-             const core::PerAxis<CarriageChain>& chain) {
+             const core::PerPlanarAxis<CarriageChain>& chain) {
   Turn turn;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     turn.carriage.push_back(
         carriage_turn(with, without, {rows.front().row_with, rows.front().row_without, rows.size()},
                       axis, chain[axis]));
@@ -151,13 +151,13 @@ void add_headings(std::span<const Row> rows, const Turn& turn, const Recording& 
   std::array<std::vector<double>, 3> columns;  // along, across, |v| v along
   std::vector<double> headings;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    core::PerAxis<double> drag{};
-    core::PerAxis<double> sine{};
-    core::PerAxis<double> square{};
+    core::PerPlanarAxis<double> drag{};
+    core::PerPlanarAxis<double> sine{};
+    core::PerPlanarAxis<double> square{};
     const double angle =
         2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(rows.size());
     std::size_t k = 0;
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kPlanarAxes) {
       const auto& t = turn.carriage[k];
       drag[axis] = t.force_in_N.mean - t.force_N[i] -
                    t.inertial_N(i, without.force_N[axis][rows[i].row_without],
@@ -206,7 +206,7 @@ bool has_forces(const Recording& run) {
 std::optional<CurvedDrag> curved_drive(const Recording& with, const Recording& without,
                                        const CurvedDriveSettings& settings) {
   const auto duty = [](const Recording& run) {
-    return core::PerAxis<std::span<const double>>{
+    return core::PerPlanarAxis<std::span<const double>>{
         {run.axes[Axis::kY].duty_pct, run.axes[Axis::kX].duty_pct}};
   };
   const auto rows = rows_of(with, duty(with), without, duty(without), settings.scale);
@@ -226,13 +226,14 @@ std::optional<CurvedDrag> curved_drive(const Recording& with, const Recording& w
 }
 
 std::optional<CurvedDrag> curved_force(const Recording& with, const Recording& without,
-                                       const core::PerAxis<CarriageChain>& chain,
+                                       const core::PerPlanarAxis<CarriageChain>& chain,
                                        std::size_t headings) {
   if (!has_forces(with) || !has_forces(without)) {
     return std::nullopt;
   }
   const auto force = [](const Recording& run) {
-    return core::PerAxis<std::span<const double>>{{run.force_N[Axis::kY], run.force_N[Axis::kX]}};
+    return core::PerPlanarAxis<std::span<const double>>{
+        {run.force_N[Axis::kY], run.force_N[Axis::kX]}};
   };
   const auto rows = rows_of(with, force(with), without, force(without), {{-1.0, -1.0}});
   const auto turns = turns_of(rows);
@@ -241,7 +242,7 @@ std::optional<CurvedDrag> curved_force(const Recording& with, const Recording& w
   }
   CurvedDrag result{.turns = turns.size()};
   std::vector<double> drags;
-  core::PerAxis<std::vector<double>> along;
+  core::PerPlanarAxis<std::vector<double>> along;
   std::vector<double> masses;
   std::vector<Repeats> repeats(headings);
   const double share = 1.0 / static_cast<double>(turns.size());
@@ -257,7 +258,7 @@ std::optional<CurvedDrag> curved_force(const Recording& with, const Recording& w
     along[Axis::kX].push_back(turn.water[1].drag_N_s2_per_m2);
   }
   double all_doubt = 0;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     const double doubt = doubt_by_chain(chain[axis], rate_rad_per_s);
     result.along_axis_N_s2_per_m2[axis] =
         doubted(mean_of_repeats(along[axis]), doubt, kChainFreedom);

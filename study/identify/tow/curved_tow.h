@@ -31,13 +31,14 @@ struct CurvedDrag {
   double speed_m_per_s = 0;  // mean of the carriage along the path; 0: by the drive
   std::size_t turns = 0;     // whole ones at speed
   UncertainMean quadratic_drag_N_s2_per_m2{};
-  core::PerAxis<UncertainMean> along_axis_N_s2_per_m2{};  // by what the sensor feels along each
+  core::PerPlanarAxis<UncertainMean>
+      along_axis_N_s2_per_m2{};  // by what the sensor feels along each
   UncertainMean added_mass_kg{};
   std::vector<HeadingForce> headings{};  // added mass and zeros taken off
 };
 
 struct CurvedDriveSettings {
-  core::PerAxis<double> scale{};  // N a percent of duty
+  core::PerPlanarAxis<double> scale{};  // N a percent of duty
   double slow_share = 0;
 };
 
@@ -47,9 +48,8 @@ struct CurvedDriveSettings {
                                                      const Recording& without,
                                                      const CurvedDriveSettings& settings);
 // `headings`: stretches of a turn in the map.
-[[nodiscard]] std::optional<CurvedDrag> curved_force(const Recording& with,
-                                                     const Recording& without,
-                                                     const core::PerAxis<CarriageChain>& chain,
-                                                     std::size_t headings = 12);
+[[nodiscard]] std::optional<CurvedDrag> curved_force(
+    const Recording& with, const Recording& without,
+    const core::PerPlanarAxis<CarriageChain>& chain, std::size_t headings = 12);
 
 }  // namespace towbench::study::identify

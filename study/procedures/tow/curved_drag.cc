@@ -79,7 +79,7 @@ TowOutcome told(const identify::CurvedDrag& sensor, const identify::CurvedDrag& 
     outcome.estimates.push_back(identify::to_estimate(mean, quantity, axis, "N s2/m2", rests_on));
   };
   add(sensor.quadratic_drag_N_s2_per_m2, "curved_fsm_drag_N_s2_per_m2", "", by_sensor);
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     add(sensor.along_axis_N_s2_per_m2[axis], "axis_drag_N_s2_per_m2",
         std::string(core::name_of(axis)).c_str(), by_sensor);
   }
@@ -126,9 +126,9 @@ class CurvedDragTow final : public TowProcedure {
     if (const auto why = why_not_at_all(context, wet, s); !why.empty()) {
       return tow_refused(why);
     }
-    core::PerAxis<double> scale{};
-    core::PerAxis<identify::CarriageChain> chain{};
-    for (const auto axis : core::kAxes) {
+    core::PerPlanarAxis<double> scale{};
+    core::PerPlanarAxis<identify::CarriageChain> chain{};
+    for (const auto axis : core::kPlanarAxes) {
       const auto weighed = weigh_drive(dry, axis, s.weigh);
       if (!weighed.trouble.empty()) {
         return tow_failed(weighed.trouble);

@@ -55,9 +55,9 @@ std::optional<identify::YawPoint> point_at(double yaw_deg,
 // Of all angles, by the runs that they share.
 std::optional<identify::CommonDoubt> common_doubt(const std::vector<identify::Recording>& out,
                                                   double settle_s) {
-  core::PerAxis<std::vector<identify::DragPoint>> points;
+  core::PerPlanarAxis<std::vector<identify::DragPoint>> points;
   for (const auto& run : out) {
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kPlanarAxes) {
       const auto point = identify::both_ways(run, run.force_N[axis], Axis::kY, -1.0, settle_s);
       if (!point) {
         return std::nullopt;

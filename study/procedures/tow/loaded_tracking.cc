@@ -55,7 +55,7 @@ constexpr double kSmooth_s = 0.243;
 Conversation trapezoid(const Machine& machine, Axis axis, const LoadSettings& s, double load_N) {
   Conversation talk;
   talk.name = fmt::format("{} with {:.0f} N", core::name_of(axis), load_N);
-  for (const auto each : core::kAxes) {
+  for (const auto each : core::kPlanarAxes) {
     talk.start_m[each] = s.start(each);
   }
   talk.steps = declare_position(talk, machine);
@@ -126,7 +126,7 @@ class LoadedTracking final : public TowProcedure {
   [[nodiscard]] TowOutcome run(const TowContext& context) const override {
     const auto s = read_settings<LoadSettings>(context.settings, Axis::kY);
     const auto machine = context.loads.with(load());
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kPlanarAxes) {
       for (auto why : {no_axis(machine, axis), no_force_sensor(machine),
                        too_fast(machine, axis, s.speed(axis), 0.0, s.load_N),
                        no_travel(machine, axis, s.start(axis), s.start(axis) + s.distance(axis)),
@@ -141,7 +141,7 @@ class LoadedTracking final : public TowProcedure {
                          .head = {"axis", "no load: RMS", "peak", "loaded: RMS", "peak"}};
     ResultTable cross{.title = "FR-7: force across a moving axis, N",
                       .head = {"moving", "change of the mean", "noise at rest, RMS"}};
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kPlanarAxes) {
       const auto configuration = expecting_load(machine, 1.5 * s.load_N);
       const auto plain = machine.play(trapezoid(machine, axis, s, 0), configuration);
       const auto loaded = machine.play(trapezoid(machine, axis, s, s.load_N), configuration);

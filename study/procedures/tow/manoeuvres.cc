@@ -138,7 +138,7 @@ class Manoeuvres final : public TowProcedure {
       std::size_t next = 0;
       for (const auto& [run, stretch] :
            {std::pair{&with, stretches[k]}, std::pair{&without, alone[k]}}) {
-        for (const auto axis : core::kAxes) {
+        for (const auto axis : core::kPlanarAxes) {
           errors[next++] = tracking_errors(*run, axis, stretch.first, stretch.last);
         }
       }

@@ -81,7 +81,7 @@ double moved_mass_kg(const Machine& machine, core::Axis axis) {
 
 bbmc::Configuration expecting_load(const Machine& machine, double load_N) {
   auto configuration = machine.configuration();
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     configuration.axes[axis].plausibility.external_load_N = load_N;
   }
   return configuration;

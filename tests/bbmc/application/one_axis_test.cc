@@ -15,8 +15,8 @@ using ::testing::Not;
 using testing::Session;
 using ::testing::StartsWith;
 
-constexpr core::PerAxis<bool> kYAlone{{true, false}};
-constexpr core::PerAxis<bool> kXAlone{{false, true}};
+constexpr core::PerPlanarAxis<bool> kYAlone{{true, false}};
+constexpr core::PerPlanarAxis<bool> kXAlone{{false, true}};
 
 TEST(OneAxis, MovesByEveryCommandThatNeedsNoOther) {
   for (const std::string_view line :

@@ -21,7 +21,7 @@ TEST(Defect12, ARefusedArgumentChangesNothing) {
   const auto picture = [&] {
     const Configuration& c = session.system().configuration();
     std::ostringstream text;
-    for (const core::Axis axis : core::kAxes) {
+    for (const core::Axis axis : core::kPlanarAxes) {
       text << c.axes[axis].gains.proportional_Nm_per_rad << ' '
            << c.axes[axis].gains.integral_Nm_per_rad_s << ' '
            << c.axes[axis].gains.derivative_Nm_s_per_rad << ' '

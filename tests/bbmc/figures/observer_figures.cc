@@ -21,7 +21,7 @@ void print_gains() {
       "| "
       "motor angle | motor speed, 1/s | carriage angle | carriage speed, 1/s | load, N m/rad |\n| "
       "--- | --- | --- | --- | --- | --- |\n");
-  for (const core::Axis which : core::kAxes) {
+  for (const core::Axis which : core::kPlanarAxes) {
     auto axis = tuned({.name = ""}).axes[which];
     axis.state_observer.enabled = true;
     const bbmc::StateObserver observer(axis, 1000);

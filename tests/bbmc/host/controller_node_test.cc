@@ -41,7 +41,7 @@ class ControllerNodeTest : public ::testing::Test {
   // One quiet exchange: both encoders stand still.
   void exchange() {
     const core::Nanoseconds until_ns = now_ns_ + node_.exchange_ns();
-    for (core::Axis axis : core::kAxes) {
+    for (core::Axis axis : core::kPlanarAxes) {
       protocol::EncoderEdges edges;
       edges.axis = axis;
       edges.start_ns = now_ns_;

@@ -31,7 +31,7 @@ class DutySink final : public protocol::MessageSink {
   }
   // The controller's own figures to the last bit, beside the duty that is rounded to ticks.
   void figures(const bbmc::TelemetryRow& row) noexcept {
-    for (const core::Axis axis : core::kAxes) {
+    for (const core::Axis axis : core::kPlanarAxes) {
       const auto& state = row.axes[axis];
       std::fputs("r", file_);
       for (const double figure : {state.reference_m, state.velocity_m_per_s, state.duty_pct}) {

@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   const auto system =
       std::make_unique<bbmc::SystemManager>(portable::configuration(), devices, log);
   emulator::RigParameters rig;
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kPlanarAxes) {
     rig.axes[axis].start_m = portable::kStart_m[axis];
   }
   Recorder recorder(*board, inputs);

@@ -10,7 +10,7 @@
 namespace towbench::portable {
 
 inline constexpr long kExchanges = 14'000;  // of 1 ms
-inline constexpr core::PerAxis<double> kStart_m{{1.0, 0.3}};
+inline constexpr core::PerPlanarAxis<double> kStart_m{{1.0, 0.3}};
 
 // Every part of the law, so that every line of it is compared.
 inline bbmc::Configuration configuration() {

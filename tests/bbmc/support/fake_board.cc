@@ -31,7 +31,7 @@ FakeBoard::FakeBoard() {
   core::check(::mkdtemp(folder.data()) != nullptr);
   root_ = folder;
   devices_.root = folder;
-  for (Axis axis : core::kAxes) {
+  for (Axis axis : core::kPlanarAxes) {
     for (const char* name : {"count", "ceiling", "enable", "function"}) {
       write(counter_of(axis) + "/count0/" + name, 0);
     }
@@ -123,7 +123,7 @@ std::uint64_t FakeBoard::read(const std::string& file) const {
 
 bool FakeBoard::is_safe() const {
   bool safe = true;
-  for (Axis axis : core::kAxes) {
+  for (Axis axis : core::kPlanarAxes) {
     for (unsigned channel : {0U, 1U}) {
       safe = safe && read(pwm_file(axis, channel, "duty_cycle")) == 0 &&
              read(pwm_file(axis, channel, "enable")) == 0;

@@ -33,7 +33,7 @@ void FakeBoardMachine::on_event(const emulator::PlantEvent& event) noexcept {
 
 void FakeBoardMachine::read_outputs() {
   unsigned enables = 0;
-  for (Axis axis : core::kAxes) {
+  for (Axis axis : core::kPlanarAxes) {
     const auto ticks = [&](unsigned channel) {
       const bool on = board_.read(FakeBoard::pwm_file(axis, channel, "enable")) == 1;
       const auto duty_ns = board_.read(FakeBoard::pwm_file(axis, channel, "duty_cycle"));
@@ -55,7 +55,7 @@ void FakeBoardMachine::read_outputs() {
 }
 
 void FakeBoardMachine::write_inputs() {
-  for (Axis axis : core::kAxes) {
+  for (Axis axis : core::kPlanarAxes) {
     const std::int64_t count = truth.empty() ? 0 : truth.back().axes[axis].count;
     board_.write(FakeBoard::count_file(axis), static_cast<std::uint32_t>(count));  // it wraps
   }

@@ -18,13 +18,13 @@ Machine::Machine(const Options& options)
           std::make_unique<bbmc::SystemManager>(options.configuration, *devices_, log_storage_)) {
   core::check(bbmc::inconsistency(options.configuration) == nullptr);
   emulator::RigParameters rig = options.rig;
-  for (Axis axis : core::kAxes) {
+  for (Axis axis : core::kPlanarAxes) {
     rig.axes[axis].start_m = options.start_m[axis];
   }
   plant_ = std::make_unique<emulator::PlantNode>(rig, 1, options.events, *this);
   plant_->connect(*this);
   unsigned axes = 0;
-  for (Axis axis : core::kAxes) {
+  for (Axis axis : core::kPlanarAxes) {
     axes |= rig.axes[axis].exists ? 1U << core::index_of(axis) : 0U;
   }
   plant_->on(protocol::Hello{.axes_mask = static_cast<std::uint8_t>(axes),
@@ -34,7 +34,7 @@ Machine::Machine(const Options& options)
   core::check(system_->start().has_value());
   serve();
   if (options.calibrated) {
-    for (Axis axis : core::kAxes) {
+    for (Axis axis : core::kPlanarAxes) {
       const double counts = options.start_m[axis] * options.configuration.axes[axis].counts_per_m();
       core::check(system_->calibrate_position(axis, static_cast<std::int64_t>(std::floor(counts)))
                       .has_value());

@@ -20,7 +20,7 @@ class Machine final : public protocol::MessageSink, public emulator::PlantObserv
     bbmc::Configuration configuration;
     emulator::RigParameters rig;
     std::vector<emulator::ScheduledEvent> events;
-    core::PerAxis<double> start_m{{1.0, 0.3}};
+    core::PerPlanarAxis<double> start_m{{1.0, 0.3}};
     bool calibrated = true;
   };
 

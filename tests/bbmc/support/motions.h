@@ -11,7 +11,7 @@ namespace towbench::tests {
 inline bbmc::MotionRequest trapezoid(Machine& machine, core::Axis axis, double distance_m,
                                      double speed_m_per_s, double ramp_s = 0.3) {
   bbmc::MotionRequest request;
-  for (core::Axis each : core::kAxes) {
+  for (core::Axis each : core::kPlanarAxes) {
     request.driven[each] = true;
     request.trajectory[each] = bbmc::Hold(machine.status(each).position_m);
   }

@@ -15,8 +15,8 @@ using core::Axis;
 constexpr double kRatedRamp_s = 0.8;
 constexpr double kRatedSteady_s = 3.0;
 constexpr double kRatedTransient_s = 1.0;
-constexpr double kRatedWait_s = 0.02;                                 // of trapezoid()
-constexpr core::PerAxis<double> kRatedStart_m{{0.449092, 0.336819}};  // firmware
+constexpr double kRatedWait_s = 0.02;                                       // of trapezoid()
+constexpr core::PerPlanarAxis<double> kRatedStart_m{{0.449092, 0.336819}};  // firmware
 }  // namespace
 
 bbmc::PidGains gains_for_loop(double speed_ratio) {

@@ -27,7 +27,7 @@ bbmc::Configuration with(SpeedSource source) {
 
 bool drive(Machine& machine, double speed_m_per_s) {
   bbmc::MotionRequest request;
-  for (const Axis each : core::kAxes) {
+  for (const Axis each : core::kPlanarAxes) {
     request.driven[each] = true;
     request.trajectory[each] = bbmc::Hold(machine.status(each).position_m);
   }

@@ -93,7 +93,7 @@ TrapezoidFigures measure_trapezoid(const Law& law, Axis axis, double speed_m_per
                                          .wait_s = kWait_s};
   const double held_s = 1.0 / bbmc::Configuration().axes[axis].braking.held_motor_chain_Hz;
   bbmc::MotionRequest request;
-  for (Axis each : core::kAxes) {
+  for (Axis each : core::kPlanarAxes) {
     request.driven[each] = true;
     request.trajectory[each] = bbmc::Hold(machine.status(each).position_m);
   }
@@ -166,7 +166,7 @@ CircleFigures measure_circle(const Law& law) {
     return std::sqrt((y - centre_y) * (y - centre_y) + (x - x0) * (x - x0)) - kRadius_m;
   };
   for (const auto& row : machine.rows) {
-    for (Axis axis : core::kAxes) {
+    for (Axis axis : core::kPlanarAxes) {
       figures.peak_error_m[axis] = larger(figures.peak_error_m[axis],
                                           row.axes[axis].reference_m - row.axes[axis].position_m);
     }

@@ -73,9 +73,9 @@ struct TrapezoidFigures {
 
 struct CircleFigures {
   bool sound = false;
-  core::PerAxis<double> peak_error_m{};  // motor side
-  double path_peak_m = 0;                // motor side, across the path
-  double carriage_path_peak_m = 0;       // truth, across the path
+  core::PerPlanarAxis<double> peak_error_m{};  // motor side
+  double path_peak_m = 0;                      // motor side, across the path
+  double carriage_path_peak_m = 0;             // truth, across the path
   double carriage_path_rms_m = 0;
 };
 

@@ -122,7 +122,7 @@ TEST(ChainFeedForward, LeadsByTheStretchAndItsDerivative) {
 }
 
 TEST(CrossCoupling, OnlyWhatIsAcrossThePathIsLeft) {
-  const core::PerAxis<Reference> along_45{
+  const core::PerPlanarAxis<Reference> along_45{
       {Reference{.velocity_m_per_s = 0.1}, Reference{.velocity_m_per_s = 0.1}}};
   const auto late = error_across_path_m(along_45, {{1e-3, 1e-3}});
   EXPECT_NEAR(late[core::Axis::kY], 0, 1e-15);

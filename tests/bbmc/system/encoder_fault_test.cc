@@ -146,7 +146,7 @@ TEST_P(Defect5EncoderFault, FrozenDeadAndSwappedAreFoundWithinFiftyMillisecondsA
                         {"dead A", dead(EncoderLine::kA)},
                         {"dead B", dead(EncoderLine::kB)},
                         {"swapped", swapped()}};
-  for (const Axis axis : core::kAxes) {
+  for (const Axis axis : core::kPlanarAxes) {
     if (axis == Axis::kX && speed > 0.35) {
       continue;
     }
@@ -277,7 +277,7 @@ TEST(Defect5EncoderFault, LostEdgesAreFoundAtTheNextIndex) {
 // ---- never a false trip ----
 
 TEST(Defect5NoFalseTrip, InBreakAwayRuns) {
-  for (const Axis axis : core::kAxes) {
+  for (const Axis axis : core::kPlanarAxes) {
     for (const double sign : {1.0, -1.0}) {
       Machine machine;
       bbmc::OpenLoopRequest request;
@@ -293,7 +293,7 @@ TEST(Defect5NoFalseTrip, InBreakAwayRuns) {
 }
 
 TEST(Defect5NoFalseTrip, AtTwoTenthsOfAMillimetrePerSecond) {
-  for (const Axis axis : core::kAxes) {
+  for (const Axis axis : core::kPlanarAxes) {
     Machine machine;
     ASSERT_TRUE(machine.system().request_motion(trapezoid(machine, axis, 0.003, 0.0002)));
     ASSERT_TRUE(machine.run_until_rest(30.0));

@@ -43,11 +43,11 @@ TEST(Defect9Goto, DoneMeansThatBothAxesStandOnTheirTargets) {
   for (const bool fast : {false, true}) {
     Machine machine;
     // X is near, Y is far: X is there long before.
-    const core::PerAxis<double> target{{1.35, 0.31}};
+    const core::PerPlanarAxis<double> target{{1.35, 0.31}};
     ASSERT_TRUE(machine.system().request_goto({.target_m = target, .fast = fast}));
     ASSERT_TRUE(machine.run_until_rest(30.0));
     EXPECT_EQ(machine.system().status().last_motion_result, ErrorCode::kNone);
-    for (Axis axis : core::kAxes) {
+    for (Axis axis : core::kPlanarAxes) {
       const double counts_per_m = bbmc::Configuration().axes[axis].counts_per_m();
       EXPECT_LE(std::fabs(machine.status(axis).position_m - target[axis]) * counts_per_m, 1.5);
     }
@@ -63,7 +63,7 @@ TEST(Goto, EndsWithinOneCountOnEachAxisWhereverItGoes) {
   Machine machine(options);
   core::Random random(7);
   for (int i = 0; i < 40; ++i) {
-    const core::PerAxis<double> target{
+    const core::PerPlanarAxis<double> target{
         {0.1 + 3.4 * random.uniform(), 0.09 + 0.5 * random.uniform()}};
     machine.truth.clear();
     machine.rows.clear();
@@ -71,7 +71,7 @@ TEST(Goto, EndsWithinOneCountOnEachAxisWhereverItGoes) {
     ASSERT_TRUE(machine.run_until_rest(60.0));
     ASSERT_EQ(machine.system().status().last_motion_result, ErrorCode::kNone)
         << target[Axis::kY] << ' ' << target[Axis::kX];
-    for (Axis axis : core::kAxes) {
+    for (Axis axis : core::kPlanarAxes) {
       const double target_count = target[axis] * bbmc::Configuration().axes[axis].counts_per_m();
       // The middle of the count on which the motor stands.
       const auto count = static_cast<double>(machine.truth.back().axes[axis].count) + 0.5;
@@ -101,7 +101,7 @@ TEST(Defect9Goto, ATargetThatIsNeverReachedEndsWithAResultNotForEver) {
   Machine::Options options;
   options.configuration.go_to.timeout_s = 0.5;
   // Gains too weak to overcome friction.
-  for (Axis axis : core::kAxes) {
+  for (Axis axis : core::kPlanarAxes) {
     options.configuration.axes[axis].gains = {.proportional_Nm_per_rad = 1e-4,
                                               .integral_Nm_per_rad_s = 0,
                                               .derivative_Nm_s_per_rad = 1e-4};

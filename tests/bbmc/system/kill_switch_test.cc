@@ -21,7 +21,7 @@ Machine::Options options_at(double rate_Hz) {
   Machine::Options options;
   options.configuration.control_rate_Hz = rate_Hz;
   if (rate_Hz < 500) {
-    for (Axis axis : core::kAxes) {
+    for (Axis axis : core::kPlanarAxes) {
       options.configuration.axes[axis].gains =
           slow_gains(options.configuration.axes[axis], rate_Hz);
     }
@@ -63,7 +63,7 @@ void expect_dead_after_press(Machine& machine) {
   const auto& status = machine.system().status();
   EXPECT_EQ(status.fault, ErrorCode::kFaultKillSwitch);
   EXPECT_TRUE(status.kill_switch_pressed);
-  for (Axis axis : core::kAxes) {
+  for (Axis axis : core::kPlanarAxes) {
     EXPECT_EQ(status.axes[axis].mode, AxisMode::kFaulted);
     EXPECT_EQ(status.axes[axis].duty_pct, 0.0);
     EXPECT_FALSE(status.axes[axis].amplifier_enabled);

@@ -24,8 +24,8 @@ constexpr ForceSensorParameters kQuiet{.fitted = true,
                                        .torque_bias_deviation_Nm = 0.0,
                                        .sample_period_s = 1e-4};
 
-core::PerAxis<double> plane(double x, double y) {
-  core::PerAxis<double> v;
+core::PerPlanarAxis<double> plane(double x, double y) {
+  core::PerPlanarAxis<double> v;
   v[Axis::kX] = x;
   v[Axis::kY] = y;
   return v;
@@ -35,8 +35,8 @@ using Channels = std::array<double, 6>;
 
 // Samples at every tick of a constant load.
 std::vector<Channels> samples_of(const ForceSensorParameters& parameters, std::uint64_t seed,
-                                 const core::PerAxis<double>& load_N,
-                                 const core::PerAxis<double>& acceleration, int ticks) {
+                                 const core::PerPlanarAxis<double>& load_N,
+                                 const core::PerPlanarAxis<double>& acceleration, int ticks) {
   ForceSensor sensor(parameters, seed);
   std::vector<Channels> samples;
   protocol::ForceSample sample;

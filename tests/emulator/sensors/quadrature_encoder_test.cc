@@ -204,6 +204,29 @@ TEST(QuadratureEncoder, RaisesTheIndexForOneCountATurnInBothDirections) {
   }
 }
 
+// Over the whole turn, in both directions: the same count, and the third line never moves.
+TEST(QuadratureEncoder, WithoutAnIndexCountsTheSame) {
+  for (const double sign : {1.0, -1.0}) {
+    QuadratureEncoder with({.index_count = 1234}, sign * 100.5 / kCountsPerRad);
+    QuadratureEncoder without({.index_count = -1}, sign * 100.5 / kCountsPerRad);
+    StepEdges edges;
+    const double rate = sign * 100e3;
+    for (int step = 0; step < 1000; ++step) {
+      const double from = sign * 100.5 + rate * step * core::kPlantTick_s;
+      const double to = sign * 100.5 + rate * (step + 1) * core::kPlantTick_s;
+      MotionSegments segments;
+      ASSERT_TRUE(segments.push_back(hermite(0, core::kPlantTick_s, from, rate, to, rate)));
+      with.step(segments, edges);
+      without.step(segments, edges);
+      ASSERT_EQ(without.count(), with.count());
+      ASSERT_EQ(without.levels(), with.levels() & 3U);
+      for (const TimedEdge edge : edges.view()) {
+        ASSERT_NE(edge.line(), EncoderLine::kIndex);
+      }
+    }
+  }
+}
+
 TEST(QuadratureEncoder, FlagsMotionFasterThanItsChannelsCarry) {
   // 200 kHz a channel is 800,000 counts/s.
   for (const auto& [rate, too_fast] : {std::pair{799e3, false}, std::pair{801e3, true}}) {

@@ -46,7 +46,7 @@ TEST(BodyDrag, IsTheSameForARoundBodyAtAnyYaw) {
   WaterBodyParameters turned = kCylinder;
   turned.yaw_deg = 37.0;
   const PlaneVector v = in_plane(0.2, -0.4);
-  for (const Axis axis : core::kAxes) {
+  for (const Axis axis : core::kPlanarAxes) {
     EXPECT_NEAR(BodyDrag(kCylinder)(v)[axis], BodyDrag(turned)(v)[axis], 1e-15);
   }
 }
@@ -111,7 +111,7 @@ TEST(BodyDrag, NeverDrivesABody) {
 TEST(BodyDrag, IsNoneOutOfTheWaterAndNoneAtRest) {
   WaterBodyParameters dry = kCylinder;
   dry.in_water = false;
-  for (const Axis axis : core::kAxes) {
+  for (const Axis axis : core::kPlanarAxes) {
     EXPECT_EQ(BodyDrag(dry)(in_plane(0.3, 0.5))[axis], 0.0);
     EXPECT_EQ(BodyDrag(kCylinder)(in_plane(0.0, 0.0))[axis], 0.0);
   }

@@ -92,7 +92,7 @@ TEST(OwnMotions, EveryMachineHasACampaignWithoutTheMissingAxis) {
 }
 
 TEST(OwnMotions, RefuseWhatTheBaseHasNot) {
-  EXPECT_THAT(own_campaign_refusal("[instead]\nany-trapezoid-z = \"a.toml\"\n"),
+  EXPECT_THAT(own_campaign_refusal("[instead]\nany-trapezoid-w = \"a.toml\"\n"),
               HasSubstr("did you mean any-trapezoid-"));
   EXPECT_THAT(own_campaign_refusal("[instead]\n"), HasSubstr("instead: given no motion"));
   EXPECT_THAT(own_campaign_refusal("[instead]\nany-slow-y = \"none.toml\"\n"),

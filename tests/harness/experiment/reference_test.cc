@@ -35,7 +35,7 @@ std::vector<ReferenceMotion> every_motion() {
 TEST(Reference, VelocityAndAccelerationAreTheDerivatives) {
   constexpr double kStep_s = 1e-5;
   for (const auto& motion : every_motion()) {
-    for (const Axis axis : core::kAxes) {
+    for (const Axis axis : core::kPlanarAxes) {
       if (!motion.moves(axis)) {
         continue;
       }
@@ -86,7 +86,7 @@ TEST(Reference, ACircleIsRoundAndClosesWhereItBegan) {
     const auto x = motion.at(Axis::kX, t).position_m;
     EXPECT_NEAR(std::hypot(x, y), motion.distance_m, 1e-12);
   }
-  for (const Axis axis : core::kAxes) {
+  for (const Axis axis : core::kPlanarAxes) {
     EXPECT_NEAR(motion.at(axis, motion.duration_s()).position_m, 0, 1e-12);
     EXPECT_NEAR(motion.at(axis, motion.duration_s()).velocity_m_per_s, 0, 1e-12);
   }

@@ -29,7 +29,7 @@ std::unique_ptr<CaseRecord> moved(double end_s, Place place_m) {
     y.motor_angle_rad = kMotorRadPerMetre * place_m(time_s);
     y.carriage_m = place_m(time_s) + 1e-4 * std::sin(2 * std::numbers::pi * 9 * time_s);
     y.command_V = time_s < 0.3 ? 0.0 : 1.0;
-    run->truth.push_back(row);
+    run->on_truth(row);
   }
   return run;
 }

@@ -70,7 +70,7 @@ std::unique_ptr<CaseRecord> run_over(WireName wire, const Cell* cell,
   }
   LockstepBench bench(fixture.controller.configuration, fixture.rig.hash, sides, record.get());
   record->outcome = play(fixture.experiment, bench, *record, {}, RunEnd::kUndriven);
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     if (still_driven != nullptr) {
       (*still_driven)[axis] = sides.controller_drives(axis);
     }
@@ -116,7 +116,7 @@ TEST_P(WireFaults, LeaveBothSidesSafeOrChangeNothing) {
   EXPECT_THAT(numbers_of(cell.latched), testing::Contains(latched->code));
   EXPECT_GE(latched->time_ns, kStruck_ns - 2 * core::kNanosecondsPerMillisecond);
   EXPECT_LE(latched->time_ns, kStruck_ns + 25 * core::kNanosecondsPerMillisecond);
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     EXPECT_FALSE(still_driven[axis]) << core::name_of(axis);
   }
   // The plant: the drive is off, whether it was told so or found itself alone.

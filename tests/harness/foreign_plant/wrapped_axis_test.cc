@@ -118,7 +118,7 @@ TEST(WrappedAxis, GivesTheSameLogOfAWholeExperiment) {
 TEST(WrappedAxis, GivesTheSameLogUnderAnExternalController) {
   auto own = load_experiment("fixtures/any-controller/there-and-back-y.toml");
   emulator::RigParameters rig;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     rig.axes[axis].start_m = own.rig.parameters.axes[axis].start_m;
   }
   own.rig.parameters = rig;

@@ -48,6 +48,9 @@ class SyntheticRun {
                               .hard_max_m = 4.0,
                               .metres_per_count = 1e-6};
     limits[core::Axis::kX] = limits[core::Axis::kY];
+    for (const auto further : core::kFurtherAxes) {
+      limits[further].exists = false;
+    }
     return load_run_data(folder(), limits);
   }
 

@@ -160,7 +160,7 @@ TEST(PathMetrics, ALagAlongTheCircleIsNoPathErrorAndAWrongRadiusIs) {
   run.write(
       kMillisecond, 7000 * kMillisecond,
       [&](double time_s, bbmc::TelemetryRow& row) {
-        for (const auto axis : core::kAxes) {
+        for (const auto axis : core::kPlanarAxes) {
           const bool is_x = axis == kX;
           const auto on = [&](double a) { return is_x ? std::sin(a) : 1.0 - std::cos(a); };
           auto& out = row.axes[axis];

@@ -28,8 +28,7 @@ class Person final : public RunTap {
     deeds_.emplace_back(core::nanoseconds(time_s), std::move(deed));
   }
 
-  void row(const bbmc::TelemetryRow& row,
-           const core::PerAxis<bbmc::EdgeTimes>& /*edges*/) noexcept override {
+  void row(const LogRow& row, const core::PerAxis<bbmc::EdgeTimes>& /*edges*/) noexcept override {
     while (next_ < deeds_.size() && row.time_ns >= deeds_[next_].first) {
       deeds_[next_++].second(hand_);
     }

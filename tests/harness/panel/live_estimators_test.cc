@@ -38,7 +38,7 @@ TEST_P(LiveEstimatorsTest, TheFollowedOneIsTheControllersOwnInEveryRow) {
   options.out = out_;
   options.tap = tap.get();
   (void)run_experiment(fixture, options);
-  LiveEstimators estimators(fixture.controller.configuration);
+  LiveEstimators estimators{ShownMachine(fixture.controller.configuration)};
   std::size_t rows = 0;
   double fastest = 0;
   double apart = 0;
@@ -47,7 +47,7 @@ TEST_P(LiveEstimatorsTest, TheFollowedOneIsTheControllersOwnInEveryRow) {
   for (const auto& live : lives) {
     ++rows;
     const auto speeds = estimators.update(live);
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kPlanarAxes) {
       ASSERT_DOUBLE_EQ(speeds[axis][static_cast<std::size_t>(GetParam())],
                        live.velocity_m_per_s[axis])
           << core::name_of(axis) << " at " << core::seconds(live.time_ns);
@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, LiveEstimatorsTest,
 
 TEST(LiveEstimators, ACountThatIsDeclaredAnewIsNoMotion) {
   const bbmc::Configuration configuration;
-  LiveEstimators estimators(configuration);
+  LiveEstimators estimators{ShownMachine(configuration)};
   LiveRow live;
   for (int tick = 0; tick < 10; ++tick) {
     live.time_ns = tick * core::kNanosecondsPerMillisecond;

@@ -28,8 +28,7 @@ class Typist final : public RunTap {
   explicit Typist(RunOperator& hand) : hand_(hand) {}
   void begins(const fs::path& folder) override { tap_->begins(folder); }
   [[nodiscard]] protocol::MessageSink* witness() noexcept override { return tap_->witness(); }
-  void row(const bbmc::TelemetryRow& row,
-           const core::PerAxis<bbmc::EdgeTimes>& edges) noexcept override {
+  void row(const LogRow& row, const core::PerAxis<bbmc::EdgeTimes>& edges) noexcept override {
     tap_->row(row, edges);
     if (stage_ == 0 && row.time_ns >= core::nanoseconds(0.2)) {
       hand_.type("status\r");

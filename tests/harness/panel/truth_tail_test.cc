@@ -39,10 +39,10 @@ TEST_F(TruthTailTest, ReadsWhatTheRecorderWrote) {
   const auto rows = tail.rows();
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0].time_ns, row.time_ns);
-  EXPECT_EQ(rows[0].carriage_m[core::Axis::kY], 1.25);
-  EXPECT_EQ(rows[0].chain_force_N[core::Axis::kY], -3.5F);
-  EXPECT_EQ(rows[0].carriage_speed_m_per_s[core::Axis::kX], 0.125F);
-  EXPECT_EQ(rows[0].current_A[core::Axis::kX], 2.0F);
+  EXPECT_EQ(rows[0].axis(core::Axis::kY).carriage_m, 1.25);
+  EXPECT_EQ(rows[0].axis(core::Axis::kY).chain_force_N, -3.5F);
+  EXPECT_EQ(rows[0].axis(core::Axis::kX).carriage_speed_m_per_s, 0.125F);
+  EXPECT_EQ(rows[0].axis(core::Axis::kX).current_A, 2.0F);
   EXPECT_EQ(rows[0].input_lines, 0x15);
   EXPECT_NE(tail.events().find("peer_lost"), std::string::npos);
   EXPECT_TRUE(tail.rows().empty());

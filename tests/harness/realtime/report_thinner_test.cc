@@ -29,7 +29,7 @@ void drive(emulator::PlantNode& plant, core::Nanoseconds step_ns) {
                            .exchange_ns = 1'000'000,
                            .capabilities = protocol::kCapabilityDigest});
   plant.on(protocol::DigitalOutputs{.lines = 3});
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     plant.on(protocol::PwmDuty{
         .axis = axis, .enable = true, .channel_a_ticks = 800, .period_ticks = 1000});
   }

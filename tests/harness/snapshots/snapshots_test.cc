@@ -40,7 +40,8 @@ void add_truth(Digest& digest, const CaseRecord& run) {
   for (const auto& row : run.truth) {
     digest.time(row.time_ns);
     digest.add(std::uint64_t{row.input_lines});
-    for (const auto& axis : row.axes) {
+    for (const auto which : core::kPlanarAxes) {
+      const auto& axis = row.axes[which];
       for (const double number :
            {axis.motor_angle_rad, axis.motor_speed_rad_per_s, axis.carriage_m,
             axis.carriage_speed_m_per_s, axis.current_A, axis.motor_torque_Nm,
@@ -57,7 +58,8 @@ void add_log(Digest& digest, const CaseRecord& run) {
   for (const auto& row : run.log) {
     digest.time(row.time_ns);
     digest.time(core::number_of(row.fault));
-    for (const auto& axis : row.axes) {
+    for (const auto which : core::kPlanarAxes) {
+      const auto& axis = row.axes[which];
       for (const double number : {axis.reference_m, axis.reference_velocity_m_per_s,
                                   axis.position_m, axis.velocity_m_per_s, axis.duty_pct}) {
         digest.add(number);

@@ -71,7 +71,7 @@ Watched watched_circle(Axis axis, const emulator::CameraParameters& parameters) 
 TEST(CameraStretch, TellsTheElasticErrorThatTheTruthHas) {
   const emulator::CameraParameters usual{.fitted = true};
   const emulator::CameraParameters fine{.fitted = true, .noise_m = 5e-5, .resolution_m = 1e-4};
-  for (const Axis axis : core::kAxes) {
+  for (const Axis axis : core::kPlanarAxes) {
     const auto& camera = axis == Axis::kX ? fine : usual;
     const auto watched = watched_circle(axis, camera);
     const auto found = elastic_error(watched.input);

@@ -125,7 +125,7 @@ TEST(SafeRange, TellsAWideIntervalWhereTheChainIsOnlyBelieved) {
 // would allow of an axis it knows.
 TEST(SaturationSpeed, OfAWeakMotorIsReached) {
   const auto bench = drawn(2);
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     const Machine machine(bench.rig, bench.controller, 1);
     const auto outcome = saturation_speed()->run(
         {.machine = machine, .axis = axis, .known = drive_of(bench.rig, axis)});
@@ -142,7 +142,7 @@ TEST(SaturationSpeed, OfAWeakMotorIsReached) {
 TEST(Tuning, GoesOnWhereAnAmplitudeDoesNotSettleOrALoopIsTooSoft) {
   const auto bench = drawn(2);
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kPlanarAxes) {
       const Machine machine(bench.rig, bench.controller, seed);
       const auto outcome = relay_tuning()->run(
           {.machine = machine, .axis = axis, .known = drive_of(bench.rig, axis)});
@@ -180,7 +180,7 @@ TEST(Tuning, LooksAtSmallerAmplitudesWhereTheLargerDoNotSettle) {
 // them is tried at the same speeds.
 TEST(Tuning, PolesPlacedOnADrawnMachinesModelDriveIt) {
   const auto bench = drawn(2);
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     const Machine machine(bench.rig, bench.controller, 1);
     const auto outcome =
         model_tuning()->run({.machine = machine, .axis = axis, .known = model_of(bench.rig, axis)});

@@ -42,7 +42,7 @@ Estimate exactly(const char* quantity, Axis axis, double value) {
 // As if everything had been found without an error.
 Estimates as_if_found(const harness::RigFixture& rig) {
   Estimates all;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     const auto& plant = rig.parameters.axes[axis].plant;
     const auto add = [&](const char* quantity, double value) {
       all.push_back(exactly(quantity, axis, value));

@@ -5,9 +5,9 @@
 namespace towbench::bbmc::testing {
 namespace {
 
-Configuration tabletop_configuration(const core::PerAxis<bool>& axes) {
+Configuration tabletop_configuration(const core::PerPlanarAxis<bool>& axes) {
   Configuration configuration;
-  for (const core::Axis which : core::kAxes) {
+  for (const core::Axis which : core::kPlanarAxes) {
     configuration.axes[which].exists = axes[which];
   }
   for (AxisConfiguration& axis : configuration.axes) {
@@ -21,7 +21,7 @@ constexpr double kLongest_s = 120;
 
 }  // namespace
 
-Session::Session(std::size_t log_rows, core::PerAxis<bool> axes) : log_(log_rows) {
+Session::Session(std::size_t log_rows, core::PerPlanarAxis<bool> axes) : log_(log_rows) {
   const Configuration configuration = tabletop_configuration(axes);
   machine_ = std::make_unique<Tabletop>(configuration);
   devices_ = std::make_unique<DeviceManager>(machine_->ports());

@@ -15,7 +15,7 @@ namespace towbench::bbmc::testing {
 
 class Session {
  public:
-  explicit Session(std::size_t log_rows = 20'000, core::PerAxis<bool> axes = {{true, true}});
+  explicit Session(std::size_t log_rows = 20'000, core::PerPlanarAxis<bool> axes = {{true, true}});
 
   // Types a line, lets the machine run until the console is idle again, and returns what came back
   // (echo is off), without the prompt.

@@ -5,7 +5,7 @@
 namespace towbench::bbmc::testing {
 
 Tabletop::Tabletop(const Configuration& configuration) : configuration_(configuration) {
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kPlanarAxes) {
     pwm_[axis].board = this;
     pwm_[axis].axis = axis;
     encoder_[axis].board = this;
@@ -22,7 +22,7 @@ Tabletop::Tabletop(const Configuration& configuration) : configuration_(configur
 
 BoardPorts Tabletop::ports() {
   BoardPorts ports;
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kPlanarAxes) {
     ports.pwm[axis] = &pwm_[axis];
     ports.encoder[axis] = &encoder_[axis];
   }
@@ -43,7 +43,7 @@ std::int64_t Tabletop::count(core::Axis axis) const {
 void Tabletop::advance(core::Nanoseconds step_ns) {
   for (const core::Nanoseconds end_ns = now_ns_ + step_ns; now_ns_ < end_ns;
        now_ns_ += core::kPlantTick_ns) {
-    for (const core::Axis axis : core::kAxes) {
+    for (const core::Axis axis : core::kPlanarAxes) {
       axes_[axis].step(core::kPlantTick_s, configuration_.axes[axis]);
       const std::int64_t now = count(axis);
       edges_[axis] += static_cast<std::uint32_t>(std::abs(now - last_count_[axis]));
@@ -140,7 +140,7 @@ core::Status Tabletop::LinePort::read(Gpio::Reading& reading) noexcept {
 core::Status Tabletop::LinePort::write(const Gpio::Command& command) noexcept {
   board->lines_[index_of(line)] = command.active;
   // This machine's amplifiers are ready as soon as they are enabled.
-  for (const core::Axis axis : core::kAxes) {
+  for (const core::Axis axis : core::kPlanarAxes) {
     if (line == amplifier_enable_of(axis)) {
       board->set_line(amplifier_ready_of(axis), command.active);
     }

@@ -103,14 +103,14 @@ class Tabletop {
 
   const Configuration configuration_;
   core::Nanoseconds now_ns_ = 0;
-  core::PerAxis<RigidAxis> axes_;
-  core::PerAxis<std::int64_t> last_count_;
-  core::PerAxis<std::uint32_t> edges_;
+  core::PerPlanarAxis<RigidAxis> axes_;
+  core::PerPlanarAxis<std::int64_t> last_count_;
+  core::PerPlanarAxis<std::uint32_t> edges_;
   std::array<bool, kLineCount> lines_{};
   std::deque<Aintc::Reading> pending_;
 
-  core::PerAxis<PwmPort> pwm_;
-  core::PerAxis<EncoderPort> encoder_;
+  core::PerPlanarAxis<PwmPort> pwm_;
+  core::PerPlanarAxis<EncoderPort> encoder_;
   TimerPort timer_;
   std::array<LinePort, kLineCount> line_ports_;
   ConsolePort console_;

@@ -66,7 +66,7 @@ class ChipLineTest : public ::testing::Test {
     }
     chip_ = std::make_unique<SimulatedChip>();
     wired_ = fake_.devices();
-    for (Axis axis : core::kAxes) {
+    for (Axis axis : core::kPlanarAxes) {
       LinuxAxis& lines = wired_.axes[axis];
       lines.hall_min = chip_->place_of(hall_min_of(axis));
       lines.hall_max = chip_->place_of(hall_max_of(axis));

@@ -29,7 +29,7 @@ constexpr double kStart_m = 1.0;
 
 Configuration without_index() {
   Configuration configuration;
-  for (Axis axis : core::kAxes) {
+  for (Axis axis : core::kPlanarAxes) {
     configuration.axes[axis].plausibility.index_fitted = false;
   }
   // bbmc-tuned.toml

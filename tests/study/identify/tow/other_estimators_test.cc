@@ -169,8 +169,8 @@ Towed in_water(Towed dry) {
   return dry;
 }
 
-core::PerAxis<CarriageChain> chains(double y_rad_per_s, double x_rad_per_s) {
-  core::PerAxis<CarriageChain> chain;
+core::PerPlanarAxis<CarriageChain> chains(double y_rad_per_s, double x_rad_per_s) {
+  core::PerPlanarAxis<CarriageChain> chain;
   chain[Axis::kY] = {.rate_rad_per_s = y_rad_per_s, .mass_kg = 6.6};
   chain[Axis::kX] = {.rate_rad_per_s = x_rad_per_s, .mass_kg = 0.95};
   return chain;
@@ -185,7 +185,7 @@ TEST(CurvedForce, KnowsThatTheCarriageGoesFurtherThanItsMotor) {
   EXPECT_EQ(drag->turns, 8U);
   EXPECT_NEAR(drag->quadratic_drag_N_s2_per_m2.value, 8.78, 0.002 * 8.78);
   EXPECT_GT(drag->quadratic_drag_N_s2_per_m2.deviation, 1e-4);
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     EXPECT_NEAR(drag->along_axis_N_s2_per_m2[axis].value, 8.78, 0.003 * 8.78);
   }
   EXPECT_NEAR(drag->added_mass_kg.value, 0.5, 0.01);

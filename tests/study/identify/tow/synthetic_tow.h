@@ -48,7 +48,7 @@ inline Recording synthetic_tow(const SyntheticTow& tow) {
   constexpr std::uint8_t kFollows = 2;
   Recording run;
   run.period_s = 1e-3;
-  for (const auto axis : core::kAxes) {
+  for (const auto axis : core::kPlanarAxes) {
     run.metres_per_count[axis] = 2.245e-6;
     run.rad_per_count[axis] = 2 * M_PI / 4000;
   }
@@ -65,7 +65,7 @@ inline Recording synthetic_tow(const SyntheticTow& tow) {
     const double friction =
         direction * (tow.coulomb_N + tow.rise_N_per_m * place) + tow.viscous_N_s_per_m * speed;
     run.time_s.push_back(static_cast<double>(run.rows()) * run.period_s);
-    for (const auto axis : core::kAxes) {
+    for (const auto axis : core::kPlanarAxes) {
       const bool y = axis == core::Axis::kY;
       auto& log = run.axes[axis];
       log.count.push_back(
