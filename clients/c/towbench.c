@@ -281,7 +281,7 @@ static int is_known(uint16_t code) {
 }
 
 static int is_legal_hello(const uint8_t* p) {
-  return p[3] <= 2 && p[4] < 4;
+  return p[3] <= 2 && p[4] < 1 << TB_AXES;
 }
 
 static int are_legal_edges(const uint8_t* p) {
@@ -313,9 +313,9 @@ static int is_legal(const uint8_t* p) {
       return p[1] < TB_AXES && p[2] < 8 && load_time(p + 15) >= 0 &&
              load_time(p + 15) <= load_time(p + 3);
     case TB_DIGITAL_INPUTS:
-      return load16(p + 1) < 128 && load_time(p + 3) >= 0;
+      return load_time(p + 3) >= 0;
     case TB_DIGITAL_OUTPUTS:
-      return load16(p + 1) < 4 && load_time(p + 3) >= 0;
+      return load16(p + 1) < 1 << TB_AXES && load_time(p + 3) >= 0;
     case TB_FORCE_SAMPLE:
       legal = load_time(p + 1) >= 0;
       for (int i = 0; i < 6; ++i) legal = legal && is_finite(p + 9 + 4 * i);
@@ -640,18 +640,19 @@ static int take_segment(tb_bench* bench, uint8_t* held, size_t room, size_t* siz
   return take_whole(bench, held + 1, held[0]);
 }
 
+static int is_of_an_axis(unsigned id, unsigned first) {
+  return id >= first && id < first + TB_AXES;
+}
+
 static int take_frame(tb_bench* bench, unsigned id, const uint8_t* data) {
   const uint64_t word = load(data, TB_CAN_DATA);
-  const size_t axis = id & 1;
+  if (is_of_an_axis(id, ID_INDEX)) {
+    bench->can.report[id - ID_INDEX].index = word;
+    bench->can.report[id - ID_INDEX].has_index = 1;
+    return 0;
+  }
+  if (is_of_an_axis(id, ID_DIGEST)) return take_digest(bench, id - ID_DIGEST, word);
   switch (id) {
-    case ID_INDEX:
-    case ID_INDEX + 1:
-      bench->can.report[axis].index = word;
-      bench->can.report[axis].has_index = 1;
-      return 0;
-    case ID_DIGEST:
-    case ID_DIGEST + 1:
-      return take_digest(bench, axis, word);
     case ID_LINES + 1:
       return take_lines(bench, word);
     case ID_TIME + 1:
@@ -670,9 +671,9 @@ static int take_frame(tb_bench* bench, unsigned id, const uint8_t* data) {
 }
 
 static int is_ours(unsigned id) {
-  return id == ID_INDEX || id == ID_DIGEST || id == ID_INDEX + 1 || id == ID_DIGEST + 1 ||
-         id == ID_LINES + 1 || id == ID_TIME + 1 || id == ID_BYE + 1 || id == ID_HEARTBEAT + 1 ||
-         id == ID_FAULT + 1 || id == ID_LONG + 1;
+  return is_of_an_axis(id, ID_INDEX) || is_of_an_axis(id, ID_DIGEST) || id == ID_LINES + 1 ||
+         id == ID_TIME + 1 || id == ID_BYE + 1 || id == ID_HEARTBEAT + 1 || id == ID_FAULT + 1 ||
+         id == ID_LONG + 1;
 }
 
 int tb_feed_frame(tb_bench* bench, unsigned identifier, const uint8_t* data, size_t size) {

@@ -22,7 +22,7 @@ extern "C" {
 #endif
 
 enum { TB_VERSION = 1, TB_TICK_NS = 100000 };
-enum { TB_Y = 0, TB_X = 1, TB_AXES = 2 };
+enum { TB_Y = 0, TB_X, TB_Z, TB_A, TB_B, TB_C, TB_AXES };
 /* Capabilities. Encoders as edges or, for a controller that cannot take so many bytes, as a digest.
  */
 enum { TB_EDGES = 1, TB_DIGEST = 2, TB_REFERENCE = 4, TB_RESETS = 8 };
@@ -33,7 +33,9 @@ enum {
   TB_HALL_X_MAX = 8,
   TB_KILL_SWITCH = 16,
   TB_READY_Y = 32,
-  TB_READY_X = 64
+  TB_READY_X = 64,
+  TB_FURTHER_HALLS = 0x7f80, /* z min, z max, a min ... c max, a bit each */
+  TB_FURTHER_READY = 0x8000  /* of z to c, in series */
 };
 enum {
   TB_HELLO = 1,

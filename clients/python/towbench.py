@@ -26,9 +26,11 @@ from typing import Any, Callable, Iterator, NamedTuple, Tuple
 VERSION = 1
 CONTROLLER, PLANT, OBSERVER = 0, 1, 2
 EDGES, DIGEST, REFERENCE, RESETS = 1, 2, 4, 8  # capabilities
-AXES = ("y", "x")
+AXES = ("y", "x", "z", "a", "b", "c")
 HALL_Y_MIN, HALL_Y_MAX, HALL_X_MIN, HALL_X_MAX, KILL_SWITCH, READY_Y, READY_X = (1 << n for n in range(7))
-HALLS = HALL_Y_MIN | HALL_Y_MAX | HALL_X_MIN | HALL_X_MAX
+FURTHER_HALLS = sum(1 << n for n in range(7, 15))  # z min, z max, a min ... c max
+FURTHER_READY = 1 << 15  # of z to c, in series
+HALLS = HALL_Y_MIN | HALL_Y_MAX | HALL_X_MIN | HALL_X_MAX | FURTHER_HALLS
 MAX_EDGES = 1024
 _EDGES_HEADER = 25
 
@@ -58,7 +60,7 @@ class Layout(NamedTuple):
 
 
 def _hello(m: Fields) -> Any:
-    return m[1] <= OBSERVER and m[2] < 4
+    return m[1] <= OBSERVER and m[2] < 1 << len(AXES)
 
 
 def _finite(values: Fields) -> bool:
@@ -73,22 +75,22 @@ LAYOUTS: dict[int, Layout] = {
     HELLO: Layout("Hello", struct.Struct("<HBBIIIQ"), _hello),
     HELLO_REPLY: Layout("HelloReply", struct.Struct("<HBBIIIQH"), lambda m: _hello(m) and m[7] in KNOWN_CODES),
     PWM_DUTY: Layout(
-        "PwmDuty", struct.Struct("<BBHHHI"), lambda m: m[0] < 2 and m[1] < 2 and 0 < m[4] >= max(m[2], m[3])
+        "PwmDuty", struct.Struct("<BBHHHI"), lambda m: m[0] < len(AXES) and m[1] < 2 and 0 < m[4] >= max(m[2], m[3])
     ),
     # With the count of edges, which stand behind: 32 bits each.
     ENCODER_EDGES: Layout(
         "EncoderEdges",
         struct.Struct("<BBqqIH"),
-        lambda m: m[0] < 2 and m[1] < 8 and m[2] >= 0 and m[3] >= 0 and m[5] <= MAX_EDGES,
+        lambda m: m[0] < len(AXES) and m[1] < 8 and m[2] >= 0 and m[3] >= 0 and m[5] <= MAX_EDGES,
     ),
     ENCODER_REPORT: Layout(
-        "EncoderReport", struct.Struct("<BBqiqIiHHI"), lambda m: m[0] < 2 and m[1] < 8 and 0 <= m[4] <= m[2]
+        "EncoderReport", struct.Struct("<BBqiqIiHHI"), lambda m: m[0] < len(AXES) and m[1] < 8 and 0 <= m[4] <= m[2]
     ),
-    DIGITAL_INPUTS: Layout("DigitalInputs", struct.Struct("<HqI"), lambda m: m[0] < 128 and m[1] >= 0),
-    DIGITAL_OUTPUTS: Layout("DigitalOutputs", struct.Struct("<HqI"), lambda m: m[0] < 4 and m[1] >= 0),
+    DIGITAL_INPUTS: Layout("DigitalInputs", struct.Struct("<HqI"), lambda m: m[1] >= 0),
+    DIGITAL_OUTPUTS: Layout("DigitalOutputs", struct.Struct("<HqI"), lambda m: m[0] < 1 << len(AXES) and m[1] >= 0),
     FORCE_SAMPLE: Layout("ForceSample", struct.Struct("<q6f"), lambda m: m[0] >= 0 and _finite(m[1:])),
     CURRENT_SAMPLE: Layout(
-        "CurrentSample", struct.Struct("<Bqf"), lambda m: m[0] < 2 and m[1] >= 0 and math.isfinite(m[2])
+        "CurrentSample", struct.Struct("<Bqf"), lambda m: m[0] < len(AXES) and m[1] >= 0 and math.isfinite(m[2])
     ),
     ADVANCE: Layout("Advance", struct.Struct("<q"), lambda m: m[0] >= 0),
     ADVANCED: Layout("Advanced", struct.Struct("<q"), lambda m: m[0] >= 0),
@@ -96,7 +98,7 @@ LAYOUTS: dict[int, Layout] = {
     FAULT: Layout("Fault", struct.Struct("<HqI"), lambda m: m[0] in KNOWN_CODES and m[1] >= 0),
     BYE: Layout("Bye", struct.Struct("<q"), lambda m: m[0] >= 0),
     REFERENCE_POINT: Layout(
-        "Reference", struct.Struct("<Bq3f"), lambda m: m[0] < 2 and m[1] >= 0 and _finite(m[2:])
+        "Reference", struct.Struct("<Bq3f"), lambda m: m[0] < len(AXES) and m[1] >= 0 and _finite(m[2:])
     ),
     RESET: Layout("Reset", struct.Struct("<q"), lambda m: m[0] >= 0),
 }
@@ -373,7 +375,7 @@ class CanFraming:
 
     def __init__(self, counts: Counts) -> None:
         self.counts = counts
-        self._reports = [_CanReport(), _CanReport()]
+        self._reports = [_CanReport() for _ in AXES]
         self._last_sequence = {DIGITAL_INPUTS: -1, HEARTBEAT: -1}
         self._long, self._fault = _Segments(counts, 266), _Segments(counts, 21)
 
@@ -411,11 +413,11 @@ class CanFraming:
 
     def _payload(self, identifier: int, body: bytes) -> bytes | None:
         word = int.from_bytes(body, "little")
-        if identifier in (_CAN_INDEX, _CAN_INDEX + 1):
-            self._reports[identifier & 1].index = word
+        if identifier & ~7 == _CAN_INDEX:
+            self._reports[identifier & 7].index = word
             return None
-        if identifier in (_CAN_DIGEST, _CAN_DIGEST + 1):
-            return self._report(identifier & 1, word)
+        if identifier & ~7 == _CAN_DIGEST:
+            return self._report(identifier & 7, word)
         if identifier == _CAN_LINES + 1:
             return encode(DIGITAL_INPUTS, word & 0xFF, word >> 16, self._sequence(DIGITAL_INPUTS, word >> 8, 0xFF))
         if identifier == _CAN_HEARTBEAT + 1:
@@ -482,7 +484,7 @@ def _can_frame(identifier: int, word: int) -> bytes:
 
 
 _CAN_TO_CONTROLLER = frozenset(
-    [_CAN_INDEX, _CAN_INDEX + 1, _CAN_DIGEST, _CAN_DIGEST + 1]
+    [base + nth for base in (_CAN_INDEX, _CAN_DIGEST) for nth in range(len(AXES))]
     + [base + 1 for base in (_CAN_FAULT, _CAN_BYE, _CAN_LINES, _CAN_TIME, _CAN_LONG, _CAN_HEARTBEAT)]
 )
 
@@ -645,7 +647,7 @@ class Bench:
 
     def greet(
         self,
-        axes: tuple[str, ...] = AXES,
+        axes: tuple[str, ...] = ("y", "x"),
         exchange_ns: int = 1_000_000,
         tick_ns: int = 100_000,
         reference: bool = False,

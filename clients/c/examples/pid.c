@@ -16,28 +16,30 @@
 
 #include "towbench.h"
 
-static double metres_per_count[] = {2.24545e-6, 1.34727e-6};
-static double inertia[] = {0.13, 0.06}; /* duty per m/s2: the amplifier sets the current */
+static double metres_per_count[TB_AXES] = {2.24545e-6, 1.34727e-6};
+static double inertia[TB_AXES] = {0.13, 0.06}; /* duty per m/s2: the amplifier sets the current */
 static double proportional = 4600.0, integral = 20000.0, derivative = 120.0; /* m/s2 per m, ... */
 static double filter = 0.5, largest_error = 0.01, brake = 20.0;
 /* More than friction takes, and no way made. */
 static double stall_duty = 0.06, stall_counts = 2, stall_s = 0.04;
 static const struct {
   const char* name;
-  double* value[TB_AXES];
+  double* value;
+  int is_per_axis;
 } settings[] = {
-    {"metres_per_count", {&metres_per_count[0], &metres_per_count[1]}},
-    {"inertia", {&inertia[0], &inertia[1]}},
-    {"proportional", {&proportional, &proportional}},
-    {"integral", {&integral, &integral}},
-    {"derivative", {&derivative, &derivative}},
-    {"brake", {&brake, &brake}},
-    {"filter", {&filter, &filter}},
-    {"largest_error", {&largest_error, &largest_error}},
-    {"stall_duty", {&stall_duty, &stall_duty}},
-    {"stall_counts", {&stall_counts, &stall_counts}},
-    {"stall_s", {&stall_s, &stall_s}},
+    {"metres_per_count", metres_per_count, 1},
+    {"inertia", inertia, 1},
+    {"proportional", &proportional, 0},
+    {"integral", &integral, 0},
+    {"derivative", &derivative, 0},
+    {"brake", &brake, 0},
+    {"filter", &filter, 0},
+    {"largest_error", &largest_error, 0},
+    {"stall_duty", &stall_duty, 0},
+    {"stall_counts", &stall_counts, 0},
+    {"stall_s", &stall_s, 0},
 };
+static const char kAxes[] = "yxzabc";
 static const double kPeriod_s = 1e-3;
 static const int kSilence_ms = 1000, kSpins = 32, kMostWithout = 1024;
 
@@ -78,7 +80,8 @@ static double braking_duty(const pid* loop, const tb_bench* bench, int axis) {
 }
 
 static const char* reason_to_stop(const pid* loops, const tb_bench* bench) {
-  const uint16_t halls = TB_HALL_Y_MIN | TB_HALL_Y_MAX | TB_HALL_X_MIN | TB_HALL_X_MAX;
+  const uint16_t halls =
+      TB_HALL_Y_MIN | TB_HALL_Y_MAX | TB_HALL_X_MIN | TB_HALL_X_MAX | TB_FURTHER_HALLS;
   if (bench->lines & TB_KILL_SWITCH) return "kill switch";
   if (bench->lines & halls) return "end-stop";
   if (bench->counts.sequence_gaps) return "a message was lost";
@@ -176,13 +179,16 @@ static int open_line(const char* address) {
   return -1;
 }
 
-/* A word NAME=VALUE of the command line. 0 when there is no such setting. */
+/* A word NAME=VALUE of the command line, or AXIS.NAME=VALUE. 0 when there is no such setting. */
 static int set(const char* word) {
+  const char* of = word[0] != 0 && word[1] == '.' ? strchr(kAxes, word[0]) : NULL;
+  if (of != NULL) word += 2;
   for (size_t i = 0; i < sizeof settings / sizeof settings[0]; ++i) {
     const size_t size = strlen(settings[i].name);
     if (strncmp(word, settings[i].name, size) != 0 || word[size] != '=') continue;
-    for (int axis = 0; axis < TB_AXES; ++axis) {
-      *settings[i].value[axis] = strtod(word + size + 1, NULL);
+    if (of != NULL && !settings[i].is_per_axis) return 0;
+    for (int axis = 0; axis < (settings[i].is_per_axis ? TB_AXES : 1); ++axis) {
+      if (of == NULL || axis == of - kAxes) settings[i].value[axis] = strtod(word + size + 1, NULL);
     }
     return 1;
   }
@@ -195,7 +201,8 @@ int main(int argc, char** argv) {
   const char* stopped = NULL;
   int killed = 0, brakes = 0;
   const char* axes = argc >= 3 ? argv[2] : "yx";
-  const uint8_t mask = (uint8_t)((strchr(axes, 'y') != NULL) | (strchr(axes, 'x') != NULL) << 1);
+  uint8_t mask = 0;
+  for (int i = 0; i < TB_AXES; ++i) mask |= (uint8_t)((strchr(axes, kAxes[i]) != NULL) << i);
   for (int i = 3; i < argc; ++i) {
     if (!set(argv[i])) return fprintf(stderr, "%s: given an unknown setting\n", argv[i]), 2;
   }

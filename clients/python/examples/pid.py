@@ -1,13 +1,13 @@
-"""A PID position controller: python3 pid.py ADDRESS [AXES [NAME=VALUE ...]], AXES one of yx (the default), y, x"""
+"""A PID position controller: python3 pid.py ADDRESS [AXES [NAME=VALUE ...]], AXES of yxzabc, yx if not told"""
 
 import sys
 
 sys.path.insert(1, sys.path[0] + "/..")
 import towbench  # noqa: E402
 
-# Of the tow tank, inertia in duty per m/s2. NAME=VALUE: of another machine, on all its axes; rad for m where it turns.
+# Of the tow tank, inertia in duty per m/s2. NAME=VALUE: of another machine, AXIS.NAME=VALUE of one axis; rad for m where it turns.
 SETTINGS = {
-    **{"y.metres_per_count": 2.24545e-6, "x.metres_per_count": 1.34727e-6, "y.inertia": 0.13, "x.inertia": 0.06},
+    **{"metres_per_count": 2.24545e-6, "inertia": 0.13, "x.metres_per_count": 1.34727e-6, "x.inertia": 0.06},
     **{"proportional": 4600.0, "integral": 20000.0, "derivative": 120.0},  # m/s2 per m, per m s, per m/s
     **{"brake": 20.0, "filter": 0.5, "largest_error": 0.01},  # m/s2 per m/s, share of the newest slope, m
     **{"stall_duty": 0.06, "stall_counts": 2.0, "stall_s": 0.04},  # more than friction takes, and no way made
@@ -16,7 +16,7 @@ SETTINGS = {
 
 class Pid:
     def __init__(self, axis: str) -> None:
-        vars(self).update({name.removeprefix(axis + "."): value for name, value in SETTINGS.items()})
+        vars(self).update({name: SETTINGS.get(f"{axis}.{name}", value) for name, value in SETTINGS.items()})
         self.axis, self.still_count, self.count_before, self.stalled_s = axis, 0, 0, 0.0
         self.summed = self.slope = self.error_before = 0.0
 
@@ -45,9 +45,9 @@ class Pid:
 def main() -> None:
     axes = tuple(sys.argv[2]) if len(sys.argv) > 2 else ("y", "x")
     for name, _, value in (word.partition("=") for word in sys.argv[3:]):
-        named = [key for key in SETTINGS if key in (name, f"y.{name}", f"x.{name}")]
-        named = named or sys.exit(f"{name}: given an unknown setting; allowed: {', '.join(SETTINGS)}")
-        SETTINGS.update(dict.fromkeys(named, float(value)))
+        known = (name[2:] if name[:1] in towbench.AXES and name[1:2] == "." else name) in SETTINGS
+        SETTINGS.pop(f"x.{name}", None)
+        SETTINGS[name] = float(value) if known else sys.exit(f"{name}: given an unknown setting; allowed: {', '.join(SETTINGS)}")
     bench = towbench.connect(sys.argv[1])
     bench.greet(reference=True, resets=True, axes=axes)
     bench.enable(*axes)
