@@ -13,7 +13,7 @@ export interface Figure {
   id: string;
   title: string;
   unit: string; // SI, or "%", or "" for a count
-  axis: string; // "y", "x" or "": whose events and states it shows
+  axis: string; // "y" or another axis, or "": whose events and states it shows
   curves: Curve[];
   held: boolean; // a value holds until the next: drawn in steps where single ticks can be told apart
   zero: boolean; // zero belongs to the scale
@@ -136,7 +136,7 @@ export function axisFigures(run: RunData, axis: string): Figure[] {
 
 // Every other column, one plot each: those of a force sensor, say.
 export function otherFigures(run: RunData): Figure[] {
-  const known = /^(time_s|fault|[xy]_.*)$/;
+  const known = /^(time_s|fault|[yxzabc]_.*)$/;
   return [...run.table.columns]
     .filter(([name]) => !known.test(name))
     .map(([name, values]) => ({

@@ -14,6 +14,10 @@ import { addPath, hasPath } from "./xy_path";
 const axisTitles: Record<string, string> = {
   y: "Y axis, along the tank",
   x: "X axis, across the tank",
+  z: "Z axis",
+  a: "A axis",
+  b: "B axis",
+  c: "C axis",
 };
 
 function addHeading(host: HTMLElement, text: string): void {
@@ -50,7 +54,7 @@ function addRun(host: HTMLElement, run: RunData): void {
   const group = new TimeGroup(`run-${host.dataset.run}`, time);
   if (hasPath(run.table)) addPath(host, run.table, group);
   addToolbar(host, group, run.windows);
-  for (const axis of ["y", "x"]) {
+  for (const axis of Object.keys(axisTitles)) {
     const figures = axisFigures(run, axis);
     if (figures.length === 0) continue;
     addHeading(host, axisTitles[axis]!);

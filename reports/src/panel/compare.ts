@@ -6,6 +6,7 @@ import { displayUnit, type DisplayUnit, readable, readableWithUnit } from "../un
 import { loadText } from "./catalogue";
 import { column, type Log, parseLog } from "./csv";
 import { figure } from "./figure";
+import { axisNames } from "./wire";
 
 interface Metric {
   name: string;
@@ -103,7 +104,7 @@ export async function compare(host: HTMLElement, names: [string, string]): Promi
     const logs = (await Promise.all(names.map((name) => loadText(`/runs/${name}/log.csv`)))).map((text) => parseLog(text, mostPoints));
     const metrics = await Promise.all(names.map(async (name) => JSON.parse(await loadText(`/runs/${name}/metrics.json`)).metrics as Metric[]));
     host.replaceChildren(element("h2", "", "Compared"));
-    for (const axis of ["y", "x"]) {
+    for (const axis of axisNames.filter((one) => logs.some((log) => log.columns.has(`${one}_duty_pct`)))) {
       host.append(
         plot(`${axis.toUpperCase()} tracking error`, "mm", names, logs, axis, "error"),
         plot(`${axis.toUpperCase()} duty`, "%", names, logs, axis, "duty"),

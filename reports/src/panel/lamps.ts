@@ -1,15 +1,15 @@
 // How things stand, in words.
 import { element, setText } from "../dom";
 import { readable } from "../units";
-import { faultColumn, linesColumn, logColumns, type State } from "./wire";
+import { axisNames, endStopBit, faultColumn, furtherAxes, linesColumn, logColumns, type AxisName, type State } from "./wire";
 
 const modes = ["no drive", "open loop", "position", "velocity", "braking", "latched fault"];
-const inputs = ["Y min", "Y max", "X min", "X max"];
 const killBit = 4;
 const readyBits: [string, number][] = [
   ["Y", 5],
   ["X", 6],
 ];
+const furtherReadyBit = 15; // of all further axes in series
 const y = logColumns("y");
 const x = logColumns("x");
 
@@ -19,12 +19,7 @@ export class Lamps {
 
   constructor() {
     for (const name of ["Run", "Virtual time", "Y", "X", "Fault", "Kill switch", "End-stops", "Amplifiers", "Duty", "Carrier", "Not shown"]) {
-      const box = element("div");
-      const value = element("dd", "", "none");
-      value.dataset.lamp = name;
-      box.append(element("dt", "", name), value);
-      this.list.append(box);
-      this.values.set(name, { box, value });
+      this.add(name);
     }
   }
 
@@ -40,13 +35,38 @@ export class Lamps {
     const lines = truth?.[linesColumn] ?? 0;
     const killed = ((lines >> killBit) & 1) === 1;
     this.set("Kill switch", killed ? "pressed" : "released", killed);
-    const tripped = inputs.filter((_, bit) => (lines >> bit) & 1);
+    const tripped = axisNames.flatMap((axis) => ["min", "max"].filter((_, end) => (lines >> (endStopBit(axis) + end)) & 1).map((end) => `${axis.toUpperCase()} ${end}`));
     this.set("End-stops", tripped.length === 0 ? "all free" : `${tripped.join(", ")} tripped`, tripped.length > 0);
-    const ready = readyBits.map(([name, bit]) => `${name} ${(lines >> bit) & 1 ? "ready" : "not ready"}`);
+    const further = furtherAxes.filter((axis) => state.limits?.[axis]?.exists);
+    const bits: typeof readyBits = further.length === 0 ? readyBits : [...readyBits, [further.join(" ").toUpperCase(), furtherReadyBit]];
+    const ready = bits.map(([name, bit]) => `${name} ${(lines >> bit) & 1 ? "ready" : "not ready"}`);
     this.set("Amplifiers", truth === null ? "none" : ready.join(", "), false);
-    this.set("Duty", row === null ? "none" : `${readable(row[y.duty] ?? 0)} / ${readable(row[x.duty] ?? 0)} %`, false);
+    const duties = [y, x, ...further.map(logColumns)].map((at) => readable(row?.[at.duty] ?? 0));
+    this.set("Duty", row === null ? "none" : `${duties.join(" / ")} %`, false);
+    this.showFurther(further, row);
     this.set("Carrier", state.clock === "real" ? "local socket, wall clock" : "in process, lockstep", false);
     this.set("Not shown", `${state.dropped} rows, ${missed} frames`, false);
+  }
+
+  // Behind the lamps that every machine has.
+  private showFurther(axes: AxisName[], row: (number | null)[] | null): void {
+    for (const axis of furtherAxes) {
+      const name = axis.toUpperCase();
+      if (axes.includes(axis) && !this.values.has(name)) this.add(name);
+      if (!this.values.has(name)) continue;
+      this.values.get(name)!.box.hidden = !axes.includes(axis);
+      const mode = row?.[logColumns(axis).mode] ?? 0;
+      this.set(name, modes[mode] ?? "unknown", mode >= 4);
+    }
+  }
+
+  private add(name: string): void {
+    const box = element("div");
+    const value = element("dd", "", "none");
+    value.dataset.lamp = name;
+    box.append(element("dt", "", name), value);
+    this.list.append(box);
+    this.values.set(name, { box, value });
   }
 
   private set(name: string, text: string, on: boolean): void {

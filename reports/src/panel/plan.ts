@@ -24,7 +24,7 @@ export interface PlanPose {
   xForce_N: number;
   sensor_N: { y: number; x: number } | null; // null: the rig has none
   isTruth: boolean; // y and x; else where the controller takes the motor side to be
-  lines: number; // hall Y min, Y max, X min, X max by bit
+  lines: number; // by bit: end-stops at min and max of y, then of x
 }
 
 export class Plan {
@@ -42,7 +42,8 @@ export class Plan {
   private readonly caption = element("figcaption", "help");
   private halls: SVGElement[] = [];
 
-  constructor() {
+  // `name`: of the axis that stands in y's place where it is drawn alone.
+  constructor(private readonly name = "Y") {
     this.svg.setAttribute("class", "plan");
     this.svg.setAttribute("role", "img");
     this.svg.setAttribute("aria-label", "Where the machine is");
@@ -132,7 +133,7 @@ export class Plan {
     }
     const degrees = ((pose.y_m * 180) / Math.PI).toFixed(1);
     const whose = pose.isTruth ? "truth" : "as the controller has it";
-    setText(this.caption, `Y at ${degrees}° (${whose}), 0 hangs; ring: reference; dashed: end-stops; solid: hard ends`);
+    setText(this.caption, `${this.name} at ${degrees}° (${whose}), 0 is down; ring: reference; dashed: end-stops; solid: hard ends`);
   }
 
   private vertical(name: string, y_m: number, top: number, bottom: number): SVGElement {
@@ -165,7 +166,7 @@ export class Plan {
     this.sensor.show(x, y, pose.sensor_N?.y ?? 0, pose.sensor_N?.x ?? 0);
     setText(
       this.caption,
-      (this.limits.x.exists ? "Y right, X up; bar, dot: carriage, end-effector " : "Y right; bar and dot: the load ") +
+      (this.limits.x.exists ? "Y right, X up; bar, dot: carriage, end-effector " : `${this.name} right; bar and dot: the load `) +
         (pose.isTruth ? "(truth)" : "(as the controller has it)") +
         "; ring: reference; arrow: drive's force" +
         (pose.sensor_N === null ? "" : "; dotted: sensor's") +

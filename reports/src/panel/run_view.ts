@@ -3,7 +3,7 @@ import { element } from "../dom";
 import { loadCatalogue } from "./catalogue";
 import { ConsoleBox } from "./console_box";
 import { EventList } from "./event_list";
-import { labelled, select } from "./form";
+import { labelled, select, setOptions } from "./form";
 import { Histogram } from "./histogram";
 import { History } from "./history";
 import { Lamps } from "./lamps";
@@ -13,7 +13,7 @@ import { Scope } from "./scope";
 import { logSpecs, truthSpecs } from "./scope_specs";
 import { StartForm } from "./start_form";
 import { SteeringBar } from "./steering_bar";
-import { type AxisName, type Frame, linesColumn, logColumns, rowWidth, type State, truthColumns, truthWidth } from "./wire";
+import { type AxisName, axisNames, endStopBit, type Frame, furtherAxes, type Limits, linesColumn, logColumns, rowWidth, type State, truthColumns, truthWidth } from "./wire";
 
 const shown_s = 20; // harness/panel/frames.h sends no more
 const stale_s = 0.1; // truth that is older than this does not say where the carriage is now
@@ -37,10 +37,10 @@ export class RunView {
   private readonly trouble = element("p", "trouble");
   private readonly result = element("div", "note");
   private readonly scopesHost = element("div", "scopes");
-  private readonly axis = select([
-    ["y", "Y axis"],
-    ["x", "X axis"],
-  ]);
+  private readonly axis = select([]);
+  private axes = ""; // that it offers
+  private readonly plans = element("div");
+  private readonly furtherPlans = new Map<AxisName, Plan>();
   private logScopes: Scope[] = [];
   private truthScopes: Scope[] = [];
   private scopesOf = ""; // what they were made for
@@ -64,7 +64,7 @@ export class RunView {
     this.result.id = "result";
     const help = element("p", "help", "Keys, outside of fields: K presses and releases the kill switch, space pauses, S steps.");
     const left = element("div", "column");
-    left.append(this.card("Machine", this.plan.box), this.card("State", this.lamps.list), this.console.box, this.events.box);
+    left.append(this.card("Machine", this.plans), this.card("State", this.lamps.list), this.console.box, this.events.box);
     const scopes = element("section", "card");
     scopes.append(labelled(`Last ${shown_s} s of virtual time`, this.axis), this.scopesHost);
     const right = element("div", "column");
@@ -73,6 +73,8 @@ export class RunView {
     desk.append(left, right);
     host.append(this.start.box, this.bar.box, this.trouble, this.result, desk, help);
     this.axis.addEventListener("change", () => this.draw());
+    this.plans.append(this.plan.box);
+    this.showAxes(["y", "x"]);
     this.makeScopes();
     loadCatalogue().then(
       (catalogue) => {
@@ -131,7 +133,7 @@ export class RunView {
     this.result.dataset.run = `${this.number}`; // the run that is shown
     this.bar.show(state);
     this.lamps.show(state, row, truth, this.missed);
-    if (state.limits !== undefined) this.plan.setLimits(state.limits);
+    if (state.limits !== undefined) this.setLimits(state.limits);
     if (row !== null) this.showPlan(row, truth);
     this.makeScopes();
     for (const scope of this.logScopes) scope.show(this.log.columns);
@@ -141,8 +143,52 @@ export class RunView {
     this.showResult(state);
   }
 
+  private setLimits(limits: Limits): void {
+    this.plan.box.hidden = !limits.y.exists && !limits.x.exists;
+    this.plan.setLimits(limits);
+    for (const axis of furtherAxes) {
+      const own = limits[axis];
+      let plan = this.furtherPlans.get(axis);
+      if (own !== undefined && plan === undefined) {
+        plan = new Plan(axis.toUpperCase());
+        this.furtherPlans.set(axis, plan);
+        this.plans.append(plan.box);
+      }
+      if (plan !== undefined) plan.box.hidden = own === undefined;
+      if (own !== undefined) plan?.setLimits({ y: own, x: { ...own, exists: false } });
+    }
+    this.showAxes(axisNames.filter((axis) => limits[axis]?.exists));
+  }
+
+  private showAxes(axes: AxisName[]): void {
+    if (axes.join("") === this.axes) return;
+    const before = this.axis.value as AxisName;
+    this.axes = axes.join("");
+    setOptions(this.axis, axes.map((axis) => [axis, `${axis.toUpperCase()} axis`]));
+    if (axes.includes(before)) this.axis.value = before;
+  }
+
+  private showFurtherPlans(row: (number | null)[], truth: (number | null)[] | null, isTruth: boolean): void {
+    for (const [axis, plan] of this.furtherPlans) {
+      const at = logColumns(axis);
+      const trueAt = truthColumns(axis);
+      plan.show({
+        y_m: (isTruth ? truth?.[trueAt.position] : row[at.position]) ?? 0,
+        x_m: 0,
+        yReference_m: row[at.reference] ?? 0,
+        xReference_m: 0,
+        yForce_N: truth?.[trueAt.force] ?? 0,
+        xForce_N: 0,
+        sensor_N: null,
+        isTruth,
+        lines: ((truth?.[linesColumn] ?? 0) >> endStopBit(axis)) & 3,
+      });
+    }
+  }
+
   private showPlan(row: (number | null)[], truth: (number | null)[] | null): void {
     const isTruth = truth !== null && (truth[0] ?? 0) > (row[0] ?? 0) - stale_s;
+    this.showFurtherPlans(row, truth, isTruth);
     const force = [row[y.force], row[x.force]];
     this.plan.show({
       y_m: (isTruth ? truth[trueY.position] : row[y.position]) ?? 0,

@@ -65,7 +65,7 @@ export function logSpecs(axis: AxisName, followed: Estimator, hasForce: boolean,
     },
     { title: "Velocity less reference", unit: `m${length}/s`, lines: estimates(axis, followed, lessReference) },
     { title: "Duty", unit: "%", lines: [{ label: "duty", role: "measured", of: (c) => c[at.duty]! }] },
-    ...(hasForce ? [force] : []),
+    ...(hasForce && (axis === "y" || axis === "x") ? [force] : []),
   ];
 }
 

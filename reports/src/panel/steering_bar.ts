@@ -3,12 +3,12 @@ import { element, setText } from "../dom";
 import type { Catalogue, FaultKind } from "./catalogue";
 import { button, labelled, select, setOptions, textField } from "./form";
 import { speedSelect } from "./start_form";
-import type { State } from "./wire";
+import { type AxisName, axisNames, type State } from "./wire";
 
 type Send = (message: Record<string, unknown>) => void;
 
 const killFault = "kill_switch pressed";
-const endStops = ["y_min", "y_max", "x_min", "x_max"];
+const endStops = axisNames.flatMap((axis) => [`${axis}_min`, `${axis}_max`]);
 
 export class SteeringBar {
   readonly box = element("section");
@@ -30,6 +30,7 @@ export class SteeringBar {
   private readonly always: HTMLButtonElement[];
   private catalogue: Catalogue | null = null;
   private state: State | null = null;
+  private placesOf = ""; // axes
 
   constructor(private readonly send: Send) {
     this.kill.id = "kill";
@@ -76,12 +77,25 @@ export class SteeringBar {
 
   setCatalogue(catalogue: Catalogue): void {
     this.catalogue = catalogue;
-    setOptions(this.place, catalogue.places.map(({ name }) => [name, name]));
+    this.showPlaces();
+  }
+
+  // Parts of axes that the machine of the last run has; before there is one, those of y and x.
+  private showPlaces(): void {
+    const limits = this.state?.limits;
+    const has = (axis: AxisName) => (limits === undefined ? axis === "y" || axis === "x" : limits[axis]?.exists ?? false);
+    const shown = axisNames.filter(has).join("");
+    if (shown === this.placesOf || this.catalogue === null) return;
+    this.placesOf = shown;
+    const isShown = (name: string) => !/\.[yxzabc](_|$)/.test(name) || shown.includes(name.split(".")[1]![0]!);
+    setOptions(this.place, this.catalogue.places.filter(({ name }) => isShown(name)).map(({ name }) => [name, name]));
+    this.stops.forEach((one, i) => (one.hidden = !shown.includes(endStops[i]![0]!)));
     this.showKinds();
   }
 
   show(state: State): void {
     this.state = state;
+    this.showPlaces();
     const running = state.phase === "running";
     // A clock that does not wait: what is typed, and the end.
     const lockstep = state.clock === "lockstep";

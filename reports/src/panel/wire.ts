@@ -11,6 +11,8 @@ export interface AxisLimits {
   turns: boolean; // read rad for m
 }
 
+export type Limits = { y: AxisLimits; x: AxisLimits } & Partial<Record<AxisName, AxisLimits>>;
+
 export type Estimator = "frequency" | "period" | "hybrid";
 
 export interface State {
@@ -29,8 +31,8 @@ export interface State {
   holds?: boolean;
   broken?: string[];
   trouble?: string;
-  limits?: { y: AxisLimits; x: AxisLimits };
-  followed?: { y: Estimator; x: Estimator }; // by the control law
+  limits?: Limits; // y, x, and the further axes that the machine has
+  followed?: Partial<Record<AxisName, Estimator>>; // by the control law
   exchange_us_bins?: number[];
 }
 
@@ -45,19 +47,36 @@ export interface BenchEvent {
   lines?: number;
 }
 
+export type AxisName = "y" | "x" | "z" | "a" | "b" | "c";
+export const furtherAxes: AxisName[] = ["z", "a", "b", "c"];
+export const axisNames: AxisName[] = ["y", "x", ...furtherAxes];
+
 // Columns of a row: time, then of y and of x what logColumns names, then the fault and the force
-// sensor's y and x.
-export const rowWidth = 22;
+// sensor's y and x; of a machine with further axes, then the same of each of these.
+const ofFurther = 22;
+const perAxis = 9;
+export const rowWidth = ofFurther + perAxis * furtherAxes.length;
 export const faultColumn = 19;
-// Columns of a truth row: time, then of y and of x what truthColumns names, then the input lines.
-export const truthWidth = 10;
+// Columns of a truth row: time, then of y and of x what truthColumns names, then the input lines;
+// of a machine with further axes, then the same of each of these.
+const truthOfFurther = 10;
+const truthPerAxis = 4;
+export const truthWidth = truthOfFurther + truthPerAxis * furtherAxes.length;
 export const linesColumn = 9;
 
-export type AxisName = "y" | "x";
-export const axisNames: AxisName[] = ["y", "x"];
+function firstColumn(axis: AxisName, further: number, each: number): number {
+  if (axis === "y") return 1;
+  return axis === "x" ? 1 + each : further + each * furtherAxes.indexOf(axis);
+}
+
+// The bit of an axis' end-stop at min among the input lines; that at max is the next.
+export function endStopBit(axis: AxisName): number {
+  if (axis === "y") return 0;
+  return axis === "x" ? 2 : 7 + 2 * furtherAxes.indexOf(axis);
+}
 
 export function logColumns(axis: AxisName) {
-  const first = axis === "y" ? 1 : 10;
+  const first = firstColumn(axis, ofFurther, perAxis);
   return {
     reference: first,
     position: first + 1,
@@ -68,12 +87,12 @@ export function logColumns(axis: AxisName) {
     frequency: first + 6,
     period: first + 7,
     hybrid: first + 8,
-    force: axis === "y" ? 20 : 21,
+    force: axis === "y" ? 20 : 21, // of y and x alone
   };
 }
 
 export function truthColumns(axis: AxisName) {
-  const first = axis === "y" ? 1 : 5;
+  const first = firstColumn(axis, truthOfFurther, truthPerAxis);
   return { position: first, speed: first + 1, current: first + 2, force: first + 3 };
 }
 
