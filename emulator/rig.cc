@@ -231,7 +231,7 @@ void Rig::expose_frame() noexcept {
 
 // The amplifiers notice the supply at the end of the tick: its last nanosecond.
 void Rig::update_ready_lines() noexcept {
-  for (const Axis which : {Axis::kY, Axis::kX}) {
+  for (const Axis which : core::kPlanarAxes) {
     if (axes_[which]) {
       (void)changes_.push_back({now_ns_ - 1, protocol::ready_line(which), supply_.ready()});
     }

@@ -35,13 +35,13 @@ author "towbench";
 static char *address = "";
 RTAPI_MP_STRING(address, "where the bench waits: local:PATH");
 
-enum { SILENCE_MS = 2000 };
+enum { SILENCE_MS = 2000, CHANNELS = 2 };
 static tb_bench bench;
 static int line = -1;
-static int over, asked[TB_AXES], enabled = -1;
+static int over, asked[CHANNELS], enabled = -1;
 static int64_t moves_since_ns = -1;
-static int64_t zero[TB_AXES];
-static uint32_t pulses[TB_AXES];
+static int64_t zero[CHANNELS];
+static uint32_t pulses[CHANNELS];
 
 static int open_line(void) {
   struct sockaddr_un place = {.sun_family = AF_UNIX};
@@ -104,7 +104,7 @@ static void finish(void) {
 
 static int reference_moves(void) {
   int moves = 0;
-  for (int i = 0; i < TB_AXES; ++i) {
+  for (int i = 0; i < CHANNELS; ++i) {
     const tb_reference *reference = &bench.axis[i].reference;
     moves |= reference->velocity_m_per_s != 0 || reference->acceleration_m_per_s2 != 0;
   }
@@ -116,7 +116,7 @@ FUNCTION(inputs) {
   static const uint16_t at_max[] = {TB_HALL_Y_MAX, TB_HALL_X_MAX};
   static const uint16_t ready[] = {TB_READY_Y, TB_READY_X};
   if (!over && !takes_turn(period)) finish();
-  for (int i = 0; i < TB_AXES; ++i) {
+  for (int i = 0; i < CHANNELS; ++i) {
     const tb_axis *axis = &bench.axis[i];
     if (index_enable(i) && !asked[i]) pulses[i] = axis->index_pulses;
     if (index_enable(i) && axis->index_pulses != pulses[i]) {
@@ -143,7 +143,7 @@ FUNCTION(inputs) {
 FUNCTION(outputs) {
   int mask = 0;
   if (over) return;
-  for (int i = 0; i < TB_AXES; ++i) {
+  for (int i = 0; i < CHANNELS; ++i) {
     mask |= enable(i) ? 1 << i : 0;
     tb_drive(&bench, i, enable(i) ? duty(i) : 0.0, enable(i));
   }

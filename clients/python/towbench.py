@@ -631,7 +631,7 @@ class Bench:
     now_ns: int = 0
     exchange_ns: int = 1_000_000
     lines: int = 0
-    axes: dict[str, Axis] = field(default_factory=lambda: {name: Axis() for name in AXES})
+    axes: dict[str, Axis] = field(default_factory=dict)  # of those that were greeted with
     faults: list[Fields] = field(default_factory=list)  # number, time, detail: what the bench refused
     gives_reference: bool = False
     reset: bool = False  # in this turn the operator asked to leave the safe state
@@ -656,7 +656,7 @@ class Bench:
         version: int = VERSION,
     ) -> None:
         """Agrees with the bench and hears the first inputs. BenchError says why it was refused."""
-        self.exchange_ns = exchange_ns
+        self.exchange_ns, self.axes = exchange_ns, {name: Axis() for name in axes}
         mask = sum(1 << AXES.index(name) for name in axes)
         edges = edges and not isinstance(self.framing, CanFraming)
         wanted = (EDGES if edges else DIGEST) | REFERENCE * reference | RESETS * resets
@@ -737,18 +737,18 @@ class Bench:
             self.counts.bad_field += 1
             return 0
         if kind == ENCODER_REPORT:
-            axis = self.axes[AXES[fields[0]]]
+            axis = self._axis(fields[0])
             self._check_sequence(axis, fields[9])
             axis.count += fields[3]
             axis.illegal_transitions += fields[8]
             if fields[7]:
                 axis.index_count = fields[6]
         elif kind == REFERENCE_POINT:
-            self.axes[AXES[fields[0]]].reference = Reference(*fields[2:])
+            self._axis(fields[0]).reference = Reference(*fields[2:])
         elif kind == ADVANCED:
             self.now_ns = fields[0]
         elif kind == ENCODER_EDGES:
-            self._count_edges(self.axes[AXES[fields[0]]], fields, edges)
+            self._count_edges(self._axis(fields[0]), fields, edges)
         elif kind == DIGITAL_INPUTS:
             self.lines = fields[0]
         elif kind == RESET:
@@ -756,10 +756,13 @@ class Bench:
         elif kind == FAULT:
             self.faults.append(fields)
         elif kind == CURRENT_SAMPLE:
-            self.axes[AXES[fields[0]]].current_A = fields[2]
+            self._axis(fields[0]).current_A = fields[2]
         elif kind == HELLO_REPLY:
             self._reply = fields
         return kind
+
+    def _axis(self, number: int) -> Axis:
+        return self.axes.setdefault(AXES[number], Axis())
 
     def _check_sequence(self, axis: Axis, sequence: int) -> None:
         if axis._sequence is not None and sequence != axis._sequence + 1 & 0xFFFFFFFF:
