@@ -61,11 +61,13 @@ void WebClient::heard(beast::error_code error) {
   const auto refusal =
       on_message_(std::string_view(static_cast<const char*>(bytes.data()), bytes.size()));
   buffer_.consume(buffer_.size());
+  // Each message has an answer: who gets none knows that it may not have been heard.
+  nlohmann::json told = {{"kind", refusal.empty() ? "heard" : "refused"}};
   if (!refusal.empty()) {
-    const nlohmann::json told = {{"kind", "refused"}, {"why", refusal}};
-    queue(std::make_shared<const std::string>(
-        told.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace)));
+    told["why"] = refusal;
   }
+  queue(std::make_shared<const std::string>(
+      told.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace)));
   if (!ended_) {
     read();
   }

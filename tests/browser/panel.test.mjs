@@ -12,7 +12,7 @@ import { driveController } from "./panel_controller.mjs";
 import { driveRuns } from "./panel_drive.mjs";
 import { lookAtIt } from "./panel_looks.mjs";
 import { behaveBadly, lockOut, sleepAtIt } from "./panel_strangers.mjs";
-import { Checks, endRun, listen, Person, standing, startPanel, statusOf } from "./panel_support.mjs";
+import { Checks, endRun, listen, overhear, Person, standing, startPanel, statusOf } from "./panel_support.mjs";
 
 const [bench, root, work, shots] = process.argv.slice(2);
 if (!shots) {
@@ -34,7 +34,8 @@ await withBrowser(async (context) => {
   const page = await context.newPage();
   // Generous: a test that only fails on a busy machine says nothing about the page.
   page.setDefaultTimeout(Number(process.env.TOWBENCH_PATIENCE_MS ?? 180_000));
-  checks.look = () => standing(page);
+  const sent = await overhear(page);
+  checks.look = () => standing(page, sent);
   checks.recover = () => endRun(page);
   const noise = listen(page, origin);
   await page.setViewportSize({ width: 1440, height: 1100 });

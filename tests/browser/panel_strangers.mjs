@@ -60,6 +60,30 @@ export async function behaveBadly({ checks, person, page, context, origin, hostn
     await page.waitForFunction(() => window.answers.filter((text) => text.includes("refused")).length === 9);
   });
 
+  await checks.run("a command that is carried out is answered, and one that no answer came to is told", async () => {
+    await person.start("circle", "0.1", { hold: true, limit_s: 600 });
+    await page.evaluate(() => {
+      window.answers = [];
+      const socket = new WebSocket(`ws://${location.host}/live`);
+      socket.onmessage = (event) => window.answers.push(event.data);
+      socket.onopen = () => socket.send('{"do":"pause"}');
+    });
+    await page.waitForFunction(() => window.answers.includes('{"kind":"heard"}'));
+    await page.click("#finish");
+    await person.over();
+    const other = await context.newPage();
+    await other.routeWebSocket(/live/, (socket) => {
+      const bench = socket.connectToServer();
+      socket.onMessage(() => socket.close()); // and the bench never hears it
+      bench.onMessage((text) => socket.send(text));
+    });
+    await other.goto(origin);
+    await other.waitForFunction(() => document.documentElement.dataset.panel === "ready" && document.getElementById("connection").textContent === "connected");
+    await other.click("#start");
+    await other.waitForFunction(() => /may not have heard: start/.test(document.querySelector(".trouble[role=alert]").textContent));
+    await other.close();
+  });
+
   await checks.run("one that reads nothing, a closed laptop, is let go; the others see on", async () => {
     // Longer than the laptop stays closed, at ten times the wall clock's speed.
     await person.start("circle", "10", { hold: true, limit_s: 3000 });

@@ -49,8 +49,27 @@ export function startPanel(bench, root, runs, options = []) {
   return { child, address };
 }
 
+// The last commands that the page has sent, and what was clicked last: listened to from before the page opens.
+export async function overhear(page) {
+  const sent = [];
+  page.on("websocket", (socket) =>
+    socket.on("framesent", ({ payload }) => {
+      sent.push(String(payload));
+      sent.splice(0, sent.length - 3);
+    }),
+  );
+  await page.addInitScript(() => {
+    window.clicked = [];
+    addEventListener("click", ({ target }) => window.clicked.push(target.id || target.textContent), true);
+  });
+  return sent;
+}
+
 // How things stand with the page, in a line.
-export const standing = (page) =>
+export const standing = async (page, sent) =>
+  `${await stands(page)}; sent: ${sent.join(" ")}; clicked: ${await page.evaluate(() => window.clicked.slice(-3).join(", "))}`;
+
+const stands = (page) =>
   page.evaluate(async () => {
     const drawn = await new Promise((done) => {
       requestAnimationFrame(() => done("it draws"));

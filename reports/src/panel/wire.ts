@@ -105,7 +105,7 @@ export interface Frame {
   console: string;
 }
 
-type Message = Frame | { kind: "refused"; why: string } | { kind: "missed"; frames: number };
+type Message = Frame | { kind: "heard" } | { kind: "refused"; why: string } | { kind: "missed"; frames: number };
 
 export interface Listener {
   onFrame(frame: Frame): void;
@@ -116,14 +116,17 @@ export interface Listener {
 
 export class Wire {
   private socket: WebSocket | null = null;
+  private readonly unanswered: string[] = []; // commands, in order
 
   constructor(private readonly listener: Listener) {
     this.connect();
   }
 
   send(message: Record<string, unknown>): void {
-    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
-    else this.listener.onRefused("not connected: the bench did not hear that");
+    if (this.socket?.readyState === WebSocket.OPEN) {
+      this.socket.send(JSON.stringify(message));
+      this.unanswered.push(String(message.do));
+    } else this.listener.onRefused("not connected: the bench did not hear that");
   }
 
   private connect(): void {
@@ -132,14 +135,23 @@ export class Wire {
     socket.onmessage = (event) => this.hear(JSON.parse(String(event.data)) as Message);
     socket.onclose = () => {
       this.listener.onConnection("lost");
+      const unheard = this.unanswered.splice(0);
+      if (unheard.length > 0) this.listener.onRefused(`the connection broke: the bench may not have heard: ${unheard.join(", ")}`);
       setTimeout(() => this.connect(), 1500);
     };
     this.socket = socket;
   }
 
   private hear(message: Message): void {
-    if (message.kind === "frame") this.listener.onFrame(message);
-    else if (message.kind === "refused") this.listener.onRefused(message.why);
-    else this.listener.onMissed(message.frames);
+    if (message.kind === "frame") {
+      this.listener.onFrame(message);
+      return;
+    }
+    if (message.kind === "missed") {
+      this.listener.onMissed(message.frames);
+      return;
+    }
+    this.unanswered.shift();
+    if (message.kind === "refused") this.listener.onRefused(message.why);
   }
 }
