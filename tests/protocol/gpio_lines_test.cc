@@ -67,7 +67,7 @@ TEST_F(GpioLinesTest, TheAddressSaysWhereTheLinesAreAndHowLongTheyBounce) {
 TEST_F(GpioLinesTest, SeesEveryLineOfTheMachineAsItsOwnBit) {
   const auto controller = opened();
   const auto outside = machine();
-  for (unsigned bit = 0; bit < kInputLineCount; ++bit) {
+  for (unsigned bit = 0; bit < kWiredInputLines; ++bit) {
     ASSERT_TRUE(outside->write(static_cast<std::uint16_t>(1U << bit)).has_value());
     EXPECT_EQ(controller->read()->lines, 1U << bit);
   }
