@@ -34,6 +34,9 @@ Json shifted_limits(const Json& limits, const core::PerAxis<double>& offset_m) {
         shifted[name][key] = *limit + offset_m[axis];
       }
     }
+    if (const Json& turns = member(member(limits, name), "turns"); turns.is_boolean()) {
+      shifted[name]["turns"] = turns;
+    }
   }
   return shifted;
 }

@@ -52,12 +52,13 @@ function addRun(host: HTMLElement, run: RunData): void {
     );
   }
   const group = new TimeGroup(`run-${host.dataset.run}`, time);
-  if (hasPath(run.table)) addPath(host, run.table, group);
+  const isPlane = !run.limits.y?.turns && !run.limits.x?.turns;
+  if (isPlane && hasPath(run.table)) addPath(host, run.table, group);
   addToolbar(host, group, run.windows);
   for (const axis of Object.keys(axisTitles)) {
     const figures = axisFigures(run, axis);
     if (figures.length === 0) continue;
-    addHeading(host, axisTitles[axis]!);
+    addHeading(host, run.limits[axis]?.turns ? `${axis.toUpperCase()} axis` : axisTitles[axis]!);
     if (stoodStill(run.table, axis)) {
       host.append(
         missingNote("This axis neither moved nor was driven in this run, so it has no plots."),

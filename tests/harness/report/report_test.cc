@@ -133,6 +133,16 @@ TEST_F(Report, OfAKilledRunReadsWhatBothSidesLeft) {
                                    "No metric was computed for this run."});
 }
 
+// What the scripts draw in rad instead of metres.
+TEST_F(Report, TellsThePageWhichAxisTurns) {
+  test::write_synthetic_run(folder(), {.rows = 300});
+  EXPECT_EQ(page_of(folder()).find(R"("turns")"), std::string::npos);
+  auto result = test::synthetic_result({});
+  result["limits"]["y"]["turns"] = true;
+  test::write_text(folder() / "result.json", result.dump());
+  expect_parts(page_of(folder()), {R"("turns":true)"});
+}
+
 TEST_F(Report, SurvivesFilesOfTheWrongKind) {
   fs::create_directories(folder());
   test::write_text(folder() / "result.json", R"({"status": 3, "checks": {"a": 1}, "limits": [],
