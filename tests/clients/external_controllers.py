@@ -77,7 +77,8 @@ def serial_line() -> tuple:
 def comes_over_a_serial_line() -> None:
     ours, theirs = serial_line()
     out = work / "serial"
-    bench = subprocess.Popen([program, "run", TRAPEZOID, "--controller", f"external:serial:{ours}", "--no-report", "--quiet", "--out", str(out)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    bench = subprocess.Popen([program, "run", TRAPEZOID, "--controller", f"external:serial:{ours}", "--no-report", "--quiet", "--out", str(out)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    bench.stderr.readline()  # it is there: what is written to a line before somebody opens it is lost
     comes = subprocess.run([sys.executable, str(root / "clients/python/examples/pid.py"), f"serial:{theirs}"], capture_output=True, text=True, timeout=120)
     expect("one that comes over a serial line passes", (bench.wait(120), comes.returncode) == (0, 0), comes.stderr)
 
