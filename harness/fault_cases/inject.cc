@@ -137,15 +137,10 @@ class Injector {
         return hold_line(line,
                          parameter(0) > 0.5 ? WireCondition::kStuckHigh : WireCondition::kStuckLow);
       case kSwappedEnds:
-        return cross(line, FaultPlace{.part = FaultPart::kEndStop,
-                                      .axis = fault_.place.axis,
-                                      .at_max = !fault_.place.at_max}
-                               .hall_line());
+        return cross(line, protocol::hall_line(fault_.place.axis, !fault_.place.at_max));
       case kSwappedAxes:
-        return cross(line, FaultPlace{.part = FaultPart::kEndStop,
-                                      .axis = neighbour_of(fault_.place.axis),
-                                      .at_max = fault_.place.at_max}
-                               .hall_line());
+        return cross(line,
+                     protocol::hall_line(neighbour_of(fault_.place.axis), fault_.place.at_max));
       case kBounce:
         if (const auto edge_ns = next_edge_ns(line); edge_ns >= 0) {
           bounce(edge_ns, [&](core::Nanoseconds time_ns, bool away) {

@@ -60,11 +60,11 @@ def budget(metric: str, most: float, least: float = 0) -> str:
     return f'\n[[budget]]\nmetric = "{metric}"\nmin = {least}\nmax = {most}\nsource = "as the joint\'s"\n'
 
 
-def machine(name: str, axes: str, more_rig: str = "", more_plant: str = "") -> Path:
+def machine(name: str, axes: str, more_rig: str = "") -> Path:
     folder = work / name
     folder.mkdir()
     plant = of_axes((joint / "plant.toml").read_text(), axes).replace("over_current_A = { value = 10.0", "over_current_A = { value = 60.0")
-    (folder / "plant.toml").write_text(plant + more_plant)
+    (folder / "plant.toml").write_text(plant)
     (folder / "rig.toml").write_text(of_axes((joint / "rig.toml").read_text(), axes) + more_rig)
     head = f'schema = 1\nname = "{name}"\nrig = "rig.toml"\nduration_limit_s = 10.0\n'
     moves = "".join(motion(axis, 0.5 + 0.1 * nth) for nth, axis in enumerate(axes))
@@ -117,8 +117,7 @@ def faults_strike_their_axis() -> None:
 
 
 def left_out() -> None:
-    rig = "[axis.a.hall_max]\nfitted = false\n[kill_switch]\nfitted = false\n"
-    folder = machine("bare", "za", rig.replace("[axis.a.hall_max]\nfitted = false\n", ""))
+    folder = machine("bare", "za", "[kill_switch]\nfitted = false\n")
     text = (folder / "rig.toml").read_text()
     for end in ("min", "max"):
         text = text.replace(f"[axis.a.hall_{end}]\n", f"[axis.a.hall_{end}]\nfitted = false\n")
