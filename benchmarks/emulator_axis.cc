@@ -106,7 +106,7 @@ struct SmoothedAxis {
 
   [[nodiscard]] double rails_N(double x) const {
     const double share = 1 - std::abs(x - 1.976) / 1.976;
-    return 1.6e-3 / m.metres_per_radian * std::max(0.0, share);
+    return 1.6e-3 / m.metres_per_motor_rad * std::max(0.0, share);
   }
   [[nodiscard]] static double dry(const emulator::DryFriction& f, double v, double smoothing,
                                   double extra) {
@@ -114,26 +114,26 @@ struct SmoothedAxis {
     return std::tanh(v / smoothing) * (f.coulomb + f.excess * std::exp(-ratio * ratio) + extra);
   }
   void operator()(const State& y, State& rate, double /*t*/) const {
-    const double r = m.metres_per_radian;
+    const double r = m.metres_per_motor_rad;
     const double demanded = m.proportional_gain_V_per_A * (set_point_A - y[0]) + y[1];
     const double terminal = std::clamp(demanded, -10.8, 10.8);
     rate[0] = (terminal - p.winding.resistance_ohm * y[0] - p.torque_constant_Nm_per_A * y[3]) /
               (p.winding.inductance_H + p.winding.choke_inductance_H);
     rate[1] = (terminal - y[1]) * m.integral_gain_V_per_A_s / m.proportional_gain_V_per_A;
-    const double chain = m.chain_stiffness_N_per_m * (r * y[2] - y[4]) +
-                         m.chain_damping_N_s_per_m * (r * y[3] - y[5]);
+    const double transmission = m.transmission_stiffness_N_per_m * (r * y[2] - y[4]) +
+                                m.transmission_damping_N_s_per_m * (r * y[3] - y[5]);
     rate[2] = y[3];
-    rate[3] = (p.torque_constant_Nm_per_A * y[0] - m.motor_viscous_Nm_s_per_rad * y[3] - r * chain -
-               dry(m.motor, y[3], smoothing_rad_per_s, 0)) /
+    rate[3] = (p.torque_constant_Nm_per_A * y[0] - m.motor_viscous_Nm_s_per_rad * y[3] -
+               r * transmission - dry(m.motor, y[3], smoothing_rad_per_s, 0)) /
               m.motor_inertia_kg_m2;
     rate[4] = y[5];
-    rate[5] = (chain - m.carriage_viscous_N_s_per_m * y[5] -
+    rate[5] = (transmission - m.carriage_viscous_N_s_per_m * y[5] -
                dry(m.carriage, y[5], r * smoothing_rad_per_s, rails_N(y[4]))) /
               m.carriage_mass_kg;
     rate[6] = 0;  // warmth: a nominal axis has none
   }
   [[nodiscard]] State start() const {
-    return {0, 0, kStart_m / m.metres_per_radian, 0, kStart_m, 0, 0};
+    return {0, 0, kStart_m / m.metres_per_motor_rad, 0, kStart_m, 0, 0};
   }
   void take(double volts) {
     set_point_A =

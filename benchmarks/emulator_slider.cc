@@ -95,13 +95,13 @@ BENCHMARK(ode_slider_quick);
 
 emulator::AxisParameters mere_mass() {
   emulator::AxisParameters axis;
-  const double r = axis.sprocket_radius_m / axis.gear_ratio;
+  const double r = axis.output_radius_m / axis.gear_ratio;
   axis.inertia_kg_m2 = kMass_kg * r * r;
   axis.rotor_inertia_kg_m2 = 0.2 * axis.inertia_kg_m2;
   axis.viscous_friction_Nm_s_per_rad = 0;
   axis.coulomb_friction_Nm = 0;
   axis.friction.breakaway_Nm = 0;
-  axis.chain.rigid = true;
+  axis.elasticity.rigid = true;
   axis.hard_ends.fitted = false;
   return axis;
 }
@@ -122,7 +122,7 @@ void axis_as_mere_mass(benchmark::State& state) {
 }
 BENCHMARK(axis_as_mere_mass);
 
-// Winding, current loop, elastic chain, both friction laws, to and fro about the middle.
+// Winding, current loop, elastic transmission, both friction laws, to and fro about the middle.
 void axis_nominal_in_motion(benchmark::State& state) {
   emulator::AxisParameters parameters;
   parameters.hard_ends.fitted = false;

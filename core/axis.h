@@ -20,6 +20,8 @@ enum class Axis : std::uint8_t { kY = 0, kX = 1, kZ = 2, kA = 3, kB = 4, kC = 5 
 inline constexpr std::array<Axis, 6> kAllAxes{Axis::kY, Axis::kX, Axis::kZ,
                                               Axis::kA, Axis::kB, Axis::kC};
 inline constexpr std::size_t kMostAxes = kAllAxes.size();
+// What speaks of the whole machine where an axis is asked for names this one.
+inline constexpr Axis kFirstAxis = kAllAxes.front();
 // Those of a plane: what hangs in the water moves with them, a camera sees them.
 inline constexpr std::array<Axis, 2> kPlanarAxes{Axis::kY, Axis::kX};
 inline constexpr std::array<Axis, 4> kFurtherAxes{Axis::kZ, Axis::kA, Axis::kB, Axis::kC};

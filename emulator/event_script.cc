@@ -57,7 +57,7 @@ namespace {
     case ScheduledEventKind::kDropLoad:
     case ScheduledEventKind::kSlipDisc:
     case ScheduledEventKind::kTurnDisc:
-    case ScheduledEventKind::kSkipChain:
+    case ScheduledEventKind::kSkipTooth:
       return fail_axis(rig, event);
     case ScheduledEventKind::kReset:
       return true;  // the machine takes no part in it

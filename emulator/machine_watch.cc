@@ -31,10 +31,10 @@ void MachineWatch::look(const Rig& rig, FaultReporter& faults) noexcept {
     }
   }
   if (begins(tripped_, rig.supply().tripped())) {
-    faults.report(rig.now_ns(), ErrorCode::kSupplyOverCurrent, Axis::kY, 0);
+    faults.report(rig.now_ns(), ErrorCode::kSupplyOverCurrent, core::kFirstAxis, 0);
   }
   if (begins(cut_out_, rig.supply().cut_out())) {
-    faults.report(rig.now_ns(), ErrorCode::kSupplyUnderVoltage, Axis::kY, 0);
+    faults.report(rig.now_ns(), ErrorCode::kSupplyUnderVoltage, core::kFirstAxis, 0);
   }
 }
 

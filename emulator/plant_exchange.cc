@@ -91,7 +91,8 @@ void PlantExchange::drive(const protocol::PwmDuty& duty) noexcept {
   const ErrorCode verdict =
       axis != nullptr ? axis->command.accept(duty) : ErrorCode::kMessageBadField;
   if (verdict != ErrorCode::kNone) {
-    report(verdict, known_axis ? duty.axis : Axis::kY, static_cast<std::uint32_t>(duty.axis));
+    report(verdict, known_axis ? duty.axis : core::kFirstAxis,
+           static_cast<std::uint32_t>(duty.axis));
   }
 }
 
@@ -100,12 +101,12 @@ void PlantExchange::set_outputs(const protocol::DigitalOutputs& outputs) noexcep
     return;
   }
   if (!greeted_) {
-    report(ErrorCode::kProtocolNoHello, Axis::kY, 0);
+    report(ErrorCode::kProtocolNoHello, core::kFirstAxis, 0);
     return;
   }
   const std::uint32_t ahead = outputs.sequence - output_sequence_;
   if (output_sequence_known_ && ahead != 1) {
-    report(ErrorCode::kSequence, Axis::kY, outputs.sequence);
+    report(ErrorCode::kSequence, core::kFirstAxis, outputs.sequence);
     if (ahead == 0 || ahead > 0x8000'0000U) {
       return;
     }
@@ -139,7 +140,7 @@ void PlantExchange::advance(const protocol::Advance& advance) noexcept {
     return;
   }
   if (const ErrorCode wrong = objection(advance); wrong != ErrorCode::kNone) {
-    report(wrong, Axis::kY, 0);
+    report(wrong, core::kFirstAxis, 0);
     return;
   }
   faults_.begin_exchange();
@@ -273,7 +274,7 @@ void PlantExchange::end(const protocol::Bye& /*bye*/) noexcept {
 
 // Nobody is told that the time has come: what the machine did in it is not known.
 void PlantExchange::end_failed() noexcept {
-  report(ErrorCode::kForeignPlantFailed, Axis::kY, 0);
+  report(ErrorCode::kForeignPlantFailed, core::kFirstAxis, 0);
   remove_drive(ErrorCode::kForeignPlantFailed);
   finished_ = true;
   sink_->on(protocol::Bye{.time_ns = now_ns()});

@@ -3,9 +3,9 @@
 //
 // An exchange, at Advance{T + dt} (docs/decisions/0001-walls.md): step the rig from T to T + dt,
 // sending CurrentSample and ForceSample as they are taken, then EncoderEdges (or EncoderReport) of
-// each axis in the order Y, X, then DigitalInputs of each change in the order of time, then the
-// operator's Reset, then Advanced. Whatever a controller sends that makes no sense is counted,
-// answered by a Fault, and changes nothing.
+// each axis in the order of core/axis.h, then DigitalInputs of each change in the order of time,
+// then the operator's Reset, then Advanced. Whatever a controller sends that makes no sense is
+// counted, answered by a Fault, and changes nothing.
 #pragma once
 
 #include <cstdint>

@@ -11,7 +11,7 @@ using protocol::InputLine;
 namespace {
 
 [[nodiscard]] Axis other_of_plane(Axis axis) noexcept {
-  return axis == Axis::kY ? Axis::kX : Axis::kY;
+  return core::kPlanarAxes[axis == core::kPlanarAxes[0] ? 1 : 0];
 }
 
 // Oldest first; changes of the same nanosecond keep their order. A handful at most.
@@ -109,8 +109,9 @@ void Rig::remove_drive() noexcept {
 double Rig::cross_axis_force_N(Axis which) const noexcept {
   const double ratio = parameters_.axes[which].cross_axis_force_ratio;
   const RigAxis* neighbour = axis(other_of_plane(which));
-  return ratio == 0.0 || neighbour == nullptr ? 0.0
-                                              : ratio * neighbour->plant().forces().chain_force_N;
+  return ratio == 0.0 || neighbour == nullptr
+             ? 0.0
+             : ratio * neighbour->plant().forces().transmission_force_N;
 }
 
 void Rig::step() noexcept {
@@ -118,7 +119,10 @@ void Rig::step() noexcept {
   const bool hardware_cut = parameters_.kill_switch.cuts_amplifiers &&
                             (machine_lines_ & protocol::mask_of(InputLine::kKillSwitch)) != 0;
   const bool may_drive = supply_.ready() && !hardware_cut;
-  const core::PerAxis<double> cross_N{{cross_axis_force_N(Axis::kY), cross_axis_force_N(Axis::kX)}};
+  core::PerAxis<double> cross_N{};
+  for (const Axis which : core::kPlanarAxes) {
+    cross_N[which] = cross_axis_force_N(which);
+  }
   if (water_) {
     feel_water();
   }

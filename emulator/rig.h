@@ -113,7 +113,7 @@ class RigAxis {
   double motor_rad_per_m_;
   bool sees_load_;  // the encoder
   double command_V_ = 0.0;
-  double skipped_rad_ = 0.0;  // the shaft's angle above that by the chain
+  double skipped_rad_ = 0.0;  // the shaft's angle above that by the transmission
   double acceleration_m_per_s2_ = 0.0;
 };
 

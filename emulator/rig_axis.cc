@@ -10,7 +10,7 @@ RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, const Seeds& seeds,
       plant_(p.plant, p.start_m, at_start),
       state_(plant_.state()),
       encoder_(p.encoder, p.encoder.side == EncoderSide::kLoad
-                              ? state_.carriage_m * p.plant.gear_ratio / p.plant.sprocket_radius_m
+                              ? state_.carriage_m * p.plant.gear_ratio / p.plant.output_radius_m
                               : state_.motor_angle_rad),
       disc_(p.encoder),
       wiring_(encoder_.levels()),
@@ -18,7 +18,7 @@ RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, const Seeds& seeds,
       hall_max_(p.hall_max, TravelEnd::kMax, protocol::hall_line(axis, true), p.start_m),
       resistance_ohm_(p.plant.winding.resistance_ohm),
       torque_constant_Nm_per_A_(p.plant.torque_constant_Nm_per_A),
-      motor_rad_per_m_(p.plant.gear_ratio / p.plant.sprocket_radius_m),
+      motor_rad_per_m_(p.plant.gear_ratio / p.plant.output_radius_m),
       sees_load_(p.encoder.side == EncoderSide::kLoad) {
   if (p.current_monitor.fitted) {
     current_monitor_.emplace(p.current_monitor, axis, seeds.current_monitor);
@@ -89,8 +89,8 @@ void RigAxis::fail(ScheduledEventKind kind, double value) noexcept {
     disc_.slip(static_cast<std::int64_t>(value), encoder_.count());
   } else if (kind == ScheduledEventKind::kTurnDisc) {
     disc_.turn(static_cast<std::int64_t>(value), encoder_.count());
-  } else if (kind == ScheduledEventKind::kSkipChain) {
-    skipped_rad_ += plant_.skip_chain(value);
+  } else if (kind == ScheduledEventKind::kSkipTooth) {
+    skipped_rad_ += plant_.skip_tooth(value);
     state_ = plant_.state();
   } else {
     faults_.set(kind, value, state_, command_V_);
@@ -122,7 +122,7 @@ AxisTruth RigAxis::truth() const noexcept {
           .motor_torque_Nm = forces.motor_torque_Nm,
           .motor_friction_Nm = forces.motor_friction_Nm,
           .carriage_friction_N = forces.carriage_friction_N,
-          .chain_force_N = forces.chain_force_N,
+          .transmission_force_N = forces.transmission_force_N,
           .command_V = command_V_,
           .count = encoder_.count(),
           .edges_total = encoder_.edges_total() + disc_.surplus_edges() + wiring_.surplus_edges()};

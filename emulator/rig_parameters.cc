@@ -21,13 +21,13 @@ AxisParameters nominal_x_plant() noexcept {
   x.rotor_inertia_kg_m2 = 1.3e-6;
   x.viscous_friction_Nm_s_per_rad = 4e-6;
   x.coulomb_friction_Nm = 1.6e-3;
-  x.sprocket_radius_m = 0.030;
+  x.output_radius_m = 0.030;
   x.torque_constant_Nm_per_A = 23.5e-3;
   x.winding.resistance_ohm = 2.3;
   x.winding.inductance_H = 0.24e-3;
   x.friction.breakaway_Nm = 2.4e-3;
   x.friction.position = {};
-  x.chain.resonance_Hz = 22.0;
+  x.elasticity.resonance_Hz = 22.0;
   return x;
 }
 
@@ -42,7 +42,7 @@ void place_halls(RigAxisParameters& axis, double min_counts, double max_counts) 
 
 // (3.39) the other way round: what of the effective inertia moves with the carriage.
 [[nodiscard]] double carriage_mass_kg(const AxisParameters& p) noexcept {
-  const double motor_rad_per_m = p.gear_ratio / p.sprocket_radius_m;
+  const double motor_rad_per_m = p.gear_ratio / p.output_radius_m;
   return (p.inertia_kg_m2 - p.rotor_inertia_kg_m2) * motor_rad_per_m * motor_rad_per_m;
 }
 
@@ -116,7 +116,7 @@ bool has_further_axes(const RigParameters& rig) noexcept {
 }
 
 double metres_per_count(const RigAxisParameters& axis) noexcept {
-  return 2.0 * std::numbers::pi * axis.plant.sprocket_radius_m /
+  return 2.0 * std::numbers::pi * axis.plant.output_radius_m /
          (axis.plant.gear_ratio * static_cast<double>(axis.encoder.counts_per_turn));
 }
 

@@ -49,7 +49,7 @@ struct RigAxisParameters {
   HallParameters hall_min;
   HallParameters hall_max;
   CurrentMonitorParameters current_monitor;
-  double start_m = 0.0;  // carriage at rest there at time 0, chain relaxed
+  double start_m = 0.0;  // carriage at rest there at time 0, transmission relaxed
   double cross_axis_force_ratio = 0.0;
   bool load_turns = false;  // read rad for m; no key: the plant's transmission says so
 
@@ -63,7 +63,7 @@ struct RigAxisParameters {
     v.value("start_m", start_m, core::between(-1e4, 1e4),
             "carriage position at the start of the run");
     v.value("cross_axis_force_ratio", cross_axis_force_ratio, core::between(-1.0, 1.0),
-            "share of the other axis's chain force that pushes along this one");
+            "share of the other axis's transmission force that pushes along this one");
     v.group("encoder", encoder, "incremental encoder on the motor shaft");
     v.group("hall_min", hall_min, "end-stop sensor at the min end");
     v.group("hall_max", hall_max, "end-stop sensor at the max end");
@@ -152,7 +152,7 @@ struct RigParameters {
 
 [[nodiscard]] bool has_further_axes(const RigParameters& rig) noexcept;
 
-// Carriage metres an encoder count, from gear and sprocket (3.42).
+// Carriage metres an encoder count, from gear and wheel (3.42).
 [[nodiscard]] double metres_per_count(const RigAxisParameters& axis) noexcept;
 
 // What must hold between parameters and no single range can say: the first breach in words that

@@ -18,7 +18,7 @@ struct AxisTruth {
   double motor_torque_Nm = 0;
   double motor_friction_Nm = 0;
   double carriage_friction_N = 0;
-  double chain_force_N = 0;
+  double transmission_force_N = 0;
   double command_V = 0;
   std::int64_t count = 0;        // floor of the true angle in counts
   std::int64_t edges_total = 0;  // A and B edges sent since the start
@@ -45,7 +45,7 @@ enum class PlantEventKind : std::uint8_t {
 struct PlantEvent {
   core::Nanoseconds time_ns = 0;
   PlantEventKind kind = PlantEventKind::kFinished;
-  core::Axis axis = core::Axis::kY;
+  core::Axis axis = core::kFirstAxis;
   core::ErrorCode code = core::ErrorCode::kNone;
   std::uint16_t lines = 0;
   double value = 0;  // contact: speed in m/s; scheduled event: its index; reset: 1 when told

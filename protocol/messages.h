@@ -46,7 +46,7 @@ struct HelloReply {
 // The two half-bridge channels of one axis. At most one is non-zero: A drives towards max, B
 // towards min. Ticks are of the PWM counter; duty = ticks / period.
 struct PwmDuty {
-  core::Axis axis = core::Axis::kY;
+  core::Axis axis = core::kFirstAxis;
   bool enable = false;
   std::uint16_t channel_a_ticks = 0;
   std::uint16_t channel_b_ticks = 0;
@@ -90,7 +90,7 @@ inline constexpr std::size_t kMaxEdgesPerMessage = 1024;
 // Every edge of one axis in [start, end), oldest first. More than kMaxEdgesPerMessage in one
 // exchange go into several messages, each starting where the one before ended.
 struct EncoderEdges {
-  core::Axis axis = core::Axis::kY;
+  core::Axis axis = core::kFirstAxis;
   EncoderLevels start_levels = 0;
   core::Nanoseconds start_ns = 0;
   core::Nanoseconds end_ns = 0;
@@ -100,7 +100,7 @@ struct EncoderEdges {
 
 // The digest of the same for narrow links: what a quadrature peripheral at the plant's side saw.
 struct EncoderReport {
-  core::Axis axis = core::Axis::kY;
+  core::Axis axis = core::kFirstAxis;
   EncoderLevels levels = 0;
   core::Nanoseconds time_ns = 0;  // end of the interval reported
   std::int32_t count_change = 0;
@@ -153,9 +153,10 @@ struct DigitalInputs {
 }
 
 [[nodiscard]] constexpr InputLine ready_line(core::Axis axis) noexcept {
-  return axis == core::Axis::kY   ? InputLine::kAmplifierReadyY
-         : axis == core::Axis::kX ? InputLine::kAmplifierReadyX
-                                  : InputLine::kFurtherAmplifiersReady;
+  return core::is_planar(axis)
+             ? static_cast<InputLine>(static_cast<std::size_t>(InputLine::kAmplifierReadyY) +
+                                      core::index_of(axis))
+             : InputLine::kFurtherAmplifiersReady;
 }
 
 enum class OutputLine : std::uint8_t {
@@ -194,7 +195,7 @@ struct ForceSample {
 };
 
 struct CurrentSample {
-  core::Axis axis = core::Axis::kY;
+  core::Axis axis = core::kFirstAxis;
   core::Nanoseconds time_ns = 0;
   float armature_current_A = 0;
 };
@@ -202,7 +203,7 @@ struct CurrentSample {
 // Where an axis is to be, for a controller that has no reference of its own and asks for one
 // (kCapabilityReference). Counted from where the axis stood when the run began.
 struct Reference {
-  core::Axis axis = core::Axis::kY;
+  core::Axis axis = core::kFirstAxis;
   core::Nanoseconds time_ns = 0;
   float position_m = 0;
   float velocity_m_per_s = 0;

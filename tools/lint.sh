@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Format, shell scripts, include rules, rings of folders, pages, checks of requirements, planted slips, retired words, commit subjects and machine paths of the whole tree.
+# Format, shell scripts, include rules, rings of folders, pages, checks of requirements, planted slips, words of the tank, retired words, commit subjects and machine paths of the whole tree.
 # usage: lint.sh ROOT      TOWBENCH_LINT_BASE: commits after this one are checked
 set -uo pipefail
 root=${1:?usage: lint.sh ROOT}
@@ -24,6 +24,7 @@ sh tools/check_folder_cycles.sh . || status=1
 sh tools/check_pages.sh . || status=1
 sh tools/check_requirements.sh . || status=1
 bash tools/check_slips.sh . || status=1
+bash tools/check_axis_words.sh . || status=1
 sh tools/check_words.sh . md cc h ts toml sh py || status=1
 sh tools/check_commits.sh . "${TOWBENCH_LINT_BASE:-795b709}" || status=1
 

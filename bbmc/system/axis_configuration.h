@@ -300,9 +300,11 @@ struct AxisConfiguration {
   [[nodiscard]] double rad_per_count() const noexcept {  // (3.43)
     return 2.0 * std::numbers::pi / static_cast<double>(encoder_counts_per_rev);
   }
-  [[nodiscard]] double m_per_rad() const noexcept { return sprocket_radius_m / gear_ratio; }
+  [[nodiscard]] double metres_per_motor_rad() const noexcept {
+    return sprocket_radius_m / gear_ratio;
+  }
   [[nodiscard]] double m_per_count() const noexcept {  // (3.44)
-    return rad_per_count() * m_per_rad();
+    return rad_per_count() * metres_per_motor_rad();
   }
   [[nodiscard]] double counts_per_m() const noexcept { return 1.0 / m_per_count(); }  // (3.42)
   // Middle of the count, so that quantisation has no bias.

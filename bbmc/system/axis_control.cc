@@ -94,11 +94,11 @@ double AxisControl::speed_for_the_law_m_per_s(double step_s) noexcept {
   if (!state_observer_.works()) {
     return velocity_m_per_s();
   }
-  return settings_.m_per_rad() * state_observer_
-                                     .update(motor_rad(),
-                                             velocity_count_per_s() * settings_.rad_per_count(),
-                                             torque_Nm(), step_s)
-                                     .motor_rad_per_s;
+  return settings_.metres_per_motor_rad() *
+         state_observer_
+             .update(motor_rad(), velocity_count_per_s() * settings_.rad_per_count(), torque_Nm(),
+                     step_s)
+             .motor_rad_per_s;
 }
 
 void AxisControl::follow(const Reference& reference, AxisMode mode, double step_s,

@@ -19,7 +19,9 @@ double friction_torque_Nm(const FrictionCompensation& model, double speed_rad_pe
 }
 
 ControlLaw::ControlLaw(const AxisConfiguration& axis) noexcept
-    : nonlinear_(axis.nonlinear_observer), rad_per_m_(1.0 / axis.m_per_rad()), pid_(axis.gains) {
+    : nonlinear_(axis.nonlinear_observer),
+      rad_per_m_(1.0 / axis.metres_per_motor_rad()),
+      pid_(axis.gains) {
   set_additions(axis);
 }
 

@@ -31,7 +31,7 @@ constexpr core::Nanoseconds kBucket_ns = 10 * core::kNanosecondsPerMillisecond;
 EncoderPlausibility::EncoderPlausibility(const AxisConfiguration& axis) noexcept
     : settings_(axis.plausibility),
       breakaway_Nm_(axis.plausibility.worst_breakaway_Nm +
-                    axis.plausibility.external_load_N * axis.m_per_rad()),
+                    axis.plausibility.external_load_N * axis.metres_per_motor_rad()),
       inertia_kg_m2_(axis.braking.inertia_kg_m2),
       rad_per_count_(axis.rad_per_count()),
       max_acceleration_count_per_s2_(kTorqueMargin * axis.drive.torque_limit_Nm() /

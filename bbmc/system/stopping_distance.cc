@@ -20,7 +20,7 @@ double braking_torque_Nm(const AxisConfiguration& axis) noexcept {
 StoppingDistance::StoppingDistance(const AxisConfiguration& axis, double latency_s) noexcept
     : lag_s_(latency_s + 1.0 / (2.0 * std::numbers::pi * axis.braking.held_motor_chain_Hz)),
       deceleration_m_per_s2_(braking_torque_Nm(axis) / axis.braking.inertia_kg_m2 *
-                             axis.m_per_rad()) {}
+                             axis.metres_per_motor_rad()) {}
 
 double StoppingDistance::speed_m_per_s(double distance_m,
                                        double deceleration_m_per_s2) const noexcept {

@@ -126,7 +126,7 @@ core::Status SystemManager::request_tuning(const TuningRequest& request) noexcep
   // Well above the worst break-away, so that it moves; half of the drive is more than it ever
   // takes.
   MotionOrder wanted{.kind = MotionKind::kTuning,
-                     .relay = {.amplitude_rad = request.amplitude_m / axis.m_per_rad(),
+                     .relay = {.amplitude_rad = request.amplitude_m / axis.metres_per_motor_rad(),
                                .torque_Nm = 2.0 * axis.plausibility.worst_breakaway_Nm,
                                .torque_limit_Nm = 0.5 * axis.drive.torque_limit_Nm()}};
   wanted.driven[request.axis] = true;

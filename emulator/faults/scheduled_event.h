@@ -35,8 +35,9 @@ enum class ScheduledEventKind : std::uint8_t {
   // Encoder disc on its shaft (emulator/faults/slipping_disc.h).
   kSlipDisc,  // stands still for the next `value` counts of the shaft
   kTurnDisc,  // jumps by `value` counts
-  // Chain on its sprocket.
-  kSkipChain,  // jumps: the motor has turned `value` m of chain further without moving the carriage
+  // Transmission on its wheel.
+  kSkipTooth,  // jumps: the motor has turned `value` m of transmission further without moving the
+               // carriage
   // The operator, to the controller.
   kReset,  // leave the safe state
 };
@@ -44,7 +45,7 @@ enum class ScheduledEventKind : std::uint8_t {
 struct ScheduledEvent {
   core::Nanoseconds time_ns = 0;
   ScheduledEventKind kind = ScheduledEventKind::kPressKillSwitch;
-  core::Axis axis = core::Axis::kY;
+  core::Axis axis = core::kFirstAxis;
   double value = 0;
   protocol::InputLine input_line = protocol::InputLine::kKillSwitch;
   protocol::InputLine other_line = protocol::InputLine::kKillSwitch;

@@ -87,7 +87,7 @@ bool output_of(const AxisUnit& unit, ValueReference reference, double& value) {
       value = state.carriage_speed_m_per_s;
       return true;
     case AxisVariable::kForce:
-      value = at_rest.forces().chain_force_N;
+      value = at_rest.forces().transmission_force_N;
       return true;
     case AxisVariable::kCurrent:
       value = state.current_A;

@@ -22,8 +22,8 @@ ForeignInput ForeignAxis::input_for(const AxisInput& input) noexcept {
         std::clamp(axis.amplifier.voltage_gain_V_per_V * input.command_V, -limit_V, limit_V);
     to_plant.current_A = std::clamp(axis.amplifier_gain_A_per_V * input.command_V,
                                     -axis.current_limit_A, axis.current_limit_A);
-    to_plant.drive_force_N = axis.torque_constant_Nm_per_A * to_plant.current_A * axis.gear_ratio /
-                             axis.sprocket_radius_m;
+    to_plant.drive_force_N =
+        axis.torque_constant_Nm_per_A * to_plant.current_A * axis.gear_ratio / axis.output_radius_m;
   }
   terminal_V_ = to_plant.voltage_V;
   return to_plant;
@@ -75,7 +75,7 @@ void ForeignAxis::find_contact(const ForeignOutput& before) noexcept {
                            now_.position_m, now_.velocity_m_per_s);
   const double u = motion.reach((at_max ? ends.max_m : ends.min_m) - before.position_m, 0.0, 1.0);
   const double motor_rad_per_s =
-      before.velocity_m_per_s * parameters_.gear_ratio / parameters_.sprocket_radius_m;
+      before.velocity_m_per_s * parameters_.gear_ratio / parameters_.output_radius_m;
   contact_ = {.occurred = true,
               .at_max = at_max,
               .time_s = u * core::kPlantTick_s,
@@ -94,7 +94,7 @@ AxisState ForeignAxis::state() const noexcept {
 AxisForces ForeignAxis::forces() const noexcept {
   return {.terminal_V = terminal_V_,
           .motor_torque_Nm = parameters_.torque_constant_Nm_per_A * now_.current_A,
-          .chain_force_N = now_.force_N,
+          .transmission_force_N = now_.force_N,
           .end_force_N = end_force_N_,
           .external_force_N = external_force_N_,
           .motor_sticks = now_.motor_speed_rad_per_s == 0,

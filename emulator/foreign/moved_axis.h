@@ -28,10 +28,10 @@ class MovedAxis {
       std::get<ForeignAxis>(plant_).follow(output, segments);
     }
   }
-  // A foreign plant's chain is its own: 0, and nothing happens.
-  TOWBENCH_REALTIME [[nodiscard]] double skip_chain(double by_m) noexcept {
+  // A foreign plant's transmission is its own: 0, and nothing happens.
+  TOWBENCH_REALTIME [[nodiscard]] double skip_tooth(double by_m) noexcept {
     auto* const built_in = std::get_if<AxisPlant>(&plant_);
-    return built_in != nullptr ? built_in->skip_chain(by_m) : 0.0;
+    return built_in != nullptr ? built_in->skip_tooth(by_m) : 0.0;
   }
 
   [[nodiscard]] AxisState state() const noexcept {

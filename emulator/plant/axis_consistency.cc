@@ -29,21 +29,20 @@ const char* table_inconsistency(const AxisParameters& axis) noexcept {
   return ascends(force.position_m) ? nullptr : "disturbances.position_force.position_m must ascend";
 }
 
-const char* chain_inconsistency(const AxisParameters& axis) noexcept {
-  const SprocketParameters& sprocket = axis.disturbances.sprocket;
+const char* transmission_inconsistency(const AxisParameters& axis) noexcept {
+  const WheelParameters& wheel = axis.disturbances.wheel;
   const bool needs_a_spring = axis.gear.backlash_deg != 0 || axis.gear.efficiency != 1 ||
-                              axis.friction.options.load_ratio != 0 ||
-                              sprocket.eccentricity_m != 0 || sprocket.teeth != 0;
-  if (axis.chain.rigid && needs_a_spring) {
-    return "gear.backlash_deg, gear.efficiency, friction.load_ratio and disturbances.sprocket need "
-           "an elastic chain";
+                              axis.friction.options.load_ratio != 0 || wheel.eccentricity_m != 0 ||
+                              wheel.teeth != 0;
+  if (axis.elasticity.rigid && needs_a_spring) {
+    return "gear.backlash_deg, gear.efficiency, friction.load_ratio and disturbances.wheel need "
+           "an elastic transmission";
   }
-  if (axis.chain.slack_m != 0 && axis.chain.pretension_N != 0) {
-    return "chain.slack_m and chain.pretension_N exclude each other";
+  if (axis.elasticity.slack_m != 0 && axis.elasticity.pretension_N != 0) {
+    return "elasticity.slack_m and elasticity.pretension_N exclude each other";
   }
-  if (sprocket.teeth != 0 &&
-      (sprocket.teeth < 5 || core::floor_exact(sprocket.teeth) != sprocket.teeth)) {
-    return "disturbances.sprocket.teeth must be a whole number, 5 or more, or 0";
+  if (wheel.teeth != 0 && (wheel.teeth < 5 || core::floor_exact(wheel.teeth) != wheel.teeth)) {
+    return "disturbances.wheel.teeth must be a whole number, 5 or more, or 0";
   }
   return nullptr;
 }
@@ -61,7 +60,7 @@ const char* asymmetry_inconsistency(const AxisParameters& axis) noexcept {
 
 bool every_mode_fits_the_tick(const AxisParameters& axis) noexcept {
   const DerivedMechanics mechanics = derive(axis);
-  for (std::size_t index = 0; index < modes_in_use(chain_play(axis, mechanics)); ++index) {
+  for (std::size_t index = 0; index < modes_in_use(transmission_play(axis, mechanics)); ++index) {
     ContinuousMode flow = continuous_mode(axis, mechanics, ModeKey::of_index(index));
     DiscreteMode tick;
     if (!discretise(flow, core::kPlantTick_s, tick)) {
@@ -83,13 +82,15 @@ const char* inconsistency(const AxisParameters& axis) noexcept {
   if (axis.hard_ends.fitted && !(axis.hard_ends.min_m < axis.hard_ends.max_m)) {
     return "hard_ends.min_m must be below hard_ends.max_m";
   }
-  for (const auto check : {table_inconsistency, chain_inconsistency, asymmetry_inconsistency}) {
+  for (const auto check :
+       {table_inconsistency, transmission_inconsistency, asymmetry_inconsistency}) {
     if (const char* reason = check(axis)) {
       return reason;
     }
   }
   if (!every_mode_fits_the_tick(axis)) {
-    return "inertia, winding, current_loop_bandwidth_Hz, chain or hard_ends make the axis too fast "
+    return "inertia, winding, current_loop_bandwidth_Hz, elasticity or hard_ends make the axis too "
+           "fast "
            "for the plant's 100 us tick";
   }
   return nullptr;

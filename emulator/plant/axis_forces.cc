@@ -71,11 +71,11 @@ AxisForces AxisPlant::forces() const noexcept {
   }
   f.standing_force_N = outside_force_N(model, s, z_, 1.0) - f.end_force_N - f.external_force_N;
   f.voltage_limited = regime.drive == Drive::kLimited;
-  if (model.parameters.chain.rigid) {
+  if (model.parameters.elasticity.rigid) {
     f.carriage_sticks = f.motor_sticks;
     return f;
   }
-  f.chain_force_N = chain_force_N(model, s, z_, 1.0);
+  f.transmission_force_N = transmission_force_N(model, s, z_, 1.0);
   f.carriage_sticks = regime.carriage_direction == 0;
   f.carriage_friction_N = (f.carriage_sticks ? -carriage_grip_N(model, s, z_)
                                              : -regime.carriage_direction * s.carriage_friction_N) -

@@ -8,7 +8,7 @@ namespace {
 struct ModeBuilder {
   const AxisParameters& axis;
   const DerivedMechanics& mechanics;
-  ChainContact chain;
+  TransmissionContact transmission;
   ContinuousMode mode;
 
   // d z[row] / dt += value * z[column]
@@ -43,19 +43,19 @@ struct ModeBuilder {
     add(kIntegral, kElectricalInput, mechanics.integral_gain_V_per_A_s);
   }
 
-  // gain * F_chain into a speed row.
-  void chain_force(StateIndex row, double gain) noexcept {
-    const ChainLaw law = chain_law(mechanics, {}, chain, 0.0);
+  // gain * F_transmission into a speed row.
+  void transmission_force(StateIndex row, double gain) noexcept {
+    const TransmissionLaw law = transmission_law(mechanics, {}, transmission, 0.0);
     const double damping = law.damping_N_s_per_m;
     add(row, kStretch, gain * law.stiffness_N_per_m);
-    add(row, kMotorSpeed, gain * damping * mechanics.metres_per_radian);
+    add(row, kMotorSpeed, gain * damping * mechanics.metres_per_motor_rad);
     add(row, kCarriageSpeed, -gain * damping);
   }
 
   // gain * F_end into a speed row; the constant K_e x_end is part of the held force.
   void end_force(StateIndex row, double gain) noexcept {
     const double stiffness = axis.hard_ends.stiffness_N_per_m;
-    add(row, kMotorAngle, -gain * stiffness * mechanics.metres_per_radian);
+    add(row, kMotorAngle, -gain * stiffness * mechanics.metres_per_motor_rad);
     add(row, kStretch, gain * stiffness);
     add(row, kCarriageSpeed, -gain * axis.hard_ends.damping_N_s_per_m);
   }
@@ -63,7 +63,7 @@ struct ModeBuilder {
   // gain * F_cable into a speed row; the constant K_w x_w is part of the held force.
   void cable_force(StateIndex row, double gain) noexcept {
     const double stiffness = axis.disturbances.cable.stiffness_N_per_m;
-    add(row, kMotorAngle, -gain * stiffness * mechanics.metres_per_radian);
+    add(row, kMotorAngle, -gain * stiffness * mechanics.metres_per_motor_rad);
     add(row, kStretch, gain * stiffness);
   }
 
@@ -76,7 +76,8 @@ struct ModeBuilder {
 
   void carriage_contact(const ElasticContact& contact) noexcept {
     const double mobility = 1.0 / mechanics.carriage_mass_kg;
-    add(kCarriageSpeed, kMotorAngle, -contact.stiffness * mobility * mechanics.metres_per_radian);
+    add(kCarriageSpeed, kMotorAngle,
+        -contact.stiffness * mobility * mechanics.metres_per_motor_rad);
     add(kCarriageSpeed, kStretch, contact.stiffness * mobility);
     add(kCarriageSpeed, kCarriageSpeed, -contact.damping * mobility);
   }
@@ -87,8 +88,8 @@ struct ModeBuilder {
     add(kMotorSpeed, kMotorSpeed, -mechanics.motor_viscous_Nm_s_per_rad * mobility);
     add(kMotorSpeed, kMotorTorque, mobility);
     add(kMotorAngle, kMotorSpeed, 1.0);
-    if (!axis.chain.rigid) {
-      chain_force(kMotorSpeed, -mechanics.metres_per_radian * mobility);
+    if (!axis.elasticity.rigid) {
+      transmission_force(kMotorSpeed, -mechanics.metres_per_motor_rad * mobility);
     }
   }
 
@@ -96,7 +97,7 @@ struct ModeBuilder {
     const double mobility = 1.0 / mechanics.carriage_mass_kg;
     add(kCarriageSpeed, kCarriageSpeed, -mechanics.carriage_viscous_N_s_per_m * mobility);
     add(kCarriageSpeed, kCarriageForce, mobility);
-    chain_force(kCarriageSpeed, mobility);
+    transmission_force(kCarriageSpeed, mobility);
     if (end_pushes) {
       end_force(kCarriageSpeed, mobility);
     }
@@ -106,7 +107,7 @@ struct ModeBuilder {
   // The carriage follows the motor: its force joins the motor's row, and its speed row is r times
   // the motor's.
   void rigid_carriage(bool end_pushes) noexcept {
-    const double r = mechanics.metres_per_radian;
+    const double r = mechanics.metres_per_motor_rad;
     const double mobility = 1.0 / mechanics.motor_inertia_kg_m2;
     add(kMotorSpeed, kCarriageForce, r * mobility);
     if (end_pushes) {
@@ -122,16 +123,16 @@ struct ModeBuilder {
   }
 };
 
-ChainContact contact_of(ChainPull pull) noexcept {
+TransmissionContact contact_of(TransmissionPull pull) noexcept {
   switch (pull) {
-    case ChainPull::kBothStrands:
-      return ChainContact::kTaut;
-    case ChainPull::kOneStrand:
-      return ChainContact::kOneStrand;
-    case ChainPull::kNone:
+    case TransmissionPull::kBothStrands:
+      return TransmissionContact::kTaut;
+    case TransmissionPull::kOneStrand:
+      return TransmissionContact::kOneStrand;
+    case TransmissionPull::kNone:
       break;
   }
-  return ChainContact::kOpen;
+  return TransmissionContact::kOpen;
 }
 
 // A friction that differs by direction needs to know the direction.
@@ -143,7 +144,7 @@ bool skews_viscous(const AxisParameters& axis) noexcept {
 bool any_term(const AxisModel& model) noexcept {
   const FrictionOptions& options = model.parameters.friction.options;
   const FrictionAsymmetry& asymmetry = options.asymmetry;
-  return model.ripple.present() || model.sprocket.present() || model.position_force.present() ||
+  return model.ripple.present() || model.wheel.present() || model.position_force.present() ||
          model.parameters.disturbances.gravity.torque_Nm != 0 || model.play.present() ||
          model.gear_loss.present() || model.motor_contact.present() ||
          model.carriage_contact.present() || options.load_ratio != 0 ||
@@ -166,13 +167,13 @@ ContinuousMode continuous_mode(const AxisParameters& axis, const DerivedMechanic
   if (!key.motor_moves && at_motor.present()) {
     builder.motor_contact(at_motor);
   }
-  if (axis.chain.rigid) {
+  if (axis.elasticity.rigid) {
     if (motor_moves) {
       builder.rigid_carriage(key.end_pushes);
     }
     return builder.mode;
   }
-  builder.add(kStretch, kMotorSpeed, mechanics.metres_per_radian);
+  builder.add(kStretch, kMotorSpeed, mechanics.metres_per_motor_rad);
   builder.add(kStretch, kCarriageSpeed, -1.0);
   if (key.carriage_moves || at_carriage.present()) {
     builder.carriage(key.end_pushes);
@@ -193,11 +194,11 @@ ElasticContact motor_contact(const AxisParameters& axis,
 ElasticContact carriage_contact(const AxisParameters& axis,
                                 const DerivedMechanics& mechanics) noexcept {
   const Presliding& p = axis.friction.options.presliding;
-  return elastic_contact(mechanics.carriage, p.travel_rad * mechanics.metres_per_radian,
+  return elastic_contact(mechanics.carriage, p.travel_rad * mechanics.metres_per_motor_rad,
                          p.damping_ratio, mechanics.carriage_mass_kg);
 }
 
-std::size_t modes_in_use(const ChainPlay& play) noexcept {
+std::size_t modes_in_use(const TransmissionPlay& play) noexcept {
   return play.present() ? kModeCount : kModesPerPull;
 }
 
@@ -206,19 +207,20 @@ AxisModel::AxisModel(const AxisParameters& axis, double tick_length_s) noexcept
       mechanics(derive(axis)),
       stribeck(axis.friction.stribeck_form),
       position_friction(axis.friction.position.position_m, axis.friction.position.friction_Nm,
-                        axis.chain.rigid ? 1.0 : 1.0 / mechanics.metres_per_radian),
+                        axis.elasticity.rigid ? 1.0 : 1.0 / mechanics.metres_per_motor_rad),
       position_force(axis.disturbances.position_force.position_m,
-                     axis.disturbances.position_force.torque_Nm, 1.0 / mechanics.metres_per_radian),
+                     axis.disturbances.position_force.torque_Nm,
+                     1.0 / mechanics.metres_per_motor_rad),
       ripple(axis.disturbances.torque_ripple),
-      sprocket(axis),
+      wheel(axis),
       gear_loss(axis.gear.efficiency),
-      play(chain_play(axis, mechanics)),
+      play(transmission_play(axis, mechanics)),
       motor_contact(emulator::motor_contact(axis, mechanics)),
       carriage_contact(emulator::carriage_contact(axis, mechanics)),
       tick_s(tick_length_s),
       motor_is_dry(mechanics.motor.present() || gear_loss.present() || skews_viscous(axis) ||
-                   (axis.chain.rigid && position_friction.present())),
-      carriage_is_dry(!axis.chain.rigid &&
+                   (axis.elasticity.rigid && position_friction.present())),
+      carriage_is_dry(!axis.elasticity.rigid &&
                       (mechanics.carriage.present() || position_friction.present() ||
                        skews_viscous(axis) || axis.friction.options.load_ratio != 0)),
       has_terms(any_term(*this)) {

@@ -5,10 +5,10 @@
 //                                                       v at the limit: kLimitedLoop
 //              v held, q' = 0                                           kFixedVoltage
 //              i' = 0, q' = 0                                           kFixedCurrent
-//   motor      J_m w' = K_T i - B_m w - r F_chain + tau                 (3.37), errata corrected
-//   carriage   M v'   = F_chain - B_c v + F + F_end                     (3.38)
-//   chain      F_chain = K_s d + B_s d',  d = r theta - x,  d' = r w - v; half of both on one
-//              strand, none in a gap (chain_play.h)
+//   motor      J_m w' = K_T i - B_m w - r F_t + tau                     (3.37), errata corrected
+//   carriage   M v'   = F_t - B_c v + F + F_end                         (3.38)
+//   elastic    F_t = K_s d + B_s d',  d = r theta - x,  d' = r w - v; half of both on one strand,
+//              none in a gap (transmission_play.h)
 //   cable      F_cable = -K_w (x - x_w)
 //   at rest    w = 0, or on an elastic contact: tau = -sigma_0 (theta - theta_0) - sigma_1 w
 //              (presliding.h); the carriage likewise
@@ -26,15 +26,15 @@
 
 #include <array>
 
-#include "emulator/plant/chain_play.h"
 #include "emulator/plant/derived_mechanics.h"
 #include "emulator/plant/friction_law.h"
 #include "emulator/plant/gear_loss.h"
 #include "emulator/plant/linear_mode.h"
 #include "emulator/plant/presliding.h"
 #include "emulator/plant/regime.h"
-#include "emulator/plant/sprocket.h"
 #include "emulator/plant/torque_ripple.h"
+#include "emulator/plant/transmission_play.h"
+#include "emulator/plant/wheel.h"
 
 namespace towbench::emulator {
 
@@ -45,18 +45,18 @@ struct AxisModel {
   AxisParameters parameters;
   DerivedMechanics mechanics;
   StribeckCurve stribeck;
-  PositionCurve position_friction;  // N, or N m when the chain is rigid
+  PositionCurve position_friction;  // N, or N m when the transmission is rigid
   PositionCurve position_force;     // N
   SineTable sine;
   TorqueRipple ripple;
-  Sprocket sprocket;
+  Wheel wheel;
   GearLoss gear_loss;
-  ChainPlay play;
+  TransmissionPlay play;
   ElasticContact motor_contact;
   ElasticContact carriage_contact;
   double tick_s;
   bool motor_is_dry;     // has friction to stick with
-  bool carriage_is_dry;  // likewise; false when the chain is rigid
+  bool carriage_is_dry;  // likewise; false when the transmission is rigid
   bool has_terms;        // whether held_terms.h has anything to add
   std::array<DiscreteMode, kModeCount> ticks{};
   std::array<ContinuousMode, kModeCount> flows{};
@@ -72,7 +72,7 @@ struct AxisModel {
 [[nodiscard]] ElasticContact carriage_contact(const AxisParameters& axis,
                                               const DerivedMechanics& mechanics) noexcept;
 
-// Modes that can occur: a chain without play never lets go.
-[[nodiscard]] std::size_t modes_in_use(const ChainPlay& play) noexcept;
+// Modes that can occur: a transmission without play never lets go.
+[[nodiscard]] std::size_t modes_in_use(const TransmissionPlay& play) noexcept;
 
 }  // namespace towbench::emulator

@@ -1,5 +1,5 @@
-// Parameters of one axis: drive, chain, carriage, hard ends. SI. The defaults are the nominal Y
-// axis of docs/reference/constants.md, which names every source.
+// Parameters of one axis: drive, transmission, carriage, hard ends. SI. The defaults are those of
+// the tow tank's carriage in docs/reference/constants.md, which names every source.
 //
 // Inertia and friction are *effective* values seen at the motor shaft, as (3.33) and Table 7.4 have
 // them. What belongs to the carriage follows from them (derived_mechanics.h).
@@ -66,9 +66,9 @@ struct GearParameters {
   }
 };
 
-// The chain between sprocket and carriage as one spring and damper (3.36)-(3.38), given by the
+// The transmission between wheel and carriage as one spring and damper (3.36)-(3.38), given by the
 // free-free mode that an open-loop motor shows; a carriage against a held motor swings slower.
-struct ChainParameters {
+struct ElasticityParameters {
   bool rigid = false;           // (3.33) instead
   double resonance_Hz = 9.0;    // assumed; seen in Fig. 7.4, never identified
   double damping_ratio = 0.06;  // assumed
@@ -111,7 +111,7 @@ struct AxisParameters {
   double viscous_friction_Nm_s_per_rad = 1.106e-5;  // B, Table 7.4
   double coulomb_friction_Nm = 2.26e-3;             // C, Table 7.4
   double gear_ratio = 1539.0 / 44.0;                // n, App. A
-  double sprocket_radius_m = 0.050;                 // R
+  double output_radius_m = 0.050;                   // R
   double torque_constant_Nm_per_A = 26.7e-3;        // K_T, Table 7.1
   double amplifier_gain_A_per_V = 0.37;             // K_amp, Table 7.1
   double current_limit_A = 3.7;                     // I_max, Table 7.1
@@ -119,7 +119,7 @@ struct AxisParameters {
   AmplifierParameters amplifier;
   FrictionParameters friction;
   GearParameters gear;
-  ChainParameters chain;
+  ElasticityParameters elasticity;
   HardEndParameters hard_ends;
   DisturbanceParameters disturbances;
   // Water that moves with the carriage, (3.9): on top of the inertia, which was identified in air.
@@ -136,8 +136,8 @@ struct AxisParameters {
             "effective viscous friction at the motor shaft");
     v.value("coulomb_friction_Nm", coulomb_friction_Nm, core::at_least(0.0),
             "effective Coulomb friction at the motor shaft");
-    v.value("gear_ratio", gear_ratio, core::above(0.0), "motor turns per sprocket turn");
-    v.value("sprocket_radius_m", sprocket_radius_m, core::above(0.0), "pitch radius");
+    v.value("gear_ratio", gear_ratio, core::above(0.0), "motor turns per output turn");
+    v.value("sprocket_radius_m", output_radius_m, core::above(0.0), "pitch radius");
     v.value("torque_constant_Nm_per_A", torque_constant_Nm_per_A, core::above(0.0),
             "also the back-EMF constant in V s/rad");
     v.value("amplifier_gain_A_per_V", amplifier_gain_A_per_V, core::above(0.0),
@@ -147,7 +147,7 @@ struct AxisParameters {
     v.group("amplifier", amplifier, "servo amplifier");
     v.group("friction", friction, "dry friction");
     v.group("gear", gear, "gearhead");
-    v.group("chain", chain, "chain between sprocket and carriage");
+    v.group("elasticity", elasticity, "of the transmission between motor and carriage");
     v.group("hard_ends", hard_ends, "mechanical stops");
     v.group("disturbances", disturbances, "what else pushes");
   }

@@ -37,14 +37,14 @@ bool prediction_failed(const AxisModel& model, double motor, double motor_miss, 
          failed(model.mechanics.carriage, carriage, carriage_miss);
 }
 
-// r theta + delta(theta) = x; a real sprocket differs little from a circle.
-double angle_of_relaxed_chain(const AxisModel& model, double carriage_m) noexcept {
-  const double r = model.mechanics.metres_per_radian;
+// r theta + delta(theta) = x; a real wheel differs little from a circle.
+double angle_of_relaxed_transmission(const AxisModel& model, double carriage_m) noexcept {
+  const double r = model.mechanics.metres_per_motor_rad;
   double angle_rad = carriage_m / r;
-  if (model.sprocket.present()) {
+  if (model.wheel.present()) {
     constexpr int kRounds = 60;
     for (int i = 0; i < kRounds; ++i) {
-      angle_rad = (carriage_m - model.sprocket(model.sine, angle_rad).offset_m) / r;
+      angle_rad = (carriage_m - model.wheel(model.sine, angle_rad).offset_m) / r;
     }
   }
   return angle_rad;
@@ -79,12 +79,14 @@ MiddleOfMotion predicted_middle(const AxisModel& model, const StateVector& z,
 AxisPlant::AxisPlant(const AxisParameters& parameters, double carriage_m, double tick_s)
     : model_(std::make_shared<const AxisModel>(parameters, tick_s)) {
   const AxisModel& model = *model_;
-  z_[kMotorAngle] = angle_of_relaxed_chain(model, carriage_m);
-  z_[kStretch] = model.mechanics.metres_per_radian * z_[kMotorAngle] - carriage_m;
+  z_[kMotorAngle] = angle_of_relaxed_transmission(model, carriage_m);
+  z_[kStretch] = model.mechanics.metres_per_motor_rad * z_[kMotorAngle] - carriage_m;
   situation_.motor_anchor_rad = z_[kMotorAngle];
   situation_.carriage_anchor_m = carriage_m;
-  situation_.regime.chain = model.play.has_gap() ? ChainContact::kOpen : ChainContact::kTaut;
-  situation_.chain = chain_law(model.mechanics, model.play, situation_.regime.chain, 0.0);
+  situation_.regime.transmission =
+      model.play.has_gap() ? TransmissionContact::kOpen : TransmissionContact::kTaut;
+  situation_.transmission =
+      transmission_law(model.mechanics, model.play, situation_.regime.transmission, 0.0);
   take(input_);
 }
 
@@ -266,7 +268,8 @@ void AxisPlant::record_contact(double time_s, double sign) noexcept {
   const DerivedMechanics& m = model_->mechanics;
   const double v = z_[kCarriageSpeed];
   const double w = z_[kMotorSpeed];
-  const double carriage_J = model_->parameters.chain.rigid ? 0.0 : 0.5 * m.carriage_mass_kg * v * v;
+  const double carriage_J =
+      model_->parameters.elasticity.rigid ? 0.0 : 0.5 * m.carriage_mass_kg * v * v;
   contact_ = {.occurred = true,
               .at_max = sign > 0,
               .time_s = time_s,
@@ -316,16 +319,16 @@ void AxisPlant::step_through_events(MotionSegments& segments) noexcept {
   }
 }
 
-double AxisPlant::skip_chain(double by_m) noexcept {
+double AxisPlant::skip_tooth(double by_m) noexcept {
   const AxisModel& model = *model_;
-  if (model.parameters.chain.rigid) {
+  if (model.parameters.elasticity.rigid) {
     return 0.0;
   }
   const double carriage_m = carriage_position_m(model, z_);
-  const double by_rad = by_m / model.mechanics.metres_per_radian;
+  const double by_rad = by_m / model.mechanics.metres_per_motor_rad;
   z_[kMotorAngle] -= by_rad;
   situation_.motor_anchor_rad -= by_rad;
-  // What the stretch must be for the carriage to stay where it is, on a real sprocket too.
+  // What the stretch must be for the carriage to stay where it is, on a real wheel too.
   z_[kStretch] += carriage_position_m(model, z_) - carriage_m;
   half_change_ = {};
   settle(model, situation_, z_);

@@ -1,5 +1,5 @@
-// One axis of the carriage, stepped at 10 kHz: amplifier, winding, gear, elastic chain, friction,
-// hard ends. Pure: the next state follows from parameters, state and input alone.
+// One axis of the carriage, stepped at 10 kHz: amplifier, winding, gear, elastic transmission,
+// friction, hard ends. Pure: the next state follows from parameters, state and input alone.
 //
 // Laws: axis_model.h (linear part), friction_law.h (dry friction), held_terms.h (optional laws),
 // guards.h (what ends a regime).
@@ -40,7 +40,7 @@ struct AxisState {
   double current_integral_V = 0;  // of the amplifier's PI loop
   double motor_angle_rad = 0;     // 0 where the encoder count is 0
   double motor_speed_rad_per_s = 0;
-  double carriage_m = 0;  // 0 where the chain is relaxed at motor angle 0
+  double carriage_m = 0;  // 0 where the transmission is relaxed at motor angle 0
   double carriage_speed_m_per_s = 0;
 };
 
@@ -69,19 +69,19 @@ struct HardEndContact {
 
 class AxisPlant {
  public:
-  // Parameters are consistent (axis_parameters.h; others abort). Starts at rest, chain relaxed. A
-  // tick other than the plant's own serves convergence studies.
+  // Parameters are consistent (axis_parameters.h; others abort). Starts at rest, transmission
+  // relaxed. A tick other than the plant's own serves convergence studies.
   AxisPlant(const AxisParameters& parameters, double carriage_m,
             double tick_s = core::kPlantTick_s);
 
   // Advances by one tick. `segments` describes the motor shaft during it, without gaps.
   TOWBENCH_REALTIME void step(const AxisInput& input, MotionSegments& segments) noexcept;
 
-  // Between two steps the chain jumps over its sprocket: stretched by `by_m` less, as if the motor
-  // stood so far back, while neither body moves. state() has the motor's angle by the chain, which
-  // from then on is not that of the shaft; the difference is returned, in rad. A rigid chain has no
-  // teeth to jump: 0.
-  TOWBENCH_REALTIME [[nodiscard]] double skip_chain(double by_m) noexcept;
+  // Between two steps the transmission jumps over its wheel: stretched by `by_m` less, as if the
+  // motor stood so far back, while neither body moves. state() has the motor's angle by the
+  // transmission, which from then on is not that of the shaft; the difference is returned, in rad.
+  // A rigid transmission has no teeth to jump: 0.
+  TOWBENCH_REALTIME [[nodiscard]] double skip_tooth(double by_m) noexcept;
 
   [[nodiscard]] AxisState state() const noexcept;
   // Of the last step.

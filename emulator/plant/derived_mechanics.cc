@@ -18,8 +18,8 @@ DryFriction dry_friction(const AxisParameters& p, double share, double radius) n
 }
 
 void share_out(const AxisParameters& p, DerivedMechanics& d) noexcept {
-  const double r = d.metres_per_radian;
-  const double on_carriage = p.chain.rigid ? 0.0 : p.friction.carriage_share;
+  const double r = d.metres_per_motor_rad;
+  const double on_carriage = p.elasticity.rigid ? 0.0 : p.friction.carriage_share;
   const double on_motor = 1.0 - on_carriage;
   d.motor_viscous_Nm_s_per_rad = on_motor * p.viscous_friction_Nm_s_per_rad;
   d.carriage_viscous_N_s_per_m = on_carriage * p.viscous_friction_Nm_s_per_rad / (r * r);
@@ -27,12 +27,13 @@ void share_out(const AxisParameters& p, DerivedMechanics& d) noexcept {
   d.carriage = dry_friction(p, on_carriage, r);
 }
 
-void derive_chain(const AxisParameters& p, DerivedMechanics& d) noexcept {
-  const double r = d.metres_per_radian;
-  const double resonance_rad_per_s = 2.0 * std::numbers::pi * p.chain.resonance_Hz;
+void derive_transmission(const AxisParameters& p, DerivedMechanics& d) noexcept {
+  const double r = d.metres_per_motor_rad;
+  const double resonance_rad_per_s = 2.0 * std::numbers::pi * p.elasticity.resonance_Hz;
   const double mobility = r * r / d.motor_inertia_kg_m2 + 1.0 / d.carriage_mass_kg;
-  d.chain_stiffness_N_per_m = resonance_rad_per_s * resonance_rad_per_s / mobility;
-  d.chain_damping_N_s_per_m = 2.0 * p.chain.damping_ratio * resonance_rad_per_s / mobility;
+  d.transmission_stiffness_N_per_m = resonance_rad_per_s * resonance_rad_per_s / mobility;
+  d.transmission_damping_N_s_per_m =
+      2.0 * p.elasticity.damping_ratio * resonance_rad_per_s / mobility;
 }
 
 // The zero of the PI cancels the winding's pole: C(s) = w_c (L s + R) / s leaves the loop w_c / s,
@@ -48,20 +49,20 @@ void derive_current_loop(const AxisParameters& p, DerivedMechanics& d) noexcept 
 
 DerivedMechanics derive(const AxisParameters& p) noexcept {
   DerivedMechanics d;
-  const double r = p.sprocket_radius_m / p.gear_ratio;
-  d.metres_per_radian = r;
-  d.motor_inertia_kg_m2 = p.chain.rigid ? p.inertia_kg_m2 : p.rotor_inertia_kg_m2;
+  const double r = p.output_radius_m / p.gear_ratio;
+  d.metres_per_motor_rad = r;
+  d.motor_inertia_kg_m2 = p.elasticity.rigid ? p.inertia_kg_m2 : p.rotor_inertia_kg_m2;
   d.carriage_mass_kg = (p.inertia_kg_m2 - p.rotor_inertia_kg_m2) / (r * r);
   share_out(p, d);
-  if (!p.chain.rigid) {
-    derive_chain(p, d);
+  if (!p.elasticity.rigid) {
+    derive_transmission(p, d);
   }
   constexpr double kGravity_m_per_s2 = 9.80665;
   d.tilt_force_N = -d.carriage_mass_kg * kGravity_m_per_s2 *
                    core::sine_cosine_of_turns(p.disturbances.tilt_deg / 360.0).sine;
   // The spring was found without water: its mode gets slower with it, the spring no softer.
   d.carriage_mass_kg += p.water_mass_kg;
-  d.motor_inertia_kg_m2 += p.chain.rigid ? p.water_mass_kg * r * r : 0.0;
+  d.motor_inertia_kg_m2 += p.elasticity.rigid ? p.water_mass_kg * r * r : 0.0;
   derive_current_loop(p, d);
   return d;
 }

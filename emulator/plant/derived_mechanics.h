@@ -1,7 +1,7 @@
 // From effective, motor-side parameters to the two bodies of (3.37)-(3.38).
 //
-//   r   = R/n                            metres of chain a radian of motor
-//   M   = (J - J_m) / r^2                from (3.39), sprockets counted with the rotor; the water's
+//   r   = R/n                            metres of transmission a radian of motor
+//   M   = (J - J_m) / r^2                from (3.39), wheels counted with the rotor; the water's
 //                                        mass (3.9) comes on top once the spring is known
 //   B_m = (1 - share) B,  B_c = share B / r^2
 //   C_m = (1 - share) C,  C_c = share C / r     likewise S
@@ -10,7 +10,7 @@
 //
 //   F_tilt = -M g sin(tilt)              the carriage alone climbs
 //
-// A rigid chain lets no one tell the bodies apart: everything is then on the motor, (3.33).
+// A rigid transmission lets no one tell the bodies apart: everything is then on the motor, (3.33).
 #pragma once
 
 #include "emulator/plant/axis_parameters.h"
@@ -28,15 +28,15 @@ struct DryFriction {
 };
 
 struct DerivedMechanics {
-  double metres_per_radian = 0;  // r
+  double metres_per_motor_rad = 0;  // r
   double motor_inertia_kg_m2 = 0;
   double carriage_mass_kg = 0;
   double motor_viscous_Nm_s_per_rad = 0;
   double carriage_viscous_N_s_per_m = 0;
   DryFriction motor;     // N m, rad/s
   DryFriction carriage;  // N, m/s
-  double chain_stiffness_N_per_m = 0;
-  double chain_damping_N_s_per_m = 0;
+  double transmission_stiffness_N_per_m = 0;
+  double transmission_damping_N_s_per_m = 0;
   double proportional_gain_V_per_A = 0;  // of the current loop
   double integral_gain_V_per_A_s = 0;
   double tilt_force_N = 0;  // -M g sin(tilt)

@@ -1,5 +1,5 @@
 // Parameters of what pushes an axis besides motor and friction: torque ripple, an eccentric or
-// many-sided sprocket, cables, a tilted rail, a joint's weight, a force that depends on place. All
+// many-sided wheel, cables, a tilted rail, a joint's weight, a force that depends on place. All
 // off by default.
 #pragma once
 
@@ -22,7 +22,7 @@ struct TorqueRippleParameters {
   }
 };
 
-struct SprocketParameters {
+struct WheelParameters {
   double eccentricity_m = 0;
   double eccentricity_phase_deg = 0;
   double teeth = 0;
@@ -30,11 +30,11 @@ struct SprocketParameters {
   template <typename Visitor>
   void visit(Visitor& v) {
     v.value("eccentricity_m", eccentricity_m, core::between(0.0, 0.01),
-            "of the sprocket's centre; 0: runs true");
+            "of the wheel's centre; 0: runs true");
     v.value("eccentricity_phase_deg", eccentricity_phase_deg, core::between(-360.0, 360.0),
             "at motor angle 0");
     v.value("teeth", teeth, core::between(0.0, 200.0),
-            "that the chain lies on as a polygon, from 5; 0: it lies on a circle");
+            "that the transmission lies on as a polygon, from 5; 0: it lies on a circle");
   }
 };
 
@@ -83,7 +83,7 @@ struct GravityParameters {
 
 struct DisturbanceParameters {
   TorqueRippleParameters torque_ripple;
-  SprocketParameters sprocket;
+  WheelParameters wheel;
   CableParameters cable;
   PositionForce position_force;
   GravityParameters gravity;
@@ -92,7 +92,7 @@ struct DisturbanceParameters {
   template <typename Visitor>
   void visit(Visitor& v) {
     v.group("torque_ripple", torque_ripple, "torque that depends on the motor's angle");
-    v.group("sprocket", sprocket, "a sprocket that is not a true circle");
+    v.group("wheel", wheel, "a wheel that is not a true circle");
     v.group("cable", cable, "cables that pull on the carriage");
     v.group("position_force", position_force, "a force that depends on where the carriage is");
     v.group("gravity", gravity, "the weight of a load that turns");

@@ -61,7 +61,7 @@ struct FrictionOptions {
     v.group("warming", warming, "friction that falls with what it has dissipated");
     v.group("presliding", presliding, "contacts that yield elastically before they slip");
     v.value("load_ratio", load_ratio, core::between(0.0, 0.9),
-            "carriage friction a newton of chain force, added");
+            "carriage friction a newton of transmission force, added");
   }
 };
 

@@ -1,6 +1,6 @@
 // Parameters of dry friction, motor side. Values and sources: docs/reference/constants.md.
 //
-// The effective values of an axis are split between the motor (with gear and sprockets) and the
+// The effective values of an axis are split between the motor (with gear and wheels) and the
 // carriage by `carriage_share`; on the carriage a torque becomes a force by n/R.
 #pragma once
 

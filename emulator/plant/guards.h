@@ -24,9 +24,9 @@ enum class Event : std::uint8_t {
   kEndReleases,
   kEndPushesAgain,
   kEndCleared,
-  kChainPulls,
-  kChainReleases,
-  kChainClears,
+  kTransmissionPulls,
+  kTransmissionReleases,
+  kTransmissionClears,
   kStrandSlackens,
   kStrandTightens,
 };
@@ -79,9 +79,9 @@ template <typename Sink>
     sink(event, -1.0, one * contact.travel + bend);
     return;
   }
-  const double chain_N = model.has_terms ? chain_force_N(model, s, z, one) : 0.0;
-  sink(event, 1.0, breakaway_margin(level, 1.0, load, chain_N, one));
-  sink(event, -1.0, breakaway_margin(level, -1.0, load, chain_N, one));
+  const double transmission_N = model.has_terms ? transmission_force_N(model, s, z, one) : 0.0;
+  sink(event, 1.0, breakaway_margin(level, 1.0, load, transmission_N, one));
+  sink(event, -1.0, breakaway_margin(level, -1.0, load, transmission_N, one));
 }
 
 template <typename Sink>
@@ -130,43 +130,45 @@ template <typename Sink>
   }
 }
 
-// Only for a chain with play or strands that may go slack (chain_play.h).
+// Only for a transmission with play or strands that may go slack (transmission_play.h).
 template <typename Sink>
-[[gnu::always_inline]] inline void visit_chain_guards(const AxisModel& model, const Situation& s,
-                                                      const StateVector& z, double one,
-                                                      Sink&& sink) noexcept {
-  const ChainPlay& play = model.play;
-  const double side = s.regime.chain_sign;
-  const double stretch_m = chain_stretch_m(s, z, one);
+[[gnu::always_inline]] inline void visit_transmission_guards(const AxisModel& model,
+                                                             const Situation& s,
+                                                             const StateVector& z, double one,
+                                                             Sink&& sink) noexcept {
+  const TransmissionPlay& play = model.play;
+  const double side = s.regime.transmission_sign;
+  const double stretch_m = transmission_stretch_m(s, z, one);
   const double gap_m = one * play.half_gap_m;
   const double slack_from_m = one * (play.half_gap_m + play.strand_slack_m);
-  switch (s.regime.chain) {
-    case ChainContact::kTaut:
+  switch (s.regime.transmission) {
+    case TransmissionContact::kTaut:
       if (!play.has_gap()) {
         sink(Event::kStrandSlackens, 1.0, slack_from_m - stretch_m);
         sink(Event::kStrandSlackens, -1.0, slack_from_m + stretch_m);
         return;
       }
-      sink(Event::kChainReleases, side, side * chain_force_N(model, s, z, one));
+      sink(Event::kTransmissionReleases, side, side * transmission_force_N(model, s, z, one));
       if (play.has_strands()) {
         sink(Event::kStrandSlackens, side, slack_from_m - side * stretch_m);
       }
       return;
-    case ChainContact::kOneStrand:
+    case TransmissionContact::kOneStrand:
       if (play.has_strands()) {
         sink(Event::kStrandTightens, side, side * stretch_m - slack_from_m);
       } else {
-        sink(Event::kChainReleases, side, side * chain_force_N(model, s, z, one));
+        sink(Event::kTransmissionReleases, side, side * transmission_force_N(model, s, z, one));
       }
       return;
-    case ChainContact::kOpen:
-      sink(Event::kChainPulls, 1.0, gap_m - stretch_m);
-      sink(Event::kChainPulls, -1.0, gap_m + stretch_m);
+    case TransmissionContact::kOpen:
+      sink(Event::kTransmissionPulls, 1.0, gap_m - stretch_m);
+      sink(Event::kTransmissionPulls, -1.0, gap_m + stretch_m);
       return;
-    case ChainContact::kLeaving: {
-      const ChainLaw engaged = chain_law(model.mechanics, play, play.engaged, side);
-      sink(Event::kChainPulls, side, -side * chain_force_N(model, engaged, s, z, one));
-      sink(Event::kChainClears, side, side * stretch_m - gap_m);
+    case TransmissionContact::kLeaving: {
+      const TransmissionLaw engaged = transmission_law(model.mechanics, play, play.engaged, side);
+      sink(Event::kTransmissionPulls, side,
+           -side * transmission_force_N(model, engaged, s, z, one));
+      sink(Event::kTransmissionClears, side, side * stretch_m - gap_m);
       return;
     }
   }
@@ -180,7 +182,7 @@ template <typename Sink>
   visit_friction_guards(model, s, z, one, sink);
   visit_end_guards(model, s, z, one, sink);
   if (model.play.present()) {
-    visit_chain_guards(model, s, z, one, sink);
+    visit_transmission_guards(model, s, z, one, sink);
   }
 }
 

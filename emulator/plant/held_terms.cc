@@ -23,7 +23,7 @@ double motor_level(const AxisModel& model, Situation& s, double direction, doubl
   const double level =
       skewed_level(model, model.mechanics.motor, model.mechanics.motor_viscous_Nm_s_per_rad,
                    s.terms.level_scale, direction, speed);
-  return model.parameters.chain.rigid
+  return model.parameters.elasticity.rigid
              ? level + model.position_friction(carriage_m, s.position_interval)
              : level;
 }
@@ -35,26 +35,29 @@ double carriage_level(const AxisModel& model, Situation& s, double direction, do
          model.position_friction(carriage_m, s.position_interval);
 }
 
-double carriage_load_factor(const AxisModel& model, double chain_N) noexcept {
+double carriage_load_factor(const AxisModel& model, double transmission_N) noexcept {
   const double ratio = model.parameters.friction.options.load_ratio;
-  return chain_N < 0 ? -ratio : ratio;
+  return transmission_N < 0 ? -ratio : ratio;
 }
 
-void hold_chain(const AxisModel& model, Situation& s, const MiddleOfMotion& middle) noexcept {
-  const double r = model.mechanics.metres_per_radian;
+void hold_transmission(const AxisModel& model, Situation& s,
+                       const MiddleOfMotion& middle) noexcept {
+  const double r = model.mechanics.metres_per_motor_rad;
   HeldTerms& t = s.terms;
-  Sprocket::Excess excess;
-  if (model.sprocket.present()) {
-    excess = model.sprocket(model.sine, middle.motor_rad);
-    t.sprocket_slope_m_per_rad = excess.slope_m_per_rad;
-    t.sprocket_offset_m = excess.offset_m - excess.slope_m_per_rad * middle.motor_rad;
+  Wheel::Excess excess;
+  if (model.wheel.present()) {
+    excess = model.wheel(model.sine, middle.motor_rad);
+    t.wheel_slope_m_per_rad = excess.slope_m_per_rad;
+    t.wheel_offset_m = excess.offset_m - excess.slope_m_per_rad * middle.motor_rad;
   }
-  t.extra_chain_N = s.chain.stiffness_N_per_m * excess.offset_m +
-                    s.chain.damping_N_s_per_m * excess.slope_m_per_rad * middle.motor_rad_per_s +
-                    s.chain.constant_N;
-  t.chain_N = s.chain.stiffness_N_per_m * (r * middle.motor_rad - middle.carriage_m) +
-              s.chain.damping_N_s_per_m * (r * middle.motor_rad_per_s - middle.carriage_m_per_s) +
-              t.extra_chain_N;
+  t.extra_transmission_N =
+      s.transmission.stiffness_N_per_m * excess.offset_m +
+      s.transmission.damping_N_s_per_m * excess.slope_m_per_rad * middle.motor_rad_per_s +
+      s.transmission.constant_N;
+  t.transmission_N =
+      s.transmission.stiffness_N_per_m * (r * middle.motor_rad - middle.carriage_m) +
+      s.transmission.damping_N_s_per_m * (r * middle.motor_rad_per_s - middle.carriage_m_per_s) +
+      t.extra_transmission_N;
 }
 
 // Of a load that turns: its position is an angle.
@@ -65,19 +68,19 @@ double weight_Nm(const GravityParameters& gravity, double load_rad) noexcept {
 }
 
 // What break-away takes on the side to which a contact is bent.
-double level_at_bend(const BreakAway& level, double bend, double chain_N) noexcept {
-  return breakaway_margin(level, bend < 0 ? -1.0 : 1.0, 0.0, chain_N, 1.0);
+double level_at_bend(const BreakAway& level, double bend, double transmission_N) noexcept {
+  return breakaway_margin(level, bend < 0 ? -1.0 : 1.0, 0.0, transmission_N, 1.0);
 }
 
 double extra_grip(const ElasticContact& contact, const BreakAway& level, double bend,
-                  double chain_N) noexcept {
-  return (level_at_bend(level, bend, chain_N) - contact.breakaway) * bend / contact.travel;
+                  double transmission_N) noexcept {
+  return (level_at_bend(level, bend, transmission_N) - contact.breakaway) * bend / contact.travel;
 }
 
 }  // namespace
 
 void hold_terms(const AxisModel& model, Situation& s, const MiddleOfMotion& middle) noexcept {
-  hold_chain(model, s, middle);
+  hold_transmission(model, s, middle);
   HeldTerms& t = s.terms;
   if (model.ripple.present()) {
     t.motor_Nm = model.ripple.mean(model.sine, middle.motor_rad, middle.travel_rad);
@@ -93,43 +96,46 @@ void hold_terms(const AxisModel& model, Situation& s, const MiddleOfMotion& midd
   if (model.motor_is_dry && along != 0) {
     s.motor_friction_Nm =
         motor_level(model, s, along, middle.motor_rad_per_s, middle.carriage_m) +
-        model.gear_loss.factor(chain_lever_m(model, s), along, t.chain_N) * t.chain_N;
+        model.gear_loss.factor(transmission_lever_m(model, s), along, t.transmission_N) *
+            t.transmission_N;
   } else if (model.motor_is_dry) {
     hold_motor_breakaway(model, s, middle.carriage_m);
     if (model.motor_contact.present()) {
       t.extra_motor_grip_Nm = extra_grip(model.motor_contact, s.motor_breakaway,
-                                         middle.motor_rad - s.motor_anchor_rad, t.chain_N);
+                                         middle.motor_rad - s.motor_anchor_rad, t.transmission_N);
     }
   }
   const double forth = s.regime.carriage_direction;
   if (model.carriage_is_dry && forth != 0) {
     s.carriage_friction_N =
         carriage_level(model, s, forth, middle.carriage_m_per_s, middle.carriage_m) +
-        carriage_load_factor(model, t.chain_N) * t.chain_N;
+        carriage_load_factor(model, t.transmission_N) * t.transmission_N;
   } else if (model.carriage_is_dry) {
     hold_carriage_breakaway(model, s, middle.carriage_m);
     if (model.carriage_contact.present()) {
-      t.extra_carriage_grip_N = extra_grip(model.carriage_contact, s.carriage_breakaway,
-                                           middle.carriage_m - s.carriage_anchor_m, t.chain_N);
+      t.extra_carriage_grip_N =
+          extra_grip(model.carriage_contact, s.carriage_breakaway,
+                     middle.carriage_m - s.carriage_anchor_m, t.transmission_N);
     }
   }
 }
 
 void hold_motor_breakaway(const AxisModel& model, Situation& s, double carriage_m) noexcept {
-  const double lever = chain_lever_m(model, s);
+  const double lever = transmission_lever_m(model, s);
   s.motor_breakaway = {
       .towards_max = motor_level(model, s, 1.0, 0.0, carriage_m),
       .towards_min = motor_level(model, s, -1.0, 0.0, carriage_m),
-      .towards_max_per_chain_N = model.gear_loss.factor(lever, 1.0, s.terms.chain_N),
-      .towards_min_per_chain_N = model.gear_loss.factor(lever, -1.0, s.terms.chain_N)};
+      .towards_max_per_transmission_N = model.gear_loss.factor(lever, 1.0, s.terms.transmission_N),
+      .towards_min_per_transmission_N =
+          model.gear_loss.factor(lever, -1.0, s.terms.transmission_N)};
 }
 
 void hold_carriage_breakaway(const AxisModel& model, Situation& s, double carriage_m) noexcept {
-  const double factor = carriage_load_factor(model, s.terms.chain_N);
+  const double factor = carriage_load_factor(model, s.terms.transmission_N);
   s.carriage_breakaway = {.towards_max = carriage_level(model, s, 1.0, 0.0, carriage_m),
                           .towards_min = carriage_level(model, s, -1.0, 0.0, carriage_m),
-                          .towards_max_per_chain_N = factor,
-                          .towards_min_per_chain_N = factor};
+                          .towards_max_per_transmission_N = factor,
+                          .towards_min_per_transmission_N = factor};
 }
 
 }  // namespace towbench::emulator

@@ -1,11 +1,11 @@
 // The optional laws as inputs of the linear mode: each is taken in the middle of a piece of motion,
 // where it stands for the piece's mean to second order in its length.
 //
-//   motor    + ripple(theta) - r F_x - delta'(theta) F_chain
+//   motor    + ripple(theta) - r F_x - delta'(theta) F_t
 //   carriage + F_P(x) + F_x - m g l sin(q + q0)
-//   F_x      = what the mode's chain lacks: K delta + B delta' w, and the gap's constant
+//   F_x      = what the mode's transmission lacks: K delta + B delta' w, and the gap's constant
 //   level    = scale ((C + (S - C) f_s)(1 + s a) + ...) + s a_v B |v| + position + load
-//              motor: gear loss (gear_loss.h); carriage: load_ratio |F_chain|
+//              motor: gear loss (gear_loss.h); carriage: load_ratio |F_t|
 //
 // s is the direction, a the asymmetry of each level. Position friction and load are neither skewed
 // nor warmed.

@@ -20,7 +20,7 @@ enum StateIndex : std::size_t {
   kIntegral,       // V, of the current loop
   kMotorSpeed,     // rad/s
   kCarriageSpeed,  // m/s
-  kStretch,        // m, of the chain: r theta - x
+  kStretch,        // m, of the transmission: r theta - x
   kMotorAngle,     // rad
   kStateCount
 };

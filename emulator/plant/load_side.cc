@@ -3,7 +3,7 @@
 namespace towbench::emulator {
 
 void apply(const LoadSideParameters& load, AxisParameters& axis) noexcept {
-  const double r = axis.sprocket_radius_m / axis.gear_ratio;
+  const double r = axis.output_radius_m / axis.gear_ratio;
   axis.inertia_kg_m2 = load.mass_kg * r * r;
   axis.viscous_friction_Nm_s_per_rad = load.viscous_friction_N_s_per_m * r * r;
   axis.coulomb_friction_Nm = load.coulomb_friction_N * r;

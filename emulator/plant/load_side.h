@@ -29,7 +29,7 @@ struct LoadSideParameters {
   }
 };
 
-// Writes the motor-side equivalents into `axis`, by its own gear ratio, sprocket radius and torque
+// Writes the motor-side equivalents into `axis`, by its own gear ratio, wheel radius and torque
 // constant: torque = force R/n, inertia = mass (R/n)^2, (3.39)-(3.41) with the errata of
 // docs/reference/constants.md.
 void apply(const LoadSideParameters& load, AxisParameters& axis) noexcept;

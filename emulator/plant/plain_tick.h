@@ -1,5 +1,5 @@
 // The plain regimes made short: amplifier in current mode (in control, at its limit, or off),
-// elastic chain, each body sliding or standing, no stop touched, no optional term. The same
+// elastic transmission, each body sliding or standing, no stop touched, no optional term. The same
 // arithmetic as the general tick (axis_plant.cc) with every other case left out: nearly every tick
 // of a run is of this kind, and it takes a third of the time.
 #pragma once
@@ -76,18 +76,18 @@ inline constexpr double kSpeedMiss = 1e-4;
     return holds && t.motor_direction * z[kMotorSpeed] >= 0 &&
            t.carriage_direction * z[kCarriageSpeed] >= 0 && x >= t.min_m && x <= t.max_m;
   }
-  const double chain_N =
-      m.chain_stiffness_N_per_m * z[kStretch] +
-      m.chain_damping_N_s_per_m * (m.metres_per_radian * z[kMotorSpeed] - z[kCarriageSpeed]);
+  const double transmission_N = m.transmission_stiffness_N_per_m * z[kStretch] +
+                                m.transmission_damping_N_s_per_m *
+                                    (m.metres_per_motor_rad * z[kMotorSpeed] - z[kCarriageSpeed]);
   if (t.motor_direction == 0) {
-    const double load_Nm =
-        model.parameters.torque_constant_Nm_per_A * z[kCurrent] - m.metres_per_radian * chain_N;
+    const double load_Nm = model.parameters.torque_constant_Nm_per_A * z[kCurrent] -
+                           m.metres_per_motor_rad * transmission_N;
     holds = holds && std::fabs(load_Nm) <= t.motor_breakaway_Nm;
   } else {
     holds = holds && t.motor_direction * z[kMotorSpeed] >= 0;
   }
   if (t.carriage_direction == 0) {
-    return holds && std::fabs(chain_N + t.force_N) <= t.carriage_breakaway_N;
+    return holds && std::fabs(transmission_N + t.force_N) <= t.carriage_breakaway_N;
   }
   const double x = carriage_position_m(model, z);
   return holds && t.carriage_direction * z[kCarriageSpeed] >= 0 && x >= t.min_m && x <= t.max_m;

@@ -22,9 +22,9 @@ enum class HardEnd : std::uint8_t {
   kRebounding,  // the carriage leaves faster than the stop follows
 };
 
-// Between motor and carriage (chain_play.h). Without play or strands always taut.
-enum class ChainContact : std::uint8_t {
-  kTaut,       // the chain pulls
+// Between motor and carriage (transmission_play.h). Without play or strands always taut.
+enum class TransmissionContact : std::uint8_t {
+  kTaut,       // the transmission pulls
   kOneStrand,  // by one strand only
   kOpen,       // inside the gap
   kLeaving,    // past it, but the force would pull apart
@@ -33,17 +33,17 @@ enum class ChainContact : std::uint8_t {
 struct Regime {
   Drive drive = Drive::kOpen;
   HardEnd end = HardEnd::kClear;
-  ChainContact chain = ChainContact::kTaut;
+  TransmissionContact transmission = TransmissionContact::kTaut;
   double drive_sign = 1;          // of limit or current: +1, -1
   double end_sign = 1;            // +1 max stop, -1 min stop
-  double chain_sign = 0;          // side of the gap; 0: there is none
+  double transmission_sign = 0;   // side of the gap; 0: there is none
   double motor_direction = 0;     // +1, -1; 0: sticks
-  double carriage_direction = 0;  // likewise; unused with a rigid chain
+  double carriage_direction = 0;  // likewise; unused with a rigid transmission
 };
 
 // Linear modes differ in these only.
 enum class Winding : std::uint8_t { kCurrentLoop, kLimitedLoop, kFixedVoltage, kFixedCurrent };
-enum class ChainPull : std::uint8_t { kBothStrands, kOneStrand, kNone };
+enum class TransmissionPull : std::uint8_t { kBothStrands, kOneStrand, kNone };
 inline constexpr std::size_t kModesPerPull = 4 * 2 * 2 * 2;
 inline constexpr std::size_t kModeCount = 3 * kModesPerPull;
 
@@ -52,7 +52,7 @@ struct ModeKey {
   bool motor_moves = false;
   bool carriage_moves = false;
   bool end_pushes = false;
-  ChainPull pull = ChainPull::kBothStrands;
+  TransmissionPull pull = TransmissionPull::kBothStrands;
 
   // 0 .. kModeCount - 1, and back.
   [[nodiscard]] constexpr std::size_t index() const noexcept {
@@ -68,7 +68,7 @@ struct ModeKey {
             .motor_moves = (index & 4U) != 0,
             .carriage_moves = (index & 2U) != 0,
             .end_pushes = (index & 1U) != 0,
-            .pull = static_cast<ChainPull>(index / kModesPerPull)};
+            .pull = static_cast<TransmissionPull>(index / kModesPerPull)};
   }
 };
 
@@ -88,17 +88,17 @@ struct ModeKey {
   return Winding::kFixedCurrent;
 }
 
-[[nodiscard]] constexpr ChainPull pull_of(ChainContact contact) noexcept {
+[[nodiscard]] constexpr TransmissionPull pull_of(TransmissionContact contact) noexcept {
   switch (contact) {
-    case ChainContact::kTaut:
-      return ChainPull::kBothStrands;
-    case ChainContact::kOneStrand:
-      return ChainPull::kOneStrand;
-    case ChainContact::kOpen:
-    case ChainContact::kLeaving:
+    case TransmissionContact::kTaut:
+      return TransmissionPull::kBothStrands;
+    case TransmissionContact::kOneStrand:
+      return TransmissionPull::kOneStrand;
+    case TransmissionContact::kOpen:
+    case TransmissionContact::kLeaving:
       break;
   }
-  return ChainPull::kNone;
+  return TransmissionPull::kNone;
 }
 
 [[nodiscard]] constexpr ModeKey mode_of(const Regime& regime) noexcept {
@@ -106,7 +106,7 @@ struct ModeKey {
           .motor_moves = regime.motor_direction != 0,
           .carriage_moves = regime.carriage_direction != 0,
           .end_pushes = regime.end == HardEnd::kPushing,
-          .pull = pull_of(regime.chain)};
+          .pull = pull_of(regime.transmission)};
 }
 
 }  // namespace towbench::emulator

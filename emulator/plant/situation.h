@@ -18,24 +18,24 @@ struct HeldInput {
   double carriage_force_N = 0;
 };
 
-// Level at which a body at rest breaks away, by direction: constant + per_chain * F_chain. N m or
-// N.
+// Level at which a body at rest breaks away, by direction: constant + per_transmission *
+// F_transmission. N m or N.
 struct BreakAway {
   double towards_max = 0;
   double towards_min = 0;
-  double towards_max_per_chain_N = 0;
-  double towards_min_per_chain_N = 0;
+  double towards_max_per_transmission_N = 0;
+  double towards_min_per_transmission_N = 0;
 };
 
 // What the optional laws add (held_terms.h); all zero without them.
 struct HeldTerms {
-  double motor_Nm = 0;           // + towards max
-  double carriage_N = 0;         // likewise
-  double sprocket_offset_m = 0;  // the sprocket's excess, offset + slope theta around the middle
-  double sprocket_slope_m_per_rad = 0;
-  double chain_N = 0;              // chain force in the middle
-  double extra_chain_N = 0;        // the part of it that the linear mode does not have
-  double extra_motor_grip_Nm = 0;  // of the elastic contacts, likewise
+  double motor_Nm = 0;        // + towards max
+  double carriage_N = 0;      // likewise
+  double wheel_offset_m = 0;  // the wheel's excess, offset + slope theta around the middle
+  double wheel_slope_m_per_rad = 0;
+  double transmission_N = 0;        // transmission force in the middle
+  double extra_transmission_N = 0;  // the part of it that the linear mode does not have
+  double extra_motor_grip_Nm = 0;   // of the elastic contacts, likewise
   double extra_carriage_grip_N = 0;
   double level_scale = 1;  // of dry friction, falls with warmth
 };
@@ -50,7 +50,7 @@ struct Situation {
   BreakAway carriage_breakaway;
   double motor_anchor_rad = 0;  // where a resting body's elastic contact is relaxed
   double carriage_anchor_m = 0;
-  ChainLaw chain;  // the regime's
+  TransmissionLaw transmission;  // the regime's
   HeldTerms terms;
   std::size_t position_interval = 0;  // of the position friction, where the carriage was last
   std::size_t force_interval = 0;     // of the position force, likewise
@@ -58,32 +58,34 @@ struct Situation {
 
 [[nodiscard]] inline double carriage_position_m(const AxisModel& model,
                                                 const StateVector& z) noexcept {
-  return model.mechanics.metres_per_radian * z[kMotorAngle] - z[kStretch];
+  return model.mechanics.metres_per_motor_rad * z[kMotorAngle] - z[kStretch];
 }
 
-// What the chain is stretched by, sprocket and all. `one` is 1, or 0 for the linear part alone.
-[[nodiscard]] inline double chain_stretch_m(const Situation& s, const StateVector& z,
-                                            double one) noexcept {
+// What the transmission is stretched by, wheel and all. `one` is 1, or 0 for the linear part alone.
+[[nodiscard]] inline double transmission_stretch_m(const Situation& s, const StateVector& z,
+                                                   double one) noexcept {
   return z[kStretch] +
-         (one * s.terms.sprocket_offset_m + s.terms.sprocket_slope_m_per_rad * z[kMotorAngle]);
+         (one * s.terms.wheel_offset_m + s.terms.wheel_slope_m_per_rad * z[kMotorAngle]);
 }
 
-[[nodiscard]] inline double chain_lever_m(const AxisModel& model, const Situation& s) noexcept {
-  return model.mechanics.metres_per_radian + s.terms.sprocket_slope_m_per_rad;
+[[nodiscard]] inline double transmission_lever_m(const AxisModel& model,
+                                                 const Situation& s) noexcept {
+  return model.mechanics.metres_per_motor_rad + s.terms.wheel_slope_m_per_rad;
 }
 
 // Of a given law, which may be another than the regime's.
-[[nodiscard]] inline double chain_force_N(const AxisModel& model, const ChainLaw& law,
-                                          const Situation& s, const StateVector& z,
-                                          double one) noexcept {
-  return law.stiffness_N_per_m * chain_stretch_m(s, z, one) +
-         law.damping_N_s_per_m * (chain_lever_m(model, s) * z[kMotorSpeed] - z[kCarriageSpeed]) +
+[[nodiscard]] inline double transmission_force_N(const AxisModel& model, const TransmissionLaw& law,
+                                                 const Situation& s, const StateVector& z,
+                                                 double one) noexcept {
+  return law.stiffness_N_per_m * transmission_stretch_m(s, z, one) +
+         law.damping_N_s_per_m *
+             (transmission_lever_m(model, s) * z[kMotorSpeed] - z[kCarriageSpeed]) +
          one * law.constant_N;
 }
 
-[[nodiscard]] inline double chain_force_N(const AxisModel& model, const Situation& s,
-                                          const StateVector& z, double one) noexcept {
-  return chain_force_N(model, s.chain, s, z, one);
+[[nodiscard]] inline double transmission_force_N(const AxisModel& model, const Situation& s,
+                                                 const StateVector& z, double one) noexcept {
+  return transmission_force_N(model, s.transmission, s, z, one);
 }
 
 // Penetration, + when beyond the stop that `sign` names. `one` as above.
@@ -101,7 +103,7 @@ struct Situation {
          ends.damping_N_s_per_m * sign * z[kCarriageSpeed];
 }
 
-// Everything on the carriage but its own friction and chain, N; `one` as above.
+// Everything on the carriage but its own friction and transmission, N; `one` as above.
 [[nodiscard]] inline double outside_force_N(const AxisModel& model, const Situation& s,
                                             const StateVector& z, double one) noexcept {
   double force = one * (s.held.carriage_force_N + s.terms.carriage_N);
@@ -117,16 +119,17 @@ struct Situation {
 // What friction must hold for the motor to stay at rest, N m.
 [[nodiscard]] inline double motor_load_Nm(const AxisModel& model, const Situation& s,
                                           const StateVector& z, double one) noexcept {
-  const double on_sprocket_N = model.parameters.chain.rigid ? outside_force_N(model, s, z, one)
-                                                            : -chain_force_N(model, s, z, one);
+  const double on_wheel_N = model.parameters.elasticity.rigid
+                                ? outside_force_N(model, s, z, one)
+                                : -transmission_force_N(model, s, z, one);
   return model.parameters.torque_constant_Nm_per_A * z[kCurrent] + one * s.terms.motor_Nm +
-         chain_lever_m(model, s) * on_sprocket_N;
+         transmission_lever_m(model, s) * on_wheel_N;
 }
 
-// What friction must hold for the carriage to stay at rest, N. Elastic chain only.
+// What friction must hold for the carriage to stay at rest, N. Elastic transmission only.
 [[nodiscard]] inline double carriage_load_N(const AxisModel& model, const Situation& s,
                                             const StateVector& z, double one) noexcept {
-  return chain_force_N(model, s, z, one) + outside_force_N(model, s, z, one);
+  return transmission_force_N(model, s, z, one) + outside_force_N(model, s, z, one);
 }
 
 // How far a resting body's elastic contact is bent.
@@ -141,9 +144,11 @@ struct Situation {
 
 // How much more than `load` it would take to break away in the direction `sign`.
 [[nodiscard]] inline double breakaway_margin(const BreakAway& level, double sign, double load,
-                                             double chain_N, double one) noexcept {
-  return sign > 0 ? one * level.towards_max + level.towards_max_per_chain_N * chain_N - load
-                  : one * level.towards_min + level.towards_min_per_chain_N * chain_N + load;
+                                             double transmission_N, double one) noexcept {
+  return sign > 0 ? one * level.towards_max +
+                        level.towards_max_per_transmission_N * transmission_N - load
+                  : one * level.towards_min +
+                        level.towards_min_per_transmission_N * transmission_N + load;
 }
 
 // (3.34) without sign and viscous part.
@@ -155,8 +160,8 @@ struct Situation {
 [[nodiscard]] inline double motor_level_Nm(const AxisModel& model, double speed_rad_per_s,
                                            double carriage_m, std::size_t& interval) noexcept {
   const double level = friction_level(model, model.mechanics.motor, speed_rad_per_s);
-  return model.parameters.chain.rigid ? level + model.position_friction(carriage_m, interval)
-                                      : level;
+  return model.parameters.elasticity.rigid ? level + model.position_friction(carriage_m, interval)
+                                           : level;
 }
 
 [[nodiscard]] inline double carriage_level_N(const AxisModel& model, double speed_m_per_s,
@@ -193,9 +198,9 @@ TOWBENCH_REALTIME [[nodiscard]] inline InputVector held_inputs(const AxisModel& 
   }
   if (model.has_terms) {
     const HeldTerms& t = s.terms;
-    force += t.carriage_N + t.extra_chain_N;
-    torque += t.motor_Nm - model.mechanics.metres_per_radian * t.extra_chain_N -
-              t.sprocket_slope_m_per_rad * t.chain_N;
+    force += t.carriage_N + t.extra_transmission_N;
+    torque += t.motor_Nm - model.mechanics.metres_per_motor_rad * t.extra_transmission_N -
+              t.wheel_slope_m_per_rad * t.transmission_N;
     if (s.regime.motor_direction == 0) {
       torque += model.motor_contact.stiffness * s.motor_anchor_rad - t.extra_motor_grip_Nm;
     }

@@ -41,9 +41,9 @@ void settle_voltage_mode(const AxisModel& model, Situation& s, const StateVector
 }
 
 // 0 while friction holds `load`, else the direction in which the body starts.
-double direction_under(const BreakAway& level, double load, double chain_N) noexcept {
+double direction_under(const BreakAway& level, double load, double transmission_N) noexcept {
   for (const double sign : {1.0, -1.0}) {
-    if (breakaway_margin(level, sign, load, chain_N, 1.0) < 0) {
+    if (breakaway_margin(level, sign, load, transmission_N, 1.0) < 0) {
       return sign;
     }
   }
@@ -56,7 +56,7 @@ void settle_resting_motor(const AxisModel& model, Situation& s, const StateVecto
   hold_motor_breakaway(model, s, carriage_position_m(model, z));
   if (!model.motor_contact.present()) {
     s.regime.motor_direction = direction_under(s.motor_breakaway, motor_load_Nm(model, s, z, 1.0),
-                                               chain_force_N(model, s, z, 1.0));
+                                               transmission_force_N(model, s, z, 1.0));
   }
 }
 
@@ -64,8 +64,9 @@ void settle_resting_carriage(const AxisModel& model, Situation& s, const StateVe
   s.regime.carriage_direction = 0;
   hold_carriage_breakaway(model, s, carriage_position_m(model, z));
   if (!model.carriage_contact.present()) {
-    s.regime.carriage_direction = direction_under(
-        s.carriage_breakaway, carriage_load_N(model, s, z, 1.0), chain_force_N(model, s, z, 1.0));
+    s.regime.carriage_direction =
+        direction_under(s.carriage_breakaway, carriage_load_N(model, s, z, 1.0),
+                        transmission_force_N(model, s, z, 1.0));
   }
 }
 
@@ -75,7 +76,7 @@ void settle_friction(const AxisModel& model, Situation& s, const StateVector& z)
   } else if (s.regime.motor_direction == 0) {
     settle_resting_motor(model, s, z);
   }
-  if (model.parameters.chain.rigid) {
+  if (model.parameters.elasticity.rigid) {
     return;
   }
   if (!model.carriage_is_dry) {
@@ -101,7 +102,7 @@ void stop_motor(const AxisModel& model, Situation& s, StateVector& z) noexcept {
   s.motor_anchor_rad =
       anchor_after_sliding(model.motor_contact, z[kMotorAngle], s.regime.motor_direction);
   z[kMotorSpeed] = 0;
-  if (model.parameters.chain.rigid) {
+  if (model.parameters.elasticity.rigid) {
     z[kCarriageSpeed] = 0;
   }
   settle_resting_motor(model, s, z);
@@ -114,29 +115,30 @@ void stop_carriage(const AxisModel& model, Situation& s, StateVector& z) noexcep
   settle_resting_carriage(model, s, z);
 }
 
-void cross_chain(const AxisModel& model, Event event, double sign, Situation& s) noexcept {
+void cross_transmission(const AxisModel& model, Event event, double sign, Situation& s) noexcept {
   Regime& regime = s.regime;
   switch (event) {
-    case Event::kChainPulls:
-      regime.chain = model.play.engaged;
-      regime.chain_sign = sign;
+    case Event::kTransmissionPulls:
+      regime.transmission = model.play.engaged;
+      regime.transmission_sign = sign;
       break;
-    case Event::kChainReleases:
-      regime.chain = ChainContact::kLeaving;
+    case Event::kTransmissionReleases:
+      regime.transmission = TransmissionContact::kLeaving;
       break;
-    case Event::kChainClears:
-      regime.chain = ChainContact::kOpen;
+    case Event::kTransmissionClears:
+      regime.transmission = TransmissionContact::kOpen;
       break;
     case Event::kStrandSlackens:
-      regime.chain = ChainContact::kOneStrand;
-      regime.chain_sign = sign;
+      regime.transmission = TransmissionContact::kOneStrand;
+      regime.transmission_sign = sign;
       break;
     default:
-      regime.chain = ChainContact::kTaut;
-      regime.chain_sign = model.play.has_gap() ? sign : 0.0;
+      regime.transmission = TransmissionContact::kTaut;
+      regime.transmission_sign = model.play.has_gap() ? sign : 0.0;
       break;
   }
-  s.chain = chain_law(model.mechanics, model.play, regime.chain, regime.chain_sign);
+  s.transmission =
+      transmission_law(model.mechanics, model.play, regime.transmission, regime.transmission_sign);
 }
 
 void cross_drive(const AxisModel& model, Event event, double sign, Situation& s,
@@ -218,12 +220,12 @@ void cross(const AxisModel& model, Event event, double sign, Situation& s,
     case Event::kEndCleared:
       s.regime.end = HardEnd::kClear;
       return;
-    case Event::kChainPulls:
-    case Event::kChainReleases:
-    case Event::kChainClears:
+    case Event::kTransmissionPulls:
+    case Event::kTransmissionReleases:
+    case Event::kTransmissionClears:
     case Event::kStrandSlackens:
     case Event::kStrandTightens:
-      cross_chain(model, event, sign, s);
+      cross_transmission(model, event, sign, s);
       hold_terms(model, s, motion_at(model, z));
       settle_friction(model, s, z);
       return;

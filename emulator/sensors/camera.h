@@ -1,6 +1,6 @@
 // A camera above the tank (thesis 9.2.1, 9.2.2) that finds the carriage in its pictures: slow, late
-// and quantised, but of the carriage itself, behind the chain. A frame is exposed at every whole
-// period and arrives a delay later:
+// and quantised, but of the carriage itself, behind the transmission. A frame is exposed at every
+// whole period and arrives a delay later:
 //
 //   seen = r round((carriage + s g) / r)
 //

@@ -1,7 +1,7 @@
 // Machines that differ from the fixtures' own by chance, as one built machine differs from the
-// next: inertia, friction, motor and amplifier constants, chain, delays of the end-stops. Where
-// those sit is set at commissioning (the fault `displaced` moves them). The controller is told
-// nothing.
+// next: inertia, friction, motor and amplifier constants, transmission, delays of the end-stops.
+// Where those sit is set at commissioning (the fault `displaced` moves them). The controller is
+// told nothing.
 //
 // Each is written down as fixtures that `towbench run` takes, so that every case can be repeated
 // and replayed: machine-K/<motion>.toml, its rig, and drawn.toml with the parameters that differ.

@@ -91,13 +91,14 @@ bool moved_to(const Names& names, const Campaign& campaign, CampaignEntry& entry
   return !entry.parts.empty() && !(was_bound && entry.motions.empty());
 }
 
-// What a base does to y, done to a further axis: on that axis' own motions, and on those of all.
+// What a base does to the first axis, done to a further axis: on that axis' own motions, and on
+// those of all.
 CampaignEntry done_to(core::Axis further, const CampaignEntry& entry) {
   CampaignEntry done = entry;
   done.parts.clear();
   for (const auto& part : entry.parts) {
     auto place = *place_named(part);
-    if (is_of_an_axis(place.part) && place.axis == core::Axis::kY) {
+    if (is_of_an_axis(place.part) && place.axis == core::kFirstAxis) {
       place.axis = further;
       done.parts.push_back(name_of(place));
     }

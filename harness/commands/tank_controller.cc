@@ -9,18 +9,17 @@ std::string tank_controller_note(const RigFixture& rig) {
   bool turns = false;
   for (const auto axis : core::kAllAxes) {
     const auto* const kind = rig.transmissions[axis];
-    if (kind != nullptr && kind != &chain_and_sprocket()) {
+    if (kind != nullptr && kind != &default_transmission()) {
       others +=
           fmt::format("{}{}: {}", others.empty() ? "" : ", ", core::name_of(axis), kind->name);
       turns = turns || kind->turns_load;
     }
   }
-  return others.empty()
-             ? others
-             : fmt::format(
-                   "BBMC is the tow tank's controller and knows chains only ({}{}); a program "
-                   "of your own: --controller",
-                   others, turns ? "; read rad where it says m" : "");
+  return others.empty() ? others
+                        : fmt::format(
+                              "BBMC is the tow tank's controller and takes each axis for one of "
+                              "the tank ({}{}); a program of your own: --controller",
+                              others, turns ? "; read rad where it says m" : "");
 }
 
 }  // namespace towbench::harness

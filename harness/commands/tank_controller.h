@@ -7,7 +7,7 @@
 
 namespace towbench::harness {
 
-// One line; empty where every axis is driven by a chain, as the tank's are.
+// One line; empty where every axis is driven by a transmission, as the tank's are.
 [[nodiscard]] std::string tank_controller_note(const RigFixture& rig);
 
 }  // namespace towbench::harness

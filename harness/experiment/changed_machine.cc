@@ -30,9 +30,9 @@ std::vector<ChangedTable> changed_tables(core::Axis which, const emulator::RigAx
             {"torque_constant_Nm_per_A", plant.torque_constant_Nm_per_A * torque},
             {"amplifier_gain_A_per_V", plant.amplifier_gain_A_per_V * gain}}},
           {name + ".friction", {{"breakaway_Nm", plant.friction.breakaway_Nm * dry}}},
-          {name + ".chain",
-           {{"resonance_Hz", plant.chain.resonance_Hz * resonance},
-            {"damping_ratio", plant.chain.damping_ratio * damping}}},
+          {name + ".elasticity",
+           {{"resonance_Hz", plant.elasticity.resonance_Hz * resonance},
+            {"damping_ratio", plant.elasticity.damping_ratio * damping}}},
           {name + ".hall_min", {{"delay_s", rig.hall_min.delay_s * delay_min}}},
           {name + ".hall_max", {{"delay_s", rig.hall_max.delay_s * delay_max}}}};
 }

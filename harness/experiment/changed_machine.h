@@ -15,8 +15,9 @@ namespace towbench::harness {
 // Of each axis. Inertia: what the rotor carries, for the rotor itself is well known. Dry friction:
 // sliding and break-away together. Where the end-stops sit is set at commissioning.
 inline constexpr std::array<std::string_view, 9> kUncertainQuantities = {
-    "inertia",         "viscous friction", "dry friction",     "torque constant", "amplifier gain",
-    "chain resonance", "chain damping",    "delay of min end", "delay of max end"};
+    "inertia",         "viscous friction",       "dry friction",         "torque constant",
+    "amplifier gain",  "transmission resonance", "transmission damping", "delay of min end",
+    "delay of max end"};
 
 // One factor each, 1: as the rig has it.
 using MachineFactors = core::PerAxis<std::array<double, kUncertainQuantities.size()>>;

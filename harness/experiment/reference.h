@@ -39,7 +39,7 @@ inline constexpr double kLongestRun_s = 86'400.0;
 
 struct ReferenceMotion {
   ReferenceKind kind = ReferenceKind::kTrapezoid;
-  core::Axis axis = core::Axis::kY;  // of kCircle: none, it takes both
+  core::Axis axis = core::kFirstAxis;  // of kCircle: none, it takes both
   double at_s = 0;
   double distance_m = 0;  // signed; of kSine the amplitude, of kCircle the radius
   double speed_m_per_s = 0;

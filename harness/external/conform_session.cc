@@ -12,7 +12,7 @@ namespace {
 // Half a minute of steady motion: what is to be seen happens within it.
 std::vector<ReferenceMotion> slow_way() {
   return {{.kind = ReferenceKind::kTrapezoid,
-           .axis = core::Axis::kY,
+           .axis = core::kFirstAxis,
            .at_s = 0.1,
            .distance_m = 3.0,
            .speed_m_per_s = 0.1,
@@ -152,7 +152,7 @@ void ConformSession::ToController::handle(const protocol::HelloReply& reply) noe
 }
 
 void ConformSession::ToController::handle(const protocol::EncoderReport& report) noexcept {
-  if (loses_count && report.axis == core::Axis::kY) {
+  if (loses_count && report.axis == core::kFirstAxis) {
     loses_count = false;
     return;
   }
@@ -160,7 +160,7 @@ void ConformSession::ToController::handle(const protocol::EncoderReport& report)
 }
 
 void ConformSession::ToController::handle(const protocol::EncoderEdges& edges) noexcept {
-  if (loses_count && edges.axis == core::Axis::kY) {
+  if (loses_count && edges.axis == core::kFirstAxis) {
     loses_count = false;
     return;
   }

@@ -35,7 +35,7 @@ class ConformSession {
   [[nodiscard]] bool turn();
 
   void press_kill_switch();
-  // The next encoder message of Y is dropped.
+  // The next encoder message of the first axis is dropped.
   void lose_a_count() { to_controller_.loses_count = true; }
   // Bytes that go out between two messages.
   void send_raw(std::span<const std::byte> bytes) { (void)socket_->write(bytes); }

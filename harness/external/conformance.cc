@@ -137,7 +137,7 @@ Finding notices_loss(ConformSession& session) {
       return kept();
     }
   }
-  return broken("a count of Y was lost, and ten turns later it drives on");
+  return broken("a count was lost, and ten turns later it drives on");
 }
 
 Finding ignores_unknown(ConformSession& session) {

@@ -19,7 +19,7 @@ constexpr double kSteps_a_second = 1e6;  // in which times are told
 bool has_duration(FaultKind kind) noexcept {
   using enum FaultKind;
   constexpr std::array kMomentary{kBounce,      kReleased,    kWelded,         kJump,
-                                  kSlip,        kChainSkip,   kLateTick,       kBusOff,
+                                  kSlip,        kToothSkip,   kLateTick,       kBusOff,
                                   kMissedTicks, kPeerRestart, kStoppedProcess, kPeerKilled};
   return std::find(kMomentary.begin(), kMomentary.end(), kind) == kMomentary.end();
 }

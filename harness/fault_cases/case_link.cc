@@ -77,10 +77,10 @@ core::Status CaseLink::wait_for(protocol::Turn expected) noexcept {
 
 void CaseLink::ToPlant::handle(const protocol::PwmDuty& duty) noexcept {
   const double net = static_cast<double>(duty.channel_a_ticks) - duty.channel_b_ticks;
-  link.record_.duties.push_back({.time_ns = link.now_ns_,
-                                 .axis = duty.axis,
-                                 .duty = duty.period_ticks == 0 ? 0.0 : net / duty.period_ticks,
-                                 .enable = duty.enable});
+  link.record_.sent({.time_ns = link.now_ns_,
+                     .axis = duty.axis,
+                     .duty = duty.period_ticks == 0 ? 0.0 : net / duty.period_ticks,
+                     .enable = duty.enable});
   if (reverse && duty.axis == reverse->axis) {
     if (taken_over()) {
       return;

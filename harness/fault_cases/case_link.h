@@ -20,7 +20,7 @@ namespace towbench::harness {
 // From `from_ns` to `until_ns` the axis is driven with `duty` in `direction`, whatever the
 // controller says; afterwards it is not driven at all.
 struct FullReverse {
-  core::Axis axis = core::Axis::kY;
+  core::Axis axis = core::kFirstAxis;
   core::Nanoseconds from_ns = 0;
   core::Nanoseconds until_ns = std::numeric_limits<core::Nanoseconds>::max();
   int direction = -1;

@@ -132,13 +132,18 @@ const KeptTruth& CaseRecord::truth_at(core::Nanoseconds time_ns) const noexcept 
   return after == truth.begin() ? truth.front() : *(after - 1);
 }
 
+void CaseRecord::sent(const DutyMessage& duty) {
+  duties.push_back(duty);
+  commanded_[duty.axis] = true;
+}
+
 bool CaseRecord::driven_at(core::Nanoseconds time_ns) const noexcept {
   auto later = std::upper_bound(
       duties.begin(), duties.end(), time_ns,
       [](core::Nanoseconds time, const DutyMessage& duty) { return time < duty.time_ns; });
   // The last that each axis was told.
   core::PerAxis<bool> told{};
-  while (later != duties.begin() && !(told[core::Axis::kY] && told[core::Axis::kX])) {
+  while (later != duties.begin() && !(told == commanded_)) {
     --later;
     if (!told[later->axis] && later->drives()) {
       return true;

@@ -28,7 +28,7 @@ struct LineArrival {
 // As the controller sent it.
 struct DutyMessage {
   core::Nanoseconds time_ns = 0;
-  core::Axis axis = core::Axis::kY;
+  core::Axis axis = core::kFirstAxis;
   double duty = 0;  // -1 .. 1
   bool enable = false;
 
@@ -100,7 +100,8 @@ class CaseRecord final : public BenchRecorder, public emulator::PlantObserver {
   [[nodiscard]] const bbmc::ControllerEvent* first_fault() const noexcept;
   // The last truth row at or before a time; the first one when there is none.
   [[nodiscard]] const KeptTruth& truth_at(core::Nanoseconds time_ns) const noexcept;
-  // Command of an axis as sent, at a time.
+  void sent(const DutyMessage& duty);
+  // Whether any axis was, by the last command that it was sent.
   [[nodiscard]] bool driven_at(core::Nanoseconds time_ns) const noexcept;
   [[nodiscard]] std::string all_printed() const;
   // When the controller carried out a reset that the operator had asked for, at or after a time;
@@ -108,6 +109,7 @@ class CaseRecord final : public BenchRecorder, public emulator::PlantObserver {
   [[nodiscard]] core::Nanoseconds next_reset_ns(core::Nanoseconds from_ns) const noexcept;
 
  private:
+  core::PerAxis<bool> commanded_{};  // ever
   std::string typing_;
   const HostSchedule* host_ = nullptr;
   core::Nanoseconds now_ns_ = 0;

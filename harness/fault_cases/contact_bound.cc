@@ -3,10 +3,11 @@
 // The bound is found by doing it: the same case, fault and all, on the same elastic axis, but from
 // the moment at which the controller could have reacted the drive is turned to full reverse, as far
 // as the gear may take it, until the carriage stands and the axis as a whole has no momentum
-// outwards any more: a carriage that merely swings back on its chain will come again. For two
-// bodies on a spring and damper the carriage answers an impulse on the motor with a displacement
-// that is never negative, (t - sin(w t)/w) / m without damping, so that no other sequence of
-// torques stops the carriage shorter. If it touches even so, nobody could have prevented it.
+// outwards any more: a carriage that merely swings back on its transmission will come again. For
+// two bodies on a spring and damper the carriage answers an impulse on the motor with a
+// displacement that is never negative, (t - sin(w t)/w) / m without damping, so that no other
+// sequence of torques stops the carriage shorter. If it touches even so, nobody could have
+// prevented it.
 #include <algorithm>
 #include <cmath>
 
@@ -27,7 +28,7 @@ constexpr Nanoseconds kBestReaction_ns = 2 * core::kNanosecondsPerMillisecond;
 constexpr Nanoseconds kDetection_ns = 50 * core::kNanosecondsPerMillisecond;
 
 struct Contact {
-  Axis axis = Axis::kY;
+  Axis axis = core::kFirstAxis;
   Nanoseconds time_ns = 0;
   double speed_m_per_s = 0;
   int side = 1;  // +1: max end
@@ -138,8 +139,8 @@ Nanoseconds arrives_ns(const CaseEvidence& evidence, Nanoseconds sent_ns) {
   return arrives;
 }
 
-// As much as gear and chain may take (App. A, 3.2 N m at the gear's output): a stop that breaks the
-// machine is no reaction.
+// As much as gear and transmission may take (App. A, 3.2 N m at the gear's output): a stop that
+// breaks the machine is no reaction.
 double reverse_duty(const CaseEvidence& evidence, const Contact& contact) {
   const auto& axis = evidence.fixture.controller.configuration.axes[contact.axis];
   return std::min(1.0, bbmc::braking_torque_Nm(axis) / axis.drive.full_duty_torque_Nm());
@@ -149,9 +150,9 @@ double reverse_duty(const CaseEvidence& evidence, const Contact& contact) {
 double outward_kg_m_per_s(const emulator::AxisParameters& plant, const emulator::AxisTruth& axis,
                           int side) {
   const auto mechanics = emulator::derive(plant);
-  return side *
-         (mechanics.motor_inertia_kg_m2 * axis.motor_speed_rad_per_s / mechanics.metres_per_radian +
-          (mechanics.carriage_mass_kg + plant.water_mass_kg) * axis.carriage_speed_m_per_s);
+  return side * (mechanics.motor_inertia_kg_m2 * axis.motor_speed_rad_per_s /
+                     mechanics.metres_per_motor_rad +
+                 (mechanics.carriage_mass_kg + plant.water_mass_kg) * axis.carriage_speed_m_per_s);
 }
 
 bool touches_even_so(const CaseEvidence& evidence, const Contact& contact, Nanoseconds reverse_ns,

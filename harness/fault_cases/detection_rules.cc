@@ -78,8 +78,7 @@ MaybeCheck link_or_host_fault_is_found(const CaseEvidence& evidence) {
                           .onsets_ns[static_cast<std::size_t>(host - evidence.prepared.plan.data())]
                     : evidence.cause_ns;
   const auto seen_ns = served_ns(evidence, cause_ns);
-  const bool driven = is_driven_mode(mode_at(run, Axis::kY, cause_ns - 1)) ||
-                      is_driven_mode(mode_at(run, Axis::kX, cause_ns - 1));
+  const bool driven = any_driven_mode(run, cause_ns - 1);
   if (fault == host && seen_ns + kLongest_ns > run.outcome.end_ns) {
     return std::nullopt;  // the record ends before the host has run again for so long
   }

@@ -76,17 +76,17 @@ struct Push {
   Nanoseconds to_ns = 0;
 };
 
-// A motor that stands and holds its carriage, which swings on the chain, does not push: the chain's
-// true pull explains the drive.
+// A motor that stands and holds its carriage, which swings on the transmission, does not push: the
+// transmission's true pull explains the drive.
 bool holds_swing(const CaseEvidence& evidence, Axis axis, Nanoseconds time_ns, double duty,
                  double threshold) {
   constexpr double kStands_rad_per_s = 5.0;
   const auto& settings = evidence.fixture.controller.configuration.axes[axis];
   const auto& truth = evidence.run.truth_at(time_ns).axes[axis];
-  const double chain =
-      truth.chain_force_N * settings.m_per_rad() / settings.drive.full_duty_torque_Nm();
-  return std::fabs(truth.motor_speed_rad_per_s) < kStands_rad_per_s && chain * duty > 0 &&
-         std::fabs(duty - chain) < threshold;
+  const double transmission = truth.transmission_force_N * settings.metres_per_motor_rad() /
+                              settings.drive.full_duty_torque_Nm();
+  return std::fabs(truth.motor_speed_rad_per_s) < kStands_rad_per_s && transmission * duty > 0 &&
+         std::fabs(duty - transmission) < threshold;
 }
 
 std::vector<Push> pushes(const CaseEvidence& evidence, Axis axis) {

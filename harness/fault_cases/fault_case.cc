@@ -77,7 +77,7 @@ Check fired_check(const ExperimentFixture& plain, const PreparedPlan& prepared,
 void refuse_inside_foreign_plant(const FaultPlan& plan, const emulator::RigParameters& rig) {
   for (const auto& fault : plan) {
     const bool is_inside =
-        fault.kind == FaultKind::kChainSkip || fault.kind == FaultKind::kBacklash;
+        fault.kind == FaultKind::kToothSkip || fault.kind == FaultKind::kBacklash;
     if (is_inside && rig.foreign_plant) {
       throw FixtureError({.file = "fault plan"}, describe(fault),
                          "a fault outside the plant: this one is inside the rig's own [plant]");

@@ -19,7 +19,7 @@ using enum FaultKind;
 // Whose wires an installer takes for this one's.
 core::Axis neighbour_of(core::Axis axis) {
   const auto nth = core::index_of(axis);
-  return nth == 0 ? core::Axis::kX : core::kAllAxes[nth - 1];
+  return core::kAllAxes[nth == 0 ? 1 : nth - 1];
 }
 
 class Injector {
@@ -293,9 +293,9 @@ class Injector {
         return hold(ScheduledEventKind::kDragCarriage, parameter(0), 0.0);
       case kObstacle:
         return hold(ScheduledEventKind::kObstacle, parameter(0), 0.0);
-      case kChainSkip:
+      case kToothSkip:
         return add(
-            {.time_ns = at_ns_, .kind = ScheduledEventKind::kSkipChain, .value = parameter(0)});
+            {.time_ns = at_ns_, .kind = ScheduledEventKind::kSkipTooth, .value = parameter(0)});
       case kDroppedLoad:
         return hold(ScheduledEventKind::kDropLoad, parameter(0), 0.0);
       default:

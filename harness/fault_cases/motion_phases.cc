@@ -144,7 +144,7 @@ core::Axis moving_axis(const CaseRecord& run) {
       return event.axis;
     }
   }
-  return core::Axis::kY;
+  return core::kFirstAxis;
 }
 
 core::Axis trigger_axis(const Fault& fault, const CaseRecord& reference) {

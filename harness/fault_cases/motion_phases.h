@@ -32,8 +32,8 @@ struct PhaseSpan {  // `phase`: one of kPhaseNames
                                                         core::Axis axis,
                                                         const CaseRecord& reference);
 
-// The axis whose motion starts first and that really travels (Y when none does): whose phases a
-// fault of no axis goes by.
+// The axis whose motion starts first and that really travels (the first of all when none does):
+// whose phases a fault of no axis goes by.
 [[nodiscard]] core::Axis moving_axis(const CaseRecord& run);
 // Whose motion decides when a fault begins.
 [[nodiscard]] core::Axis trigger_axis(const Fault& fault, const CaseRecord& reference);

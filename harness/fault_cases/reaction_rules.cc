@@ -44,11 +44,6 @@ std::vector<Edge> activations(const CaseEvidence& evidence) {
   return edges;
 }
 
-bool any_driven_mode(const CaseRecord& run, Nanoseconds time_ns) {
-  return is_driven_mode(mode_at(run, Axis::kY, time_ns)) ||
-         is_driven_mode(mode_at(run, Axis::kX, time_ns));
-}
-
 // First driving message after `from_ns` and before a reset; -1 when there is none.
 Nanoseconds drive_after(const CaseRecord& run, Nanoseconds from_ns) {
   const auto reset_ns = run.next_reset_ns(from_ns);
@@ -128,16 +123,14 @@ MaybeCheck end_stop_reacts(const CaseEvidence& evidence, CaseFigures& figures) {
   constexpr double kMoving_m_per_s = 0.05;
   const auto& run = evidence.run;
   for (const auto& edge : activations(evidence)) {
-    const bool is_hall = static_cast<unsigned>(edge.line) <= 3;
+    const bool is_hall = static_cast<std::size_t>(edge.line) < 2 * core::kPlanarAxes.size();
     const auto before_ns = edge.seen_ns - run.outcome.exchange_ns;
     if (!is_hall || !any_driven_mode(run, before_ns) || latched_by(run, before_ns)) {
       continue;
     }
-    const Axis axis = edge.line == InputLine::kHallYMin || edge.line == InputLine::kHallYMax
-                          ? Axis::kY
-                          : Axis::kX;
-    const double outward =
-        edge.line == InputLine::kHallYMax || edge.line == InputLine::kHallXMax ? 1.0 : -1.0;
+    const auto line = static_cast<std::size_t>(edge.line);
+    const Axis axis = core::kPlanarAxes[line / 2];
+    const double outward = edge.line == protocol::hall_line(axis, true) ? 1.0 : -1.0;
     const auto deadline_ns = edge.change_ns + kReaction_ns;
     if (!latched_by(run, deadline_ns)) {
       return failed(kName, kMeaning,
@@ -206,8 +199,9 @@ MaybeCheck no_drive_while_latched(const CaseEvidence& evidence) {
                                   core::seconds(row.time_ns)));
       }
     }
-    const bool rests = row.axes[Axis::kY].mode != AxisMode::kBraking &&
-                       row.axes[Axis::kX].mode != AxisMode::kBraking;
+    const bool rests =
+        std::none_of(core::kPlanarAxes.begin(), core::kPlanarAxes.end(),
+                     [&](Axis axis) { return row.axes[axis].mode == AxisMode::kBraking; });
     if (at_rest && !rests) {
       return failed(kName, kMeaning,
                     fmt::format("brakes anew at {:.4f} s", core::seconds(row.time_ns)));

@@ -51,7 +51,7 @@ Columns truth_columns(const CaseRecord& record) {
     add_of_axis("motor_speed_rad_per_s", &emulator::AxisTruth::motor_speed_rad_per_s);
     add_of_axis("current_A", &emulator::AxisTruth::current_A);
     add_of_axis("command_V", &emulator::AxisTruth::command_V);
-    add_of_axis("chain_force_N", &emulator::AxisTruth::chain_force_N);
+    add_of_axis("transmission_force_N", &emulator::AxisTruth::transmission_force_N);
   }
   return columns;
 }

@@ -75,6 +75,11 @@ bbmc::AxisMode mode_at(const CaseRecord& run, core::Axis axis, core::Nanoseconds
   return after == run.log.begin() ? bbmc::AxisMode::kIdle : (after - 1)->axes[axis].mode;
 }
 
+bool any_driven_mode(const CaseRecord& run, core::Nanoseconds time_ns) {
+  return std::any_of(core::kPlanarAxes.begin(), core::kPlanarAxes.end(),
+                     [&](core::Axis axis) { return is_driven_mode(mode_at(run, axis, time_ns)); });
+}
+
 bool latched_by(const CaseRecord& run, core::Nanoseconds time_ns) {
   bool latched = false;
   for (const auto& event : run.controller_events) {

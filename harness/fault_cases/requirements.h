@@ -61,6 +61,7 @@ inline constexpr core::Nanoseconds kNever = std::numeric_limits<core::Nanosecond
   return mode == bbmc::AxisMode::kOpenLoop || mode == bbmc::AxisMode::kPosition ||
          mode == bbmc::AxisMode::kVelocity;
 }
+[[nodiscard]] bool any_driven_mode(const CaseRecord& run, core::Nanoseconds time_ns);
 // Whether a fault is latched at a time: since then no reset, asked for or not.
 [[nodiscard]] bool latched_by(const CaseRecord& run, core::Nanoseconds time_ns);
 [[nodiscard]] bool has(const CaseEvidence& evidence, FaultPart part) noexcept;

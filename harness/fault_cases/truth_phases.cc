@@ -26,14 +26,14 @@ class Motion {
     if (truth.empty()) {
       return;
     }
-    const double metres_per_rad = ratio_of(truth, axis);
+    const double metres_per_motor_rad = ratio_of(truth, axis);
     Nanoseconds next_ns = truth.front().time_ns;
     bool driven = false;
     for (const auto& row : truth) {
       driven = driven || row.axes[axis].command_V != 0.0;
       if (row.time_ns >= next_ns) {
         time_ns_.push_back(row.time_ns);
-        place_m_.push_back(row.axes[axis].motor_angle_rad * metres_per_rad);
+        place_m_.push_back(row.axes[axis].motor_angle_rad * metres_per_motor_rad);
         driven_.push_back(driven);
         driven = false;
         next_ns += kStep_ns;
@@ -67,7 +67,7 @@ class Motion {
   }
 
  private:
-  // The motor's side of the chain moves more evenly than the carriage.
+  // The motor's side of the transmission moves more evenly than the carriage.
   static double ratio_of(const std::vector<KeptTruth>& truth, core::Axis axis) {
     const auto way = [&](auto value) {
       const auto [low, high] = std::minmax_element(
@@ -155,7 +155,7 @@ std::optional<Travel> travel_of(const CaseRecord& run, core::Axis axis) {
 }
 
 core::Axis first_to_travel(const CaseRecord& run) {
-  auto first = core::Axis::kY;
+  auto first = core::kFirstAxis;
   std::optional<Nanoseconds> from_ns;
   for (const auto axis : core::kAllAxes) {
     const auto travel = travel_of(run, axis);

@@ -24,7 +24,7 @@ struct Travel {
 };
 [[nodiscard]] std::optional<Travel> travel_of(const CaseRecord& run, core::Axis axis);
 
-// The axis that moves first; Y when none does.
+// The axis that moves first; the first of all when none does.
 [[nodiscard]] core::Axis first_to_travel(const CaseRecord& run);
 
 }  // namespace towbench::harness

@@ -18,9 +18,9 @@ namespace towbench::harness {
 // Where a fault sits: a part of the table, and which one of them.
 struct FaultPlace {
   FaultPart part = FaultPart::kKillSwitch;
-  core::Axis axis = core::Axis::kY;  // of end-stop, encoder, amplifier, drive train
-  bool at_max = false;               // of an end-stop
-  bool to_plant = false;             // of a link
+  core::Axis axis = core::kFirstAxis;  // of end-stop, encoder, amplifier, drive train
+  bool at_max = false;                 // of an end-stop
+  bool to_plant = false;               // of a link
 
   [[nodiscard]] protocol::InputLine hall_line() const noexcept {
     return protocol::hall_line(axis, at_max);

@@ -73,7 +73,7 @@ constexpr FaultRow kRows[] = {
      {{{"power_W", 80, 1, 1000}}}},
     {kSupply, kSag, "sag", "the source loses voltage", kAnyTime, kStop, kNone, {{{"lost_V", 1.0, 0.01, 12}}}},
 
-    {kDriveTrain, kChainSkip, "chain_skip", "the chain jumps over its sprocket, the motor gets ahead", kAnyTime, kNothing,
+    {kDriveTrain, kToothSkip, "tooth_skip", "the transmission jumps a tooth, the motor gets ahead", kAnyTime, kNothing,
      kNone, {{{"by_m", 8e-3, -0.04, 0.04}}}},
     {kDriveTrain, kBacklash, "growing_backlash", "the gear's play has grown so far (in months, not in a run)", kWholeRun,
      kNothing, kNone, {{{"play_deg", 1.0, 0.05, 10}}}},

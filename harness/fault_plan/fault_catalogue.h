@@ -67,7 +67,7 @@ enum class FaultKind : std::uint8_t {
   kOverCurrent,
   kSag,
   // drive train
-  kChainSkip,
+  kToothSkip,
   kBacklash,
   kJam,
   kDroppedLoad,

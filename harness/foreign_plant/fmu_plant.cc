@@ -240,8 +240,9 @@ class FmuInstance final : public LoadedPlant {
     }
     for (std::size_t i = 0; i < axes_.size(); ++i) {
       if (axes_[i].motor_angle_rad.empty()) {
-        outputs[i].motor_angle_rad = outputs[i].position_m / axes_[i].metres_per_radian;
-        outputs[i].motor_speed_rad_per_s = outputs[i].velocity_m_per_s / axes_[i].metres_per_radian;
+        outputs[i].motor_angle_rad = outputs[i].position_m / axes_[i].metres_per_motor_rad;
+        outputs[i].motor_speed_rad_per_s =
+            outputs[i].velocity_m_per_s / axes_[i].metres_per_motor_rad;
       }
     }
     return true;

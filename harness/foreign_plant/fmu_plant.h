@@ -18,7 +18,7 @@ struct FmuAxis {
   // Of towbench_plant_output. Motor values that are not connected follow from those of the load.
   std::string position_m, velocity_m_per_s, motor_angle_rad, motor_speed_rad_per_s, force_N,
       winding_A;
-  double metres_per_radian = 1;
+  double metres_per_motor_rad = 1;
 };
 
 struct FmuStart {

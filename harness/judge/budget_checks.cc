@@ -14,16 +14,16 @@ namespace {
 // where it tells of none.
 std::optional<double> first_motion_s(const RunData& data) {
   const auto time_s = data.log.column("time_s");
-  const bool tells = !data.log_of(core::Axis::kY, "state").empty();
-  const char* const what = tells ? "state" : "duty_pct";
-  const auto y = data.log_of(core::Axis::kY, what);
-  const auto x = data.log_of(core::Axis::kX, what);
-  for (std::size_t i = 0; i < std::min(y.size(), x.size()); ++i) {
-    if (y[i] != 0.0 || x[i] != 0.0) {
-      return time_s[i];
+  const bool tells = !data.log_of(core::kFirstAxis, "state").empty();
+  auto first = time_s.size();
+  for (const auto axis : recorded_axes(data.limits)) {
+    const auto column = data.log_of(axis, tells ? "state" : "duty_pct");
+    const auto driven = std::find_if(column.begin(), column.end(), [](double v) { return v != 0; });
+    if (driven != column.end()) {
+      first = std::min(first, static_cast<std::size_t>(driven - column.begin()));
     }
   }
-  return std::nullopt;
+  return first < time_s.size() ? std::optional(time_s[first]) : std::nullopt;
 }
 
 // Distance to the nearer limit over that limit's size, over the other's where it is 0. Negative

@@ -136,7 +136,7 @@ Check check_edges_seen(const RunData& data) {
 }
 
 Check check_comes_to_rest(const RunData& data) {
-  constexpr double kStretch_s = 0.1;  // about a period of the slowest chain
+  constexpr double kStretch_s = 0.1;  // about a period of the slowest transmission
   const auto time_s = data.truth.column("time_s");
   std::string reason;
   if (!time_s.empty()) {

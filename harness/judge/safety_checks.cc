@@ -57,7 +57,7 @@ std::vector<Activation> activations(const RunData& data, InputLine line) {
 }
 
 // The first moment from `from_s` up to `to_s` at which the axis is driven that way and moves that
-// way, its motor too: a carriage that swings on its chain moves by itself. Later than some
+// way, its motor too: a carriage that swings on its transmission moves by itself. Later than some
 // milliseconds it takes as many in a row: a brake pushes with what it measured a tick ago.
 std::optional<double> driven_on(const RunData& data, Axis axis, double direction, double from_s,
                                 double to_s) {

@@ -2,6 +2,8 @@
 // that neither side has written itself.
 #pragma once
 
+#include <algorithm>
+
 #include "core/axis.h"
 #include "harness/lockstep/bench_recorder.h"
 #include "protocol/message_sink.h"
@@ -19,7 +21,7 @@ class DutyWatch final : public protocol::MessageSink {
   }
   // Ends the messages of a moment, which is `now_ns` of the exchange before it.
   void on(const protocol::Advance& advance) noexcept override {
-    const bool driven = driven_[core::Axis::kY] || driven_[core::Axis::kX];
+    const bool driven = std::any_of(driven_.begin(), driven_.end(), [](bool axis) { return axis; });
     if (driven != was_driven_ && recorder_ != nullptr) {
       recorder_->wire_event(now_ns_, driven ? "duty_on" : "duty_zero");
     }

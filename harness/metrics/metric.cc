@@ -77,7 +77,7 @@ std::vector<Metric> build() {
   }
   for (const auto& row : kMachineMetrics) {
     metrics.push_back({std::string(row.name), std::string(row.unit), std::string(row.meaning),
-                       core::Axis::kY, row.compute});
+                       core::kFirstAxis, row.compute});
   }
   return metrics;
 }

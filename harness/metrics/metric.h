@@ -22,7 +22,7 @@ struct Metric {
   std::string name;
   std::string unit;
   std::string meaning;
-  core::Axis axis = core::Axis::kY;  // ignored by metrics of the whole machine
+  core::Axis axis = core::kFirstAxis;  // ignored by metrics of the whole machine
   MetricValue (*compute)(const RunData& data, core::Axis axis, const TimeSpan& span) = nullptr;
 };
 

@@ -39,7 +39,7 @@ struct RunEvent {
   double time_s = 0;
   std::string side;  // "plant" or "controller"
   std::string kind;
-  std::string axis;  // "y" or "x"
+  std::string axis;  // its name
   std::uint16_t code = 0;
   std::uint16_t lines = 0;
   double value = 0;
@@ -53,7 +53,7 @@ struct RunData {
   std::vector<RunEvent> events;
   core::PerAxis<AxisLimits> limits;
 
-  // Column of one axis: log_of(kY, "duty_pct") is y_duty_pct. Empty when missing.
+  // Column of one axis: log_of(axis, "duty_pct") is y_duty_pct. Empty when missing.
   [[nodiscard]] std::span<const double> log_of(core::Axis axis, std::string_view name) const;
   [[nodiscard]] std::span<const double> truth_of(core::Axis axis, std::string_view name) const;
 };

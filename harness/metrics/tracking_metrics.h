@@ -1,5 +1,5 @@
 // Tracking: motor side from log.csv, carriage side from truth.csv (docs/reference/constants.md,
-// last erratum: with an elastic chain both are judged).
+// last erratum: with an elastic transmission both are judged).
 //
 // Motor side error = unquantised reference - (count + 1/2) x resolution, over the control ticks in
 // which the axis follows a reference. Carriage side error = reference - true carriage position,

@@ -16,10 +16,10 @@
 namespace towbench::harness {
 
 struct DerivedMachine {
-  double metres_per_rad = 0;  // r
-  double inertia_kg_m2 = 0;   // J
-  double torque_Nm = 0;       // T
-  double force_N = 0;         // T / r
+  double metres_per_motor_rad = 0;  // r
+  double inertia_kg_m2 = 0;         // J
+  double torque_Nm = 0;             // T
+  double force_N = 0;               // T / r
   double friction_N = 0;
   double coulomb_Nm = 0;
   double breakaway_Nm = 0;          // 1.5 C, assumed

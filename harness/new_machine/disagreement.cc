@@ -54,8 +54,8 @@ void compare_places(const emulator::RigAxisParameters& rig, const bbmc::AxisConf
 void compare(const emulator::RigAxisParameters& rig, const bbmc::AxisConfiguration& belief,
              Comparison& all) {
   const auto& plant = rig.plant;
-  all.add("way of the load a motor radian", plant.sprocket_radius_m / plant.gear_ratio,
-          belief.m_per_rad());
+  all.add("way of the load a motor radian", plant.output_radius_m / plant.gear_ratio,
+          belief.metres_per_motor_rad());
   all.add("encoder_counts_per_rev", static_cast<double>(rig.encoder.counts_per_turn),
           static_cast<double>(belief.encoder_counts_per_rev));
   all.add("torque_constant_Nm_per_A", plant.torque_constant_Nm_per_A,

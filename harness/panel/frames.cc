@@ -49,7 +49,7 @@ void add(std::string& text, const LiveTruthAxis& axis) {
   add(text, axis.carriage_m);
   add(text, axis.carriage_speed_m_per_s);
   add(text, axis.current_A);
-  add(text, axis.chain_force_N);
+  add(text, axis.transmission_force_N);
 }
 template <typename Integer>
 void add_whole(std::string& text, Integer value) {
@@ -95,7 +95,7 @@ double FrameMaker::worst_error_m(const SeenRow& row) {
 }
 
 double FrameMaker::worst_error_m(const LiveTruth& row) {
-  return std::fabs(static_cast<double>(row.axis(core::Axis::kY).chain_force_N));
+  return std::fabs(static_cast<double>(row.axis(core::kFirstAxis).transmission_force_N));
 }
 
 template <typename Row>
@@ -231,8 +231,8 @@ std::string FrameMaker::text_of(const std::vector<SeenRow>& rows) const {
   return text;
 }
 
-// [t, then for y and x: carriage, carriage speed, current, chain force; then input lines; of a
-// machine with further axes then the same four for each of z to c]
+// [t, then for y and x: carriage, carriage speed, current, transmission force; then input lines; of
+// a machine with further axes then the same four for each of z to c]
 std::string FrameMaker::text_of(const std::vector<LiveTruth>& rows) const {
   std::string text;
   for (const auto& row : rows) {

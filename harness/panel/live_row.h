@@ -74,7 +74,7 @@ struct LiveTruthAxis {
   double carriage_m = 0;
   float carriage_speed_m_per_s = 0;
   float current_A = 0;
-  float chain_force_N = 0;
+  float transmission_force_N = 0;
 };
 
 struct alignas(64) LiveTruth {
@@ -103,7 +103,7 @@ static_assert(std::is_trivially_copyable_v<LiveTruth> && offsetof(LiveTruth, fur
     truth.axis(which) = {.carriage_m = now.carriage_m,
                          .carriage_speed_m_per_s = static_cast<float>(now.carriage_speed_m_per_s),
                          .current_A = static_cast<float>(now.current_A),
-                         .chain_force_N = static_cast<float>(now.chain_force_N)};
+                         .transmission_force_N = static_cast<float>(now.transmission_force_N)};
   }
   truth.input_lines = row.input_lines;
   return truth;

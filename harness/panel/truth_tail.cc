@@ -36,7 +36,7 @@ LiveTruth row_of(const RecordedAxes& axes, const std::vector<double>& values) {
     axis.carriage_m = at[2];
     axis.carriage_speed_m_per_s = at[3];
     axis.current_A = at[4];
-    axis.chain_force_N = at[8];
+    axis.transmission_force_N = at[8];
     at += kColumnsPerAxis;
   }
   row.input_lines = static_cast<std::uint16_t>(*at);

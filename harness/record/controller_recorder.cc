@@ -6,7 +6,11 @@ namespace towbench::harness {
 namespace {
 
 core::PerAxis<bbmc::EdgeTimes> edge_times_of(const bbmc::ControllerNode& controller) noexcept {
-  return {{controller.edge_times(core::Axis::kY), controller.edge_times(core::Axis::kX)}};
+  core::PerAxis<bbmc::EdgeTimes> times{};
+  for (const auto axis : bbmc::kAxes) {
+    times[axis] = controller.edge_times(axis);
+  }
+  return times;
 }
 // There the kernel counts; nobody observes.
 core::PerAxis<bbmc::EdgeTimes> edge_times_of(const bbmc::LinuxNode& /*controller*/) noexcept {

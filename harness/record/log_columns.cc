@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 12> kTruthColumns{"motor_angle_rad",
                                                          "motor_torque_Nm",
                                                          "motor_friction_Nm",
                                                          "carriage_friction_N",
-                                                         "chain_force_N",
+                                                         "transmission_force_N",
                                                          "command_V",
                                                          "count",
                                                          "edges_total"};
@@ -78,7 +78,7 @@ void write_truth_row(CsvWriter& csv, const emulator::TruthRow& row,
         .number(axis.motor_torque_Nm)
         .number(axis.motor_friction_Nm)
         .number(axis.carriage_friction_N)
-        .number(axis.chain_force_N)
+        .number(axis.transmission_force_N)
         .number(axis.command_V)
         .number(axis.count)
         .number(axis.edges_total);

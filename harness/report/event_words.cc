@@ -19,13 +19,21 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::string_view, protocol::kInputLineCount> kLineNames{
-    "end-stop switch Y min",   "end-stop switch Y max", "end-stop switch X min",
-    "end-stop switch X max",   "kill switch",           "amplifier Y ready",
-    "amplifier X ready",       "end-stop switch Z min", "end-stop switch Z max",
-    "end-stop switch A min",   "end-stop switch A max", "end-stop switch B min",
-    "end-stop switch B max",   "end-stop switch C min", "end-stop switch C max",
-    "further amplifiers ready"};
+std::string name_of_line(std::size_t line) {
+  using protocol::InputLine;
+  const auto asked = static_cast<InputLine>(line);
+  for (const auto axis : core::kAllAxes) {
+    for (const bool at_max : {false, true}) {
+      if (protocol::hall_line(axis, at_max) == asked) {
+        return fmt::format("end-stop switch {} {}", core::name_of(axis), at_max ? "max" : "min");
+      }
+    }
+    if (core::is_planar(axis) && protocol::ready_line(axis) == asked) {
+      return fmt::format("amplifier {} ready", core::name_of(axis));
+    }
+  }
+  return asked == InputLine::kKillSwitch ? "kill switch" : "further amplifiers ready";
+}
 
 // bbmc::AxisMode, by number.
 constexpr std::array<std::string_view, 6> kModeNames{
@@ -40,14 +48,14 @@ struct Words {
 Words line_changed(const Json& event) {
   const double number = number_at(event, "value").value_or(-1);
   const double lines = number_at(event, "lines").value_or(-1);
-  const bool known = number >= 0 && number < static_cast<double>(kLineNames.size()) && lines >= 0 &&
-                     std::floor(number) == number;
+  const bool known = number >= 0 && number < static_cast<double>(protocol::kInputLineCount) &&
+                     lines >= 0 && std::floor(number) == number;
   if (!known) {
     return {};
   }
   const auto line = static_cast<unsigned>(number);
   const bool active = ((static_cast<unsigned>(lines) >> line) & 1U) != 0;
-  return {fmt::format("{}: {}", kLineNames[line], active ? "on" : "off"), {"value", "lines"}};
+  return {fmt::format("{}: {}", name_of_line(line), active ? "on" : "off"), {"value", "lines"}};
 }
 
 Words contact(const Json& event) {
@@ -72,11 +80,12 @@ Words state_changed(const Json& event) {
 Words line_edge(const Json& event) {
   const double value = number_at(event, "value").value_or(0);
   const double line = std::fabs(value) - 1;
-  if (line < 0 || line >= static_cast<double>(kLineNames.size()) || std::floor(line) != line) {
+  if (line < 0 || line >= static_cast<double>(protocol::kInputLineCount) ||
+      std::floor(line) != line) {
     return {};
   }
   return {
-      fmt::format("{}: {}", kLineNames[static_cast<std::size_t>(line)], value > 0 ? "on" : "off"),
+      fmt::format("{}: {}", name_of_line(static_cast<std::size_t>(line)), value > 0 ? "on" : "off"),
       {"value"}};
 }
 

@@ -31,7 +31,7 @@ constexpr std::array<RunSignal, 13> kSignals{
      {"motor_speed", "rad/s", "motor_speed_rad_per_s", true, "true speed of the motor"},
      {"current", "A", "current_A", true, "of the motor"},
      {"command", "V", "command_V", true, "that the plant heard"},
-     {"chain_force", "N", "chain_force_N", true, "in the elastic chain"}}};
+     {"transmission_force", "N", "transmission_force_N", true, "in the elastic transmission"}}};
 
 std::string end_stop_event(core::Axis axis, bool at_max) {
   return fmt::format("{}_{}_edge", core::name_of(axis), at_max ? "max" : "min");

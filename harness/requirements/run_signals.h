@@ -27,7 +27,7 @@ struct RunSignal {
 struct RunEventName {
   std::string name;
   std::string meaning;
-  core::Axis axis = core::Axis::kY;  // of an end-stop's
+  core::Axis axis = core::kFirstAxis;  // of an end-stop's
 };
 [[nodiscard]] std::span<const RunEventName> run_event_names();
 

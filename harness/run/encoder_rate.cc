@@ -57,7 +57,7 @@ core::Status step(protocol::EdgeDriver& driver, unsigned phase) noexcept {
                                             {protocol::EncoderLine::kA, false},
                                             {protocol::EncoderLine::kB, false}}};
   const Toggle& toggle = kToggles[phase % kToggles.size()];
-  return driver.set(protocol::place_of(core::Axis::kY, toggle.line), toggle.level);
+  return driver.set(protocol::place_of(core::kFirstAxis, toggle.line), toggle.level);
 }
 
 // Edges that came within `patience_ns`, or fewer.

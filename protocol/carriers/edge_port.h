@@ -1,8 +1,8 @@
 // The seam between the encoders' channels and what they really are: GPIO lines, a test's queue.
 //
-// Lines in this order, one place behind the other: Y A, Y B, X A, X B, and where the index is asked
-// for Y index, X index. The order of edges across the lines is kept: it is what quadrature is made
-// of.
+// Lines in this order, one place behind the other: A and B of the first axis, of the second, and
+// where the index is asked for that of each. The order of edges across the lines is kept: it is
+// what quadrature is made of.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@ inline constexpr std::size_t kEdgeQueue = 1024;
 }
 [[nodiscard]] constexpr core::Axis axis_at(unsigned place) noexcept {
   const unsigned nth = place < kEncoderChannels ? place / 2 : place - kEncoderChannels;
-  return nth == 0 ? core::Axis::kY : core::Axis::kX;
+  return core::kPlanarAxes[nth];
 }
 [[nodiscard]] constexpr EncoderLine line_at(unsigned place) noexcept {
   return place < kEncoderChannels ? static_cast<EncoderLine>(place % 2) : EncoderLine::kIndex;

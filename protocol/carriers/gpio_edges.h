@@ -16,7 +16,7 @@ namespace towbench::protocol {
 
 struct EdgePlace {
   std::string chip;         // "gpiochip0" or a path
-  unsigned first_line = 0;  // the chip's number of Y A
+  unsigned first_line = 0;  // the chip's number of the first axis' A
   bool with_index = false;
 };
 

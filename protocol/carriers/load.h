@@ -21,7 +21,7 @@ struct Traffic {
   bool lockstep = false;
   core::Nanoseconds exchange_ns = core::kNanosecondsPerMillisecond;
   // Of one axis: the faster one at its voltage limit, 0.382 m/s x 742,241 counts/m
-  // (docs/reference/constants.md, X).
+  // (docs/reference/constants.md: the platform).
   double edges_per_s = 283'536.0;
   // Index pulses of one axis: one a motor turn of 4000 counts.
   double index_pulses_per_s = 70.9;

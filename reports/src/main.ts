@@ -11,14 +11,7 @@ import { addTimePlot } from "./time_plot";
 import { addToolbar } from "./toolbar";
 import { addPath, hasPath } from "./xy_path";
 
-const axisTitles: Record<string, string> = {
-  y: "Y axis, along the tank",
-  x: "X axis, across the tank",
-  z: "Z axis",
-  a: "A axis",
-  b: "B axis",
-  c: "C axis",
-};
+const axisNames = ["y", "x", "z", "a", "b", "c"];
 
 function addHeading(host: HTMLElement, text: string): void {
   const level = Math.min(Number(host.dataset.level) || 3, 6);
@@ -55,10 +48,10 @@ function addRun(host: HTMLElement, run: RunData): void {
   const isPlane = !run.limits.y?.turns && !run.limits.x?.turns;
   if (isPlane && hasPath(run.table)) addPath(host, run.table, group);
   addToolbar(host, group, run.windows);
-  for (const axis of Object.keys(axisTitles)) {
+  for (const axis of axisNames) {
     const figures = axisFigures(run, axis);
     if (figures.length === 0) continue;
-    addHeading(host, run.limits[axis]?.turns ? `${axis.toUpperCase()} axis` : axisTitles[axis]!);
+    addHeading(host, run.limits[axis]?.turns ? `Axis ${axis}, in radians` : `Axis ${axis}`);
     if (stoodStill(run.table, axis)) {
       host.append(
         missingNote("This axis neither moved nor was driven in this run, so it has no plots."),

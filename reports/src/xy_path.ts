@@ -238,7 +238,7 @@ export function addPath(host: HTMLElement, table: Table, group: TimeGroup): void
     entry.append(lineSample(path.role), element("span", "", path.label));
     legend.append(entry);
   }
-  caption.append(element("strong", "", "Path: X across, Y along the tank"), legend);
+  caption.append(element("strong", "", "Path in the plane of x (right) and y (up)"), legend);
   const canvasHost = element("div", "canvas-host");
   const buttons = element("div", "buttons");
   box.append(caption, canvasHost, buttons);

@@ -32,7 +32,7 @@ void scale(toml::table& table, const char* key, double by) {
   }
 }
 
-// Everything that resists a command; a chain keeps its mode and so gets stiffer alike.
+// Everything that resists a command; a transmission keeps its mode and so gets stiffer alike.
 void scale_everything_else(toml::table& axis, double by) {
   for (const char* key :
        {"inertia_kg_m2", "rotor_inertia_kg_m2", "viscous_friction_Nm_s_per_rad",

@@ -19,9 +19,9 @@
 #include "study/commands/identify_camera.h"
 #include "study/commands/identify_output.h"
 #include "study/commands/verbs.h"
-#include "study/procedures/chain.h"
 #include "study/procedures/data_study.h"
 #include "study/procedures/identified_plant.h"
+#include "study/procedures/sequence.h"
 #include "study/procedures/study_page.h"
 #include "study/recovery/recovery.h"
 #include "study/results/identification_set.h"
@@ -30,8 +30,8 @@
 namespace towbench::study {
 namespace {
 
-using procedures::ChainResult;
 using procedures::ProcedureOutcome;
+using procedures::SequenceResult;
 
 constexpr double kSpread = 0.4;  // of drawn machines, ID-0
 constexpr const char* kAllStructures = "all";
@@ -90,7 +90,7 @@ std::vector<std::string> structure_names() {
   return names;
 }
 
-int exit_code_of(const ChainResult& result, const std::vector<Recovery>& recoveries) {
+int exit_code_of(const SequenceResult& result, const std::vector<Recovery>& recoveries) {
   int code = result.steps.empty() ? harness::kExitInvalid : harness::kExitPass;
   for (const auto& each : recoveries) {
     if (!each.agrees || !each.narrow) {
@@ -129,7 +129,7 @@ Bench bench_of(const IdentifyOptions& options) {
 }
 
 int tell_everything(const IdentifyOptions& options, const std::string& title,
-                    const procedures::Machine& machine, ChainResult result,
+                    const procedures::Machine& machine, SequenceResult result,
                     const std::vector<Recovery>& recoveries) {
   const std::filesystem::path out = options.out;
   identify::write_estimates(out / "estimates.json", result.estimates);
@@ -160,8 +160,8 @@ int execute_on_log(const IdentifyOptions& options, const Bench& bench) {
   std::filesystem::create_directories(options.out);
   harness::ProgressLine progress(!options.quiet);
   progress.show("output error on " + log.source, 0);
-  ChainResult result;
-  procedures::ChainStep step{.id = "log", .title = log.source};
+  SequenceResult result;
+  procedures::SequenceStep step{.id = "log", .title = log.source};
   step.axis = axis;
   step.outcome = procedures::study_log({.machine = machine, .axis = axis}, log);
   result.estimates = step.outcome.estimates;
@@ -228,7 +228,7 @@ int execute_identify(const IdentifyOptions& options) {
   const harness::LoopWatchers watchers{.stop = &harness::stop_requested(), .progress = {}};
   const auto machine = drawn.machine(bench.controller, options.seed, watchers);
   harness::ProgressLine progress(!options.quiet);
-  const procedures::ChainOptions chain{
+  const procedures::SequenceOptions sequence{
       .only = options.only,
       .axes = axes_of(options.axis),
       .settings = bench.settings,
@@ -238,7 +238,7 @@ int execute_identify(const IdentifyOptions& options) {
       .resume = options.resume,
       .progress = [&](const std::string& what, double share) { progress.show(what, share); },
       .stop = &harness::stop_requested()};
-  auto result = procedures::run_chain(machine, all, chain);
+  auto result = procedures::run_sequence(machine, all, sequence);
   if (options.track && !harness::stop_requested()) {
     progress.show("Table 7.6 with the controller set up", 0);
     const auto name = options.machine == 0
@@ -283,8 +283,9 @@ void add_identify(CLI::App& app, int& exit_code) {
   verb->add_flag("--json", options->json, "print estimates.json");
   verb->add_option("--data", options->data,
                    "estimate from this log instead: a run folder, BBMC's data log, a CSV file");
-  verb->add_option("--camera", options->camera,
-                   "the chain's elastic error instead, from encoder and camera of this run folder")
+  verb->add_option(
+          "--camera", options->camera,
+          "the transmission's elastic error instead, from encoder and camera of this run folder")
       ->check(CLI::ExistingDirectory)
       ->excludes("--data");
   verb->add_option("--columns", options->columns, "which column of that CSV is what, TOML")

@@ -7,10 +7,10 @@
 
 namespace towbench::study {
 
-using procedures::ChainResult;
 using procedures::ProcedureOutcome;
+using procedures::SequenceResult;
 
-void tell_steps(const ChainResult& result) {
+void tell_steps(const SequenceResult& result) {
   for (const auto& step : result.steps) {
     const auto& outcome = step.outcome;
     const char* word = outcome.status == ProcedureOutcome::Status::kDone      ? "done"
@@ -46,7 +46,8 @@ void tell_estimates(const identify::Estimates& estimates, const std::vector<Reco
   }
 }
 
-void write_plant(const std::filesystem::path& out, const std::string& text, ChainResult& result) {
+void write_plant(const std::filesystem::path& out, const std::string& text,
+                 SequenceResult& result) {
   const auto plant = out / "identified_plant.toml";
   const auto rejected = out / "rejected_plant.toml";
   std::filesystem::remove(plant);

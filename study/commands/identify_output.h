@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "study/procedures/chain.h"
+#include "study/procedures/sequence.h"
 #include "study/recovery/recovery.h"
 
 namespace towbench::study {
 
-void tell_steps(const procedures::ChainResult& result);
+void tell_steps(const procedures::SequenceResult& result);
 // `against`: those of the estimates that have a truth, in their order; empty: none is shown.
 void tell_estimates(const identify::Estimates& estimates, const std::vector<Recovery>& against);
 
@@ -18,6 +18,6 @@ void tell_estimates(const identify::Estimates& estimates, const std::vector<Reco
 // itself is told as a failed step, and stands as rejected_plant.toml. Throws for a folder that
 // cannot be written.
 void write_plant(const std::filesystem::path& out, const std::string& text,
-                 procedures::ChainResult& result);
+                 procedures::SequenceResult& result);
 
 }  // namespace towbench::study

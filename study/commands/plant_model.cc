@@ -22,13 +22,14 @@ void add_stated_terms(diagnose::NominalModel& m, const emulator::AxisParameters&
     m.friction_at_m.push_back(p.friction.position.position_m[i]);
     m.friction_N.push_back(p.friction.position.friction_Nm[i] / r);
   }
-  if (stated["chain"] && !p.chain.rigid) {
+  if (stated["elasticity"] && !p.elasticity.rigid) {
     const auto d = emulator::derive(p);
-    m.chain = {.motor_kg = p.rotor_inertia_kg_m2 / (r * r),
-               .stiffness_N_per_m = d.chain_stiffness_N_per_m,
-               .damping_N_s_per_m = d.chain_damping_N_s_per_m,
-               .load_share = p.friction.carriage_share,
-               .play_m = p.gear.backlash_deg / kDegrees * p.sprocket_radius_m + p.chain.slack_m};
+    m.transmission = {
+        .motor_kg = p.rotor_inertia_kg_m2 / (r * r),
+        .stiffness_N_per_m = d.transmission_stiffness_N_per_m,
+        .damping_N_s_per_m = d.transmission_damping_N_s_per_m,
+        .load_share = p.friction.carriage_share,
+        .play_m = p.gear.backlash_deg / kDegrees * p.output_radius_m + p.elasticity.slack_m};
   }
 }
 
@@ -46,7 +47,7 @@ PlantModel load_plant_model(const std::filesystem::path& path, const std::string
   const auto which = *core::axis_named(axis);  // the plant file has it
   const auto& a = rig.parameters.axes[which];
   const auto& p = a.plant;
-  const double r = p.sprocket_radius_m / p.gear_ratio;
+  const double r = p.output_radius_m / p.gear_ratio;
   diagnose::NominalModel& m = out.model;
   m.axis = axis;
   m.mass_kg = p.inertia_kg_m2 / (r * r);
@@ -59,14 +60,14 @@ PlantModel load_plant_model(const std::filesystem::path& path, const std::string
   m.metres_per_count = emulator::metres_per_count(a);
   m.metres_per_motor_rad = r;
   m.rotary = rig.transmissions[which]->turns_load;
-  m.sprocket_radius_m = p.sprocket_radius_m;
+  m.output_radius_m = p.output_radius_m;
   const double volts = p.amplifier.output_limit_ratio * rig.parameters.supply.voltage_V;
   m.no_load_speed_m_per_s = volts / p.torque_constant_Nm_per_A * r;
   add_stated_terms(m, p, *stated);
   if (stated->contains("mass_kg")) {
-    // A direct drive: gear, sprocket and turn of the motor come from no statement of the file.
+    // A direct drive: gear, wheel and turn of the motor come from no statement of the file.
     m.metres_per_motor_rad = stated->contains("gear_ratio") ? r : 0;
-    m.sprocket_radius_m = 0;
+    m.output_radius_m = 0;
     m.no_load_speed_m_per_s = 0;
   }
   return out;

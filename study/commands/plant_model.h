@@ -15,8 +15,8 @@ struct PlantModel {
   toml::table plant;  // as parsed, to be extended
 };
 
-// `axis` is "y" or "x". Break-away, position friction and chain count as known only where the file
-// states them: a default is no claim about a foreign machine. Throws FixtureError.
+// `axis` is "y" or "x". Break-away, position friction and elasticity count as known only where
+// the file states them: a default is no claim about a foreign machine. Throws FixtureError.
 [[nodiscard]] PlantModel load_plant_model(const std::filesystem::path& path,
                                           const std::string& axis);
 

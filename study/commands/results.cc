@@ -16,9 +16,9 @@
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/record/line_writer.h"
 #include "study/commands/verbs.h"
-#include "study/procedures/chain.h"
 #include "study/procedures/kept_outcome.h"
 #include "study/procedures/procedures.h"
+#include "study/procedures/sequence.h"
 #include "study/recovery/tow/tow_recovery.h"
 #include "study/results/kept_tow.h"
 #include "study/results/results_page.h"
@@ -73,15 +73,15 @@ void measure_own_gains(const ResultsBench& bench, harness::ProgressLine& progres
 void identify_machine(const ResultsBench& bench, const ResultsOptions& options,
                       harness::ProgressLine& progress, Results& results) {
   const procedures::Machine machine(bench.dry, bench.controller, options.seed, bench.watchers);
-  procedures::ChainOptions chain;
-  chain.settings = harness::fixtures_directory() / "identification";
-  chain.out = options.work;
-  chain.fingerprint = bench.fingerprint;
-  chain.resume = true;
-  chain.stop = &harness::stop_requested();
-  chain.progress = [&](const std::string& what, double share) { progress.show(what, share); };
+  procedures::SequenceOptions sequence;
+  sequence.settings = harness::fixtures_directory() / "identification";
+  sequence.out = options.work;
+  sequence.fingerprint = bench.fingerprint;
+  sequence.resume = true;
+  sequence.stop = &harness::stop_requested();
+  sequence.progress = [&](const std::string& what, double share) { progress.show(what, share); };
   results.identified =
-      procedures::run_chain(machine, procedures::identification_procedures(), chain);
+      procedures::run_sequence(machine, procedures::identification_procedures(), sequence);
 }
 
 procedures::TowOutcome tow_once(const procedures::TowLoads& loads,

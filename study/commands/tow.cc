@@ -102,7 +102,7 @@ int execute_drawn(const TowOptions& options, const TowSetup& setup) {
 
 // One experiment's part of the page and of the exit code.
 struct TowSession {
-  procedures::ChainResult shown;
+  procedures::SequenceResult shown;
   std::vector<Recovery> recoveries;
   int code = harness::kExitPass;
 };

@@ -46,14 +46,14 @@ class Writer {
     }
     if (name == "position_friction") return position_friction(Key::kPlaceFriction1);
     if (name == "position_force") return position_force(Key::kPlaceForce1);
-    if (name == "chain_elasticity") return chain();
+    if (name == "chain_elasticity") return transmission();
     return friction(name, cause) || disturbance(name);
   }
 
   // A constant force is a tilt of the rails, which the carriage climbs: b = M g sin(tilt).
   bool tilt(double bias_N) {
     constexpr double kGravity_m_per_s2 = 9.80665;
-    const double carriage_kg = d_.extended[Key::kMass] - d_.context.stated.chain.motor_kg;
+    const double carriage_kg = d_.extended[Key::kMass] - d_.context.stated.transmission.motor_kg;
     const double sine = bias_N / (std::max(1e-9, carriage_kg) * kGravity_m_per_s2);
     if (!motor_side_ || std::abs(sine) > 0.17) {
       return false;
@@ -153,23 +153,23 @@ class Writer {
                   {"phase_deg", phase * kDegrees}});
       return true;
     }
-    if (name == "backlash" && c.stated.sprocket_radius_m > 0) {
+    if (name == "backlash" && c.stated.output_radius_m > 0) {
       table("gear").insert_or_assign("backlash_deg",
-                                     p[Key::kPlay] / c.stated.sprocket_radius_m * kDegrees);
+                                     p[Key::kPlay] / c.stated.output_radius_m * kDegrees);
       return true;
     }
     return false;
   }
 
-  // The file has the chain by its free mode and its damping ratio.
-  bool chain() {
-    const ElasticChain& stated = d_.context.stated.chain;
+  // The file has the transmission by its free mode and its damping ratio.
+  bool transmission() {
+    const ElasticTransmission& stated = d_.context.stated.transmission;
     const double stiffness = d_.extended[Key::kStiffness] / stated.stiffness_N_per_m;
     if (!d_.context.stated.elastic() || stiffness < 0.1) {
       return false;
     }
     const double damping = d_.extended[Key::kDamping] / std::max(1e-300, stated.damping_N_s_per_m);
-    scale_chain(std::sqrt(stiffness), std::max(0.0, damping) / std::sqrt(stiffness));
+    scale_transmission(std::sqrt(stiffness), std::max(0.0, damping) / std::sqrt(stiffness));
     return true;
   }
   // Another carriage on the same spring swings otherwise.
@@ -179,14 +179,14 @@ class Writer {
       return;
     }
     const auto mobility = [&](double mass) {
-      return 1 / m.chain.motor_kg + 1 / std::max(1e-3, mass - m.chain.motor_kg);
+      return 1 / m.transmission.motor_kg + 1 / std::max(1e-3, mass - m.transmission.motor_kg);
     };
     const double ratio = std::sqrt(mobility(mass_kg) / mobility(m.mass_kg));
-    scale_chain(ratio, ratio);
+    scale_transmission(ratio, ratio);
   }
-  void scale_chain(double frequency, double damping) {
-    scale(table("chain"), "resonance_Hz", frequency);
-    scale(table("chain"), "damping_ratio", damping);
+  void scale_transmission(double frequency, double damping) {
+    scale(table("elasticity"), "resonance_Hz", frequency);
+    scale(table("elasticity"), "damping_ratio", damping);
   }
   // A number, or a table that holds it as `value`.
   static void scale(toml::table& in, const char* key, double by) {

@@ -17,7 +17,7 @@ struct ExtendedPlant {
 
 // `plant`: the parsed file that the model came from, motor side or load side. Where something
 // was found the refitted parameters replace the file's, and effects that the plant has keys for
-// become keys; a chain keeps its stiffness.
+// become keys; a transmission keeps its stiffness.
 [[nodiscard]] ExtendedPlant extend_plant(const toml::table& plant, const Diagnosis& diagnosis);
 
 }  // namespace towbench::study::diagnose

@@ -20,13 +20,14 @@ constexpr double kNothingExplained = 0.05;
 constexpr double kNoiseReaches = 25;
 constexpr double kWellExplained = 0.9;
 
-// Of a rigid body; a load on a chain follows later by half a period of its swing.
+// Of a rigid body; a load on a transmission follows later by half a period of its swing.
 double told_shift_s(const NominalModel& model) {
   if (!model.elastic()) {
     return kToldShift_s;
   }
-  const double load_kg = model.mass_kg - model.chain.motor_kg;
-  return kToldShift_s + std::numbers::pi * std::sqrt(load_kg / model.chain.stiffness_N_per_m);
+  const double load_kg = model.mass_kg - model.transmission.motor_kg;
+  return kToldShift_s +
+         std::numbers::pi * std::sqrt(load_kg / model.transmission.stiffness_N_per_m);
 }
 
 void check_shift(const std::vector<Run>& runs, const NominalModel& model, const Momentum& fit,

@@ -27,8 +27,8 @@ std::size_t end_of_level_before(const AxisRecording& columns, std::size_t from, 
   return k;
 }
 
-// Whether the motor still moved in the last third of the level that ends with row `last`. A chain
-// that was stretched by the step has come to rest by then.
+// Whether the motor still moved in the last third of the level that ends with row `last`. A
+// transmission that was stretched by the step has come to rest by then.
 bool stirs_at_the_end(const AxisRecording& columns, std::size_t from, std::size_t last) {
   const std::size_t before = end_of_level_before(columns, from, last);
   const std::size_t third = (last - before) / 3;

@@ -1,10 +1,10 @@
 // Torque at which an axis breaks away, read off ramps of duty.
 //
-// The thesis takes the last torque before motion (4.1.2). With an elastic chain the motor creeps
-// while the chain is being stretched, so motion is when the speed passes a threshold. The level
-// that started it is an earlier one, since just above break-away an axis gathers speed slowly: the
-// first one by whose end the motor had not come to rest. Break-away lies between that level and the
-// one before it, anywhere: the middle of the two is taken.
+// The thesis takes the last torque before motion (4.1.2). With an elastic transmission the motor
+// creeps while the transmission is being stretched, so motion is when the speed passes a threshold.
+// The level that started it is an earlier one, since just above break-away an axis gathers speed
+// slowly: the first one by whose end the motor had not come to rest. Break-away lies between that
+// level and the one before it, anywhere: the middle of the two is taken.
 #pragma once
 
 #include <vector>

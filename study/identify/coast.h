@@ -2,7 +2,7 @@
 //
 //   J q'' + B q' + C = 0       q(t) = a + b t + c exp(-t B/J)
 //
-// and on top, since the motor lets go of a stretched chain, one damped swing
+// and on top, since the motor lets go of a stretched transmission, one damped swing
 //   exp(-s t) (p cos wt + q sin wt).
 // J/B, w and s are common to all coasts of a set, the rest is each one's own (variable projection).
 #pragma once

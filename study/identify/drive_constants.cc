@@ -120,7 +120,8 @@ double bend_under_load(const std::vector<PushedRun>& pushed, const std::vector<P
   return std::isfinite(bend) ? bend : 0;
 }
 
-DriveConstants find_drive_constants(const std::vector<PushedRun>& runs, double metres_per_rad) {
+DriveConstants find_drive_constants(const std::vector<PushedRun>& runs,
+                                    double metres_per_motor_rad) {
   DriveConstants constants;
   const auto current = [](const PushedRun& run) -> const Mean& { return run.current_A; };
   const auto force = [](const PushedRun& run) -> const Mean& { return run.force_N; };
@@ -134,7 +135,7 @@ DriveConstants find_drive_constants(const std::vector<PushedRun>& runs, double m
   if (!constants.found) {
     return constants;
   }
-  constants.torque_constant_Nm_per_A = -metres_per_rad / per_newton.value;
+  constants.torque_constant_Nm_per_A = -metres_per_motor_rad / per_newton.value;
   constants.torque_constant_deviation =
       constants.torque_constant_Nm_per_A * std::fabs(per_newton.deviation / per_newton.value);
   // So that the product of both is what force and command say.

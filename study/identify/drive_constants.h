@@ -5,9 +5,9 @@
 //
 // Friction is the same in runs of one direction at one speed over one stretch, and so are the
 // biases of both sensors within one session: only differences count. A push also moves the carriage
-// on its chain to where friction is a little more or less. That adds to the slope of one direction
-// what it takes from the other's, so each has a slope of its own and their mean counts, over the
-// same way in both.
+// on its transmission to where friction is a little more or less. That adds to the slope of one
+// direction what it takes from the other's, so each has a slope of its own and their mean counts,
+// over the same way in both.
 //
 // How far the stretches of one direction lie apart tells how sure a slope is; with one alone, the
 // deviations given. Torque over command is a slope of its own: of K_T and K_amp the current
@@ -45,6 +45,6 @@ struct DriveConstants {
 };
 
 [[nodiscard]] DriveConstants find_drive_constants(const std::vector<PushedRun>& runs,
-                                                  double metres_per_rad);
+                                                  double metres_per_motor_rad);
 
 }  // namespace towbench::study::identify

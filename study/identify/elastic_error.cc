@@ -143,7 +143,8 @@ ElasticError elastic_error(const ElasticInput& input) {
   }
   if (!(error.friction_stretch_m.half_width < error.peak_m)) {
     error.trouble =
-        "the motion does not tell a late camera from a stretched chain: reverse it, or change its "
+        "the motion does not tell a late camera from a stretched transmission: reverse it, or "
+        "change its "
         "speed";
   }
   return error;

@@ -3,11 +3,11 @@
 //
 //   m(t_k - d) - c_k = o + a(t_k - d) / w_h^2 + x_f s(v(t_k - d)) + noise
 //
-// d delay, o offset of the two frames, w_h held-motor frequency of the chain ((J_l a + C_l s)/k, as
-// control_law.h), x_f stretch by friction, s = v/(|v| + v_0). All four by least squares: o, 1/w_h^2
-// and x_f linearly for each d, d where the residual is least. v and a are those of the reference,
-// smooth and known; frames are used where it moves. At one constant speed d and x_f are the same
-// thing: refused, as their intervals say.
+// d delay, o offset of the two frames, w_h held-motor frequency of the transmission ((J_l a + C_l
+// s)/k, as control_law.h), x_f stretch by friction, s = v/(|v| + v_0). All four by least squares:
+// o, 1/w_h^2 and x_f linearly for each d, d where the residual is least. v and a are those of the
+// reference, smooth and known; frames are used where it moves. At one constant speed d and x_f are
+// the same thing: refused, as their intervals say.
 #pragma once
 
 #include <optional>

@@ -1,9 +1,9 @@
 // Ordinary least squares: J, B, C of (4.8) by (4.9), residual by (4.10), on differentiated and
-// filtered counts, with the criteria OLS-C-1 .. OLS-C-6. The thesis filters the chain's oscillation
-// out (7.2.1): with a cut-off above the chain's mode J misses the carriage.
+// filtered counts, with the criteria OLS-C-1 .. OLS-C-6. The thesis filters the transmission's
+// oscillation out (7.2.1): with a cut-off above the transmission's mode J misses the carriage.
 //
-// It is biased: the chain's swing, the rise of friction towards standstill and with place, and the
-// filter on sgn v are all in the residual, and they are correlated with the regressors.
+// It is biased: the transmission's swing, the rise of friction towards standstill and with place,
+// and the filter on sgn v are all in the residual, and they are correlated with the regressors.
 #pragma once
 
 #include <array>

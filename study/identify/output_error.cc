@@ -57,8 +57,8 @@ class Problem {
     p[kViscous] = std::log(a.viscous_friction_Nm_s_per_rad);
     p[kExcess] = std::log(std::max(1e-5, a.friction.breakaway_Nm - a.coulomb_friction_Nm));
     p[kStribeck] = std::log(a.friction.stribeck_speed_rad_per_s);
-    p[kResonance] = std::log(a.chain.resonance_Hz);
-    p[kDamping] = std::log(a.chain.damping_ratio);
+    p[kResonance] = std::log(a.elasticity.resonance_Hz);
+    p[kDamping] = std::log(a.elasticity.damping_ratio);
     p[kShare] = a.friction.carriage_share;
     p[kDelay] = start_.path.delay_s / 1e-5;
     p[kPlace] = first_place_share();
@@ -91,8 +91,8 @@ class Problem {
     a.rotor_inertia_kg_m2 = std::exp(p[kRotor]);
     a.viscous_friction_Nm_s_per_rad = std::exp(p[kViscous]);
     a.friction.stribeck_speed_rad_per_s = std::exp(p[kStribeck]);
-    a.chain.resonance_Hz = std::exp(p[kResonance]);
-    a.chain.damping_ratio = std::exp(p[kDamping]);
+    a.elasticity.resonance_Hz = std::exp(p[kResonance]);
+    a.elasticity.damping_ratio = std::exp(p[kDamping]);
     a.friction.carriage_share = p[kShare];
     const auto knots = start_.knots_m.size();
     double lowest = std::exp(p[kKnots]);
@@ -285,8 +285,8 @@ TwoMassFit fit_from(const TwoMassStart& start, const Recording& data, core::Axis
   };
   fit.inertia_deviation = fit.axis.inertia_kg_m2 * deviation(kInertia);
   fit.viscous_deviation = fit.axis.viscous_friction_Nm_s_per_rad * deviation(kViscous);
-  fit.resonance_deviation_Hz = fit.axis.chain.resonance_Hz * deviation(kResonance);
-  fit.damping_deviation = fit.axis.chain.damping_ratio * deviation(kDamping);
+  fit.resonance_deviation_Hz = fit.axis.elasticity.resonance_Hz * deviation(kResonance);
+  fit.damping_deviation = fit.axis.elasticity.damping_ratio * deviation(kDamping);
   fit.share_deviation = deviation(kShare);
   fit.rotor_deviation = fit.axis.rotor_inertia_kg_m2 * deviation(kRotor);
   fit.common_deviation_Nm = fit.axis.coulomb_friction_Nm / (1 - p[kPlace]) * deviation(kPlace);
@@ -340,7 +340,7 @@ TwoMassFit fit_two_mass(const TwoMassStart& start, const Recording& data, core::
   for (const double factor : {0.7, 1.4}) {
     if (lost && leaves_more_than(kStuck_counts)) {
       auto other = start;
-      other.axis.chain.resonance_Hz *= factor;
+      other.axis.elasticity.resonance_Hz *= factor;
       (void)another(other, Way::kCareful);
     }
   }

@@ -31,7 +31,7 @@ struct TwoMassStart {
   double excess_known = 0;
   double share_known = 0.25;  // of the carriage's share, absolute
   // Of the rotor's inertia, which its data sheet gives, in units of the torques that are known by
-  // K_T K_amp: as well as those. A swing of the chain tells it to 1e-4.
+  // K_T K_amp: as well as those. A swing of the transmission tells it to 1e-4.
   double rotor_known = 0;
 };
 

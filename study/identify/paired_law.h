@@ -1,8 +1,9 @@
 // Friction's law from the same experiment on a machine and on its simulated reference, whose law is
 // known.
 //
-// What both runs of a pair share, stick-slip of the carriage on its chain above all, falls out of
-// their difference; what is left is by how much the two laws differ, to first order of (3.25):
+// What both runs of a pair share, stick-slip of the carriage on its transmission above all, falls
+// out of their difference; what is left is by how much the two laws differ, to first order of
+// (3.25):
 //
 //   T(w) - T'(w) = dC + dB w + dv d/dv (S - C) exp(-(w/v)^2)
 //

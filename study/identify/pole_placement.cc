@@ -17,14 +17,14 @@ constexpr double kFastest = 0.2;
 // The delay of the linear equations is not quite that of the samples.
 constexpr double kAsSlow = 0.98;
 
-struct Chain {
+struct Transmission {
   double motor_kg_m2;
   double carriage_kg_m2;
   double stiffness_Nm_per_rad;
   double damping_Nm_s_per_rad;
 };
 
-Chain chain_of(const TwoMassAxis& axis) {
+Transmission transmission_of(const TwoMassAxis& axis) {
   const double carriage = axis.inertia_kg_m2 - axis.rotor_inertia_kg_m2;
   const double reduced = axis.rotor_inertia_kg_m2 * carriage / axis.inertia_kg_m2;
   const double mode = 2 * std::numbers::pi * axis.resonance_Hz;
@@ -33,7 +33,7 @@ Chain chain_of(const TwoMassAxis& axis) {
 }
 
 Complex motor_over_torque(const TwoMassAxis& axis, Complex s) {
-  const auto [motor, carriage, k, c] = chain_of(axis);
+  const auto [motor, carriage, k, c] = transmission_of(axis);
   const Complex spring = c * s + k;
   const Complex behind = carriage * s * s + spring;
   const Complex own = motor * s * s + axis.viscous_Nm_s_per_rad * s + spring;
@@ -47,7 +47,7 @@ Complex late(const SampledLoop& loop, Complex s, double more) {
 
 // States: motor angle and speed, carriage angle and speed.
 Eigen::Matrix<double, 5, 5> with_torque(const TwoMassAxis& axis) {
-  const auto [motor, carriage, k, c] = chain_of(axis);
+  const auto [motor, carriage, k, c] = transmission_of(axis);
   Eigen::Matrix<double, 5, 5> all = Eigen::Matrix<double, 5, 5>::Zero();
   all(0, 1) = 1;
   all.row(1) << -k / motor, -(c + axis.viscous_Nm_s_per_rad) / motor, k / motor, c / motor,

@@ -1,15 +1,15 @@
 // PID gains from an identified model (thesis 4.2, "model-based"): dominant pole placement on the
-// axis with its elastic chain.
+// axis with its elastic transmission.
 //
 //   G(s) = (J_l s^2 + c s + k) / [(J_m s^2 + (B + c) s + k)(J_l s^2 + c s + k) - (c s + k)^2]
 //   L(s) = (K_P + K_I/s + K_D s) G(s) exp(-s T_d),   1 + L(s_i) = 0
 //
 // at s_1,2 = w_0 (-zeta +- i sqrt(1 - zeta^2)) and s_3 = -w_0: three linear equations in the three
-// gains (Persson, Astrom 1993, "PID control revisited"). The chain's pair goes where it goes, so
-// w_0 is the largest whose loop keeps a largest sensitivity M_s = max |1/(1 + L)| (Astrom, Hagglund
-// 2006: 1.2 to 2.0) and is stable by the eigenvalues of the sampled loop. A motor that is held
-// stiffly leaves the carriage to swing undamped: where the placed poles are to be the slowest, so
-// that the carriage comes to rest with the motor, the loop is an order softer.
+// gains (Persson, Astrom 1993, "PID control revisited"). The transmission's pair goes where it
+// goes, so w_0 is the largest whose loop keeps a largest sensitivity M_s = max |1/(1 + L)| (Astrom,
+// Hagglund 2006: 1.2 to 2.0) and is stable by the eigenvalues of the sampled loop. A motor that is
+// held stiffly leaves the carriage to swing undamped: where the placed poles are to be the slowest,
+// so that the carriage comes to rest with the motor, the loop is an order softer.
 //
 // Friction is not in it: the loop is tuned on what is left when the axis moves.
 #pragma once

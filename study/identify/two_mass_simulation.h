@@ -21,7 +21,7 @@ struct DrivePath {
 };
 
 // Motor angle in counts (not rounded) at each row's time. Starts at rest where the first row
-// stands, chain relaxed. None when the parameters are inconsistent.
+// stands, transmission relaxed. None when the parameters are inconsistent.
 [[nodiscard]] std::optional<std::vector<double>> simulate_counts(
     const emulator::AxisParameters& parameters, const DrivePath& path, const Recording& data,
     core::Axis axis);

@@ -9,7 +9,7 @@ namespace towbench::study::diagnose {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kStepsPerMode = 25;  // substeps in a period of the chain's mode
+constexpr double kStepsPerMode = 25;  // substeps in a period of the transmission's mode
 
 double sign(double x) {
   return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0;
@@ -266,9 +266,9 @@ void Axis::substep(double t_s, double mean_N, Eigen::Index k) {
   }
   const double on_motor = drive - on_motor_N(t_s, k);
   if constexpr (two) {
-    const double chain = chain_N();
-    slide(motor_, motor_slides_, on_motor - chain, drive, t_s);
-    slide(load_, load_slides_, chain - on_load_N(load_), chain, t_s);
+    const double transmission = transmission_N();
+    slide(motor_, motor_slides_, on_motor - transmission, drive, t_s);
+    slide(load_, load_slides_, transmission - on_load_N(load_), transmission, t_s);
   } else {
     slide(motor_, motor_slides_, on_motor - on_load_N(motor_), drive, t_s);
   }
@@ -285,15 +285,15 @@ void Axis::substep(double t_s, double mean_N, Eigen::Index k) {
   }
 }
 
-double Axis::chain_N() const {
+double Axis::transmission_N() const {
   const double half = 0.5 * p_[Key::kPlay];
   const double stretch = motor_.x - load_.x;
   const double past = std::abs(stretch) <= half ? 0 : stretch - sign(stretch) * half;
   if (past == 0 && half > 0) {
     return 0;
   }
-  const double chain = p_[Key::kStiffness] * past + p_[Key::kDamping] * (motor_.v - load_.v);
-  return half > 0 && chain * past < 0 ? 0 : chain;  // a flank pushes and never pulls
+  const double transmission = p_[Key::kStiffness] * past + p_[Key::kDamping] * (motor_.v - load_.v);
+  return half > 0 && transmission * past < 0 ? 0 : transmission;  // a flank pushes and never pulls
 }
 
 void Axis::follow_reversals() {

@@ -1,4 +1,4 @@
-// The axis that predicts: one body, or two on a chain with play, stepped along a run.
+// The axis that predicts: one body, or two on a transmission with play, stepped along a run.
 //
 // Dry friction is a set: a body whose free speed it could stop stands (implicit step, Moreau 1988).
 // Of a rigid axis:  v* = v + h (D - B v - ...) / M,  v' = sgn(v*) max(|v*| - h C / M, 0).
@@ -16,7 +16,7 @@ class Axis {
   void place(double position_m, double speed_m_per_s);
   // Over the sample period that begins at sample `k`.
   void step(Eigen::Index k);
-  // Moves the whole axis: the stretch of a chain stays.
+  // Moves the whole axis: the stretch of a transmission stays.
   void shift(double by_m, double by_m_per_s);
   // What the encoder, on the motor's side, reads.
   [[nodiscard]] double reading_m() const;
@@ -40,7 +40,7 @@ class Axis {
   [[nodiscard]] Sliding sliding(double mass_kg, double share, bool load) const;
   template <bool two>
   void substep(double t_s, double mean_N, Eigen::Index k);
-  [[nodiscard]] double chain_N() const;
+  [[nodiscard]] double transmission_N() const;
   [[nodiscard]] double driven_N(double input_N);
   // What resists whatever the direction: where the motor is felt, and at the load.
   [[nodiscard]] double on_motor_N(double t_s, Eigen::Index k) const;

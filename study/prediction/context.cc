@@ -37,11 +37,11 @@ Parameters parameters_of(const NominalModel& stated) {
     p[Key::kStribeckSpeed] = std::max(1e-9, stated.stribeck_speed_m_per_s);
   }
   if (stated.elastic()) {
-    p[Key::kMotorMass] = stated.chain.motor_kg;
-    p[Key::kStiffness] = stated.chain.stiffness_N_per_m;
-    p[Key::kDamping] = stated.chain.damping_N_s_per_m;
-    p[Key::kPlay] = stated.chain.play_m;
-    p[Key::kLoadShare] = stated.chain.load_share;
+    p[Key::kMotorMass] = stated.transmission.motor_kg;
+    p[Key::kStiffness] = stated.transmission.stiffness_N_per_m;
+    p[Key::kDamping] = stated.transmission.damping_N_s_per_m;
+    p[Key::kPlay] = stated.transmission.play_m;
+    p[Key::kLoadShare] = stated.transmission.load_share;
   }
   return p;
 }

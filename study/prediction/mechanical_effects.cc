@@ -12,10 +12,10 @@ namespace {
 constexpr double kFrictionAtLoad = 0.65;  // of all friction, where nothing is stated
 constexpr double kFlank_Hz = 50;          // of a load on its flank: stiff in the band
 constexpr double kFlankDamping = 0.4;
-constexpr double kChainDamping = 0.05;
+constexpr double kTransmissionDamping = 0.05;
 
 // A load behind a spring, by its frequency on a held motor and its share of the mass.
-void set_chain(Parameters& p, double mode_Hz, double damping_ratio, double load_share) {
+void set_transmission(Parameters& p, double mode_Hz, double damping_ratio, double load_share) {
   const double load = load_share * p[Key::kMass];
   const double w = 2 * std::numbers::pi * mode_Hz;
   p[Key::kMotorMass] = p[Key::kMass] - load;
@@ -25,11 +25,11 @@ void set_chain(Parameters& p, double mode_Hz, double damping_ratio, double load_
 }
 
 void set_elastic(Parameters& p, const Context& /*c*/, std::span<const double> s) {
-  set_chain(p, s[0], kChainDamping, s[1]);
+  set_transmission(p, s[0], kTransmissionDamping, s[1]);
 }
 
 void set_loose(Parameters& p, const Context& /*c*/, std::span<const double> s) {
-  set_chain(p, kFlank_Hz, kFlankDamping, s[1]);
+  set_transmission(p, kFlank_Hz, kFlankDamping, s[1]);
   p[Key::kPlay] = s[0];
 }
 
@@ -60,7 +60,7 @@ std::vector<Scales> where_other(const Context& c) {
 }
 
 double stiffness_step(const Context& c) {
-  return 0.01 * c.stated.chain.stiffness_N_per_m;
+  return 0.01 * c.stated.transmission.stiffness_N_per_m;
 }
 double play_step(const Context& c) {
   return std::max(0.5 * c.resolution_m, 1e-6);
@@ -72,7 +72,7 @@ void add_mechanical_effects(std::vector<Effect>& library) {
   const std::string resolved = "accelerations fast enough to excite it, finely resolved";
   const std::string reversals = "reversals, or a sensor on the load";
   library.push_back({.name = "chain_elasticity",
-                     .cause = "an elastic chain between motor and load",
+                     .cause = "an elastic transmission between motor and load",
                      .needs = resolved,
                      .scales = {Key::kStiffness, Key::kDamping, Key::kMotorMass},
                      .scale_names = {"stiffness_N_per_m", "damping_N_s_per_m", "motor_mass_kg"},
@@ -82,7 +82,7 @@ void add_mechanical_effects(std::vector<Effect>& library) {
                      .set = set_elastic,
                      .step = whole_step});
   library.push_back({.name = "chain_elasticity",
-                     .cause = "a chain stiffer or softer, or damped otherwise, than stated",
+                     .cause = "a transmission stiffer or softer, or damped otherwise, than stated",
                      .needs = resolved,
                      .amplitudes = {Key::kStiffness, Key::kDamping},
                      .amplitude_names = {"stiffness_N_per_m", "damping_N_s_per_m"},

@@ -10,7 +10,7 @@
 namespace towbench::study::diagnose {
 
 // Motor and load as two bodies, (3.37)-(3.38): mass_kg and friction of the model are of both.
-struct ElasticChain {
+struct ElasticTransmission {
   double motor_kg = 0;  // what turns with the motor, (n/R)^2 of its inertia
   double stiffness_N_per_m = 0;
   double damping_N_s_per_m = 0;
@@ -26,7 +26,7 @@ struct NominalModel {
   double bias_N = 0;
   // What one motor radian moves the carriage: R/n. A direct drive has no motor side: 0.
   double metres_per_motor_rad = 0;
-  double sprocket_radius_m = 0;      // 0: none
+  double output_radius_m = 0;        // 0: none
   double metres_per_count = 0;       // 0: positions are given in metres
   double newton_per_duty_pct = 0;    // 0: the log's input is a force
   double newton_per_volt = 0;        // of a log in controller volts
@@ -38,10 +38,10 @@ struct NominalModel {
   bool stribeck_is_lorentz = false;   // (3.26)
   std::vector<double> friction_at_m;  // position friction, piecewise linear, (3.34)
   std::vector<double> friction_N;
-  ElasticChain chain;  // stiffness 0: rigid
+  ElasticTransmission transmission;  // stiffness 0: rigid
   // True when mass, friction levels come from a file; false: fitted only, nothing was supplied.
   bool supplied = true;
-  [[nodiscard]] bool elastic() const noexcept { return chain.stiffness_N_per_m > 0; }
+  [[nodiscard]] bool elastic() const noexcept { return transmission.stiffness_N_per_m > 0; }
   // The log's input is held from its own sample to the next, so it acts half a period late.
   bool input_is_held = true;
   bool rotary = false;  // a joint: read rad for m and Nm for N

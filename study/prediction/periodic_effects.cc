@@ -14,8 +14,8 @@ constexpr double kFullTurn = 2 * std::numbers::pi;
 double motor_per_m(const Context& c) {
   return c.stated.metres_per_motor_rad > 0 ? 1 / (kFullTurn * c.stated.metres_per_motor_rad) : 0;
 }
-double sprocket_per_m(const Context& c) {
-  return c.stated.sprocket_radius_m > 0 ? 1 / (kFullTurn * c.stated.sprocket_radius_m) : 0;
+double wheel_per_m(const Context& c) {
+  return c.stated.output_radius_m > 0 ? 1 / (kFullTurn * c.stated.output_radius_m) : 0;
 }
 
 // Resolved by the encoder, and long enough travelled to be no slope.
@@ -31,7 +31,7 @@ std::vector<Scales> turns(const Context& c) {
     add_visible(grid, c, harmonic * motor_per_m(c));
   }
   for (const double harmonic : {1.0, 2.0}) {
-    add_visible(grid, c, harmonic * sprocket_per_m(c));
+    add_visible(grid, c, harmonic * wheel_per_m(c));
   }
   for (const double per_m : c.lines_per_m) {
     // Of fewer periods in the stroke it is a shape of the place.
@@ -40,9 +40,9 @@ std::vector<Scales> turns(const Context& c) {
   return grid;
 }
 
-std::vector<Scales> sprocket_turn(const Context& c) {
+std::vector<Scales> wheel_turn(const Context& c) {
   std::vector<Scales> grid;
-  add_visible(grid, c, sprocket_per_m(c));
+  add_visible(grid, c, wheel_per_m(c));
   return grid;
 }
 
@@ -52,11 +52,11 @@ std::vector<Scales> motor_turn(const Context& c) {
   return grid;
 }
 
-// Teeth of the sprocket are not in the model: usual numbers.
+// Teeth of the wheel are not in the model: usual numbers.
 std::vector<Scales> teeth(const Context& c) {
   std::vector<Scales> grid;
   for (int count = 10; count <= 40; ++count) {
-    add_visible(grid, c, count * sprocket_per_m(c));
+    add_visible(grid, c, count * wheel_per_m(c));
   }
   return grid;
 }
@@ -86,17 +86,17 @@ void add_periodic_effects(std::vector<Effect>& library) {
                      .set = set_scale<Key::kRipplePerMetre>,
                      .step = force_step});
   library.push_back({.name = "sprocket_eccentricity",
-                     .cause = "a sprocket that runs out of round",
-                     .needs = "travel over at least one sprocket turn",
+                     .cause = "a wheel that runs out of round",
+                     .needs = "travel over at least one wheel turn",
                      .amplitudes = {Key::kOutOfRoundCosine, Key::kOutOfRoundSine},
                      .amplitude_names = {"cosine_ratio", "sine_ratio"},
                      .scales = {Key::kOutOfRoundPerMetre},
                      .scale_names = {"spatial_frequency_per_m"},
-                     .grid = sprocket_turn,
+                     .grid = wheel_turn,
                      .set = set_scale<Key::kOutOfRoundPerMetre>,
                      .step = share_step});
   library.push_back({.name = "chain_polygon",
-                     .cause = "the chain's polygon on its sprocket",
+                     .cause = "the transmission's polygon on its wheel",
                      .needs = "medium speed, where a tooth passes within the band",
                      .amplitudes = {Key::kReadCosine, Key::kReadSine},
                      .amplitude_names = {"cosine_m", "sine_m"},

@@ -13,7 +13,7 @@ emulator::AxisParameters believed_axis(const ProcedureContext& context) {
   const auto& belief = context.machine.configuration().axes[context.axis];
   emulator::AxisParameters axis;
   axis.gear_ratio = plate.gear_ratio;
-  axis.sprocket_radius_m = plate.sprocket_radius_m;
+  axis.output_radius_m = plate.output_radius_m;
   axis.rotor_inertia_kg_m2 = plate.rotor_inertia_kg_m2;
   axis.winding = {.resistance_ohm = plate.resistance_ohm,
                   .inductance_H = plate.inductance_H,
@@ -37,7 +37,7 @@ emulator::AxisParameters believed_axis(const ProcedureContext& context) {
   // The free-free mode from what the controller believes of the held motor's:
   // w0^2 = K_s (r^2/J_m + 1/M), held: K_s / M.
   const double ratio = (axis.inertia_kg_m2 - axis.rotor_inertia_kg_m2) / axis.rotor_inertia_kg_m2;
-  axis.chain.resonance_Hz = belief.braking.held_motor_chain_Hz * std::sqrt(1 + ratio);
+  axis.elasticity.resonance_Hz = belief.braking.held_motor_chain_Hz * std::sqrt(1 + ratio);
   return axis;
 }
 
@@ -51,7 +51,8 @@ identify::DrivePath believed_path(const ProcedureContext& context) {
 namespace {
 
 // The guard of the encoder takes off the drive what the carriage's swing asks of the motor. With a
-// chain that was only believed it takes a motor that is held by the swing for a frozen encoder.
+// transmission that was only believed it takes a motor that is held by the swing for a frozen
+// encoder.
 void tell_swing(const identify::Estimates& known, core::Axis which,
                 bbmc::BrakingConfiguration& braking) {
   const auto of = [&](std::string_view quantity, double otherwise) {
@@ -61,7 +62,7 @@ void tell_swing(const identify::Estimates& known, core::Axis which,
   const double coasts_kg_m2 =
       of("mechanical_time_constant_s", 0) * of("steady_viscous_Nm_s_per_rad", 0);
   const double inertia_kg_m2 = of("inertia_kg_m2", coasts_kg_m2);
-  const double free_Hz = of("chain_resonance_Hz", of("swing_Hz", 0));
+  const double free_Hz = of("transmission_resonance_Hz", of("swing_Hz", 0));
   if (inertia_kg_m2 > braking.rotor_inertia_kg_m2 && free_Hz > 0) {
     braking.inertia_kg_m2 = inertia_kg_m2;
     braking.held_motor_chain_Hz = free_Hz * std::sqrt(braking.rotor_inertia_kg_m2 / inertia_kg_m2);
@@ -90,8 +91,8 @@ bbmc::Configuration studied_configuration(const ProcedureContext& context) {
     if (identify::find(context.known, "torque_constant_Nm_per_A", core::name_of(which)) !=
         nullptr) {
       axis.speed_limit_m_per_s = std::max(
-          axis.speed_limit_m_per_s,
-          plate.output_limit_V / axis.drive.torque_constant_Nm_per_A * plate.metres_per_rad());
+          axis.speed_limit_m_per_s, plate.output_limit_V / axis.drive.torque_constant_Nm_per_A *
+                                        plate.metres_per_motor_rad());
     }
   }
   return configuration;

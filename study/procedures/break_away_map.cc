@@ -140,8 +140,9 @@ class BreakAwayMap final : public Procedure {
         continue;
       }
       const double spread = std::sqrt(std::max(0.0, square / n - sum / n * sum / n) / (n - 1));
-      // Anywhere between two levels, or up to a tenth of a step above them, for the chain's swing
-      // helps; and every ramp of a stretch misses it alike: the middle 95 % of an even spread.
+      // Anywhere between two levels, or up to a tenth of a step above them, for the transmission's
+      // swing helps; and every ramp of a stretch misses it alike: the middle 95 % of an even
+      // spread.
       const double bracket = (1 + kSwingHelps) * step;
       const double value = sum / n + 0.5 * kSwingHelps * step;
       const double resolution = 0.5 * 0.95 * bracket / statistics::kNormal95;

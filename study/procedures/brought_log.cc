@@ -90,7 +90,7 @@ identify::Recording recording_of(const LogFile& log, const logs::ColumnMap& name
   const auto [from, to] = longest_rise(log, time, log.is_datalog);
   identify::Recording data;
   data.rad_per_count[which] = 2 * std::numbers::pi / plate.counts_per_turn;
-  data.metres_per_count[which] = data.rad_per_count[which] * plate.metres_per_rad();
+  data.metres_per_count[which] = data.rad_per_count[which] * plate.metres_per_motor_rad();
   const double counts_a_unit =
       names.count.empty() ? names.position_scale_m / data.metres_per_count[which] : 1.0;
   auto& axis = data.axes[which];

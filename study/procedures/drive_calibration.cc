@@ -69,9 +69,9 @@ class DriveCalibration final : public Procedure {
       return run;
     };
     for (int i = 0; i < 4; ++i) {
-      // The middle of the pushed stretch, the same way in both directions: the chain has come to
-      // rest but for the carriage's swing on a motor that is held, which a smooth mean over some
-      // periods takes out.
+      // The middle of the pushed stretch, the same way in both directions: the transmission has
+      // come to rest but for the carriage's swing on a motor that is held, which a smooth mean over
+      // some periods takes out.
       for (int stretch = 0; stretch < kStretches; ++stretch) {
         const auto edge = [](int of) { return 0.28 + (0.72 - 0.28) * of / (kStretches + 1); };
         runs.push_back(mean_between(i, stretch, edge(stretch), edge(stretch + 2)));
@@ -95,7 +95,7 @@ class DriveCalibration final : public Procedure {
       return "no current monitor: K_T and K_amp cannot be told apart";
     }
     const double needed_Nm =
-        settings.push_N * plate.metres_per_rad() + belief.plausibility.worst_breakaway_Nm;
+        settings.push_N * plate.metres_per_motor_rad() + belief.plausibility.worst_breakaway_Nm;
     if (needed_Nm > 0.6 * belief.drive.torque_limit_Nm()) {
       return fmt::format("stall: a push of {} N takes {:.2g} N m of {:.2g}", settings.push_N,
                          needed_Nm, belief.drive.torque_limit_Nm());
@@ -149,12 +149,12 @@ class DriveCalibration final : public Procedure {
   static ProcedureOutcome judged(const ProcedureContext& context,
                                  const std::vector<identify::PushedRun>& runs, double bend) {
     const auto found = identify::find_drive_constants(
-        runs, context.machine.nameplate(context.axis).metres_per_rad());
+        runs, context.machine.nameplate(context.axis).metres_per_motor_rad());
     if (!found.found) {
       return ProcedureOutcome::failed("neither force nor current followed the push");
     }
     ProcedureOutcome outcome;
-    // Less is what friction by place and the chain's swing do to the unpushed runs.
+    // Less is what friction by place and the transmission's swing do to the unpushed runs.
     const double loss = bend > kStraight ? bend : 0;
     const auto bent = loss == 0 ? std::string()
                                 : fmt::format(
@@ -176,7 +176,7 @@ class DriveCalibration final : public Procedure {
     };
     add("torque_constant_Nm_per_A", found.torque_constant_Nm_per_A, found.torque_constant_deviation,
         "N m/A",
-        "current monitor and force sensor at one speed under opposite pushes; gear and sprocket by "
+        "current monitor and force sensor at one speed under opposite pushes; gear and wheel by "
         "their drawings, no loss in the gear, sensors linear" +
             bent,
         loss);

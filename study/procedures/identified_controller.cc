@@ -51,7 +51,7 @@ class AxisSetUp {
 
   void set_inertia() {
     const auto* inertia = find("inertia_kg_m2");
-    const auto* chain = find("chain_resonance_Hz");
+    const auto* transmission = find("transmission_resonance_Hz");
     if (inertia == nullptr || inertia->value <= axis_.braking.rotor_inertia_kg_m2) {
       return;
     }
@@ -72,10 +72,11 @@ class AxisSetUp {
       take("rotor_inertia_kg_m2", axis_.disturbance_observer.inertia_kg_m2,
            "disturbance_observer.inertia_kg_m2");
     }
-    if (chain != nullptr) {
+    if (transmission != nullptr) {
       // From the free-free mode to the carriage on a held motor.
-      axis_.braking.held_motor_chain_Hz = chain->value * std::sqrt(rotor_kg_m2 / inertia->value);
-      say("braking.held_motor_chain_Hz", chain->procedure + ", motor held");
+      axis_.braking.held_motor_chain_Hz =
+          transmission->value * std::sqrt(rotor_kg_m2 / inertia->value);
+      say("braking.held_motor_chain_Hz", transmission->procedure + ", motor held");
     }
   }
 

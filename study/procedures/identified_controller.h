@@ -20,9 +20,9 @@ struct SetUpController {
 //   gains                times identified over believed inertia: the same poles of the rigid axis
 //   feed_forward         J, B, and C as the mean over the places at which it was found
 //   friction             the same C and B, S = C + the excess of break-away, Stribeck speed
-//   braking              J, the rotor's part, the chain with a held motor
+//   braking              J, the rotor's part, the swing with a held motor
 //   disturbance_observer the rotor's part; limit of twice S
-//   chain, homing        the carriage's share of S; homing: of S at the ends of the track
+//   lead, homing         the carriage's share of S; homing: of S at the ends of the track
 //   plausibility         S at the place of most friction, and the part of it that the interval adds
 //   ends                 the max switch by its distance from the min switch; what lies around it
 //                        keeps its distance to it

@@ -32,7 +32,7 @@ class AxisWriter {
               model.viscous_friction_Nm_s_per_rad);
     const double lowest = write_coulomb(model.coulomb_friction_Nm);
     documented("gear_ratio", plate_.gear_ratio);
-    documented("sprocket_radius_m", plate_.sprocket_radius_m);
+    documented("sprocket_radius_m", plate_.output_radius_m);
     estimated("torque_constant_Nm_per_A", "torque_constant_Nm_per_A",
               drive.torque_constant_Nm_per_A);
     estimated("amplifier_gain_A_per_V", "amplifier_gain_A_per_V", drive.amplifier_gain_A_per_V);
@@ -45,9 +45,9 @@ class AxisWriter {
     documented("inductance_H", plate_.inductance_H);
     text_ += "choke_inductance_H = 0.0  # in the inductance above\n";
     friction(lowest);
-    head(".chain");
-    estimated("resonance_Hz", "chain_resonance_Hz", 9.0);
-    estimated("damping_ratio", "chain_damping_ratio", 0.06);
+    head(".elasticity");
+    estimated("resonance_Hz", "transmission_resonance_Hz", 9.0);
+    estimated("damping_ratio", "transmission_damping_ratio", 0.06);
     head(".hard_ends");
     believed("min_m", edge_m(belief_.ends.hard_min_count));
     believed("max_m", edge_m(belief_.ends.hard_max_count));

@@ -15,8 +15,9 @@
 namespace towbench::study::procedures {
 namespace {
 
-// 7.2.1 filters the chain's oscillation out before (4.9), by a Gaussian whose width it does not
-// state: any cut-off below the chain's mode is a reading of it. 0.45 is the one that is judged.
+// 7.2.1 filters the transmission's oscillation out before (4.9), by a Gaussian whose width it does
+// not state: any cut-off below the transmission's mode is a reading of it. 0.45 is the one that is
+// judged.
 constexpr double kBelowTheMode = 0.45;
 constexpr std::array<double, 6> kSharesOfTheMode{0.25, kBelowTheMode, 0.7, 1.0, 1.5, 2.2};
 
@@ -41,7 +42,7 @@ class LeastSquares {
   }
 
   [[nodiscard]] double cutoff_Hz(double share_of_mode) const {
-    return std::min(share_of_mode * report_.fit.axis.chain.resonance_Hz,
+    return std::min(share_of_mode * report_.fit.axis.elasticity.resonance_Hz,
                     0.4 / report_.data.period_s);
   }
 
@@ -92,11 +93,12 @@ ResultTable comparison(const TwoMassReport& report, const BothFits& both, double
 
 ResultTable by_cutoff(const TwoMassReport& report, const LeastSquares& squares) {
   const auto& fit = report.fit;
-  ResultTable table{.title = fmt::format("OLS by the filter's cut-off; the chain's mode is {:.1f} "
-                                         "Hz",
-                                         fit.axis.chain.resonance_Hz),
-                    .head = {"cut-off, Hz", "share of the mode", "J off by, %", "B off by, %",
-                             "C off by, %", "residual, N m"}};
+  ResultTable table{
+      .title = fmt::format("OLS by the filter's cut-off; the transmission's mode is {:.1f} "
+                           "Hz",
+                           fit.axis.elasticity.resonance_Hz),
+      .head = {"cut-off, Hz", "share of the mode", "J off by, %", "B off by, %", "C off by, %",
+               "residual, N m"}};
   for (const double share : kSharesOfTheMode) {
     const auto ols = squares.fit(share).of_machine;
     table.rows.push_back(

@@ -23,7 +23,7 @@ Nameplate nameplate_of(const emulator::RigParameters& rig, core::Axis which) {
   const auto& plant = axis.plant;
   return {.exists = axis.exists,
           .gear_ratio = plant.gear_ratio,
-          .sprocket_radius_m = plant.sprocket_radius_m,
+          .output_radius_m = plant.output_radius_m,
           .counts_per_turn = static_cast<double>(axis.encoder.counts_per_turn),
           .rotor_inertia_kg_m2 = plant.rotor_inertia_kg_m2,
           .resistance_ohm = plant.winding.resistance_ohm,
@@ -109,7 +109,7 @@ identify::Recording Machine::play(const Conversation& conversation,
   for (const auto axis : core::kPlanarAxes) {
     recording.rad_per_count[axis] = 2 * std::numbers::pi / nameplates_[axis].counts_per_turn;
     recording.metres_per_count[axis] =
-        recording.rad_per_count[axis] * nameplates_[axis].metres_per_rad();
+        recording.rad_per_count[axis] * nameplates_[axis].metres_per_motor_rad();
   }
   return recording;
 }

@@ -18,7 +18,7 @@ namespace towbench::study::procedures {
 struct Nameplate {
   bool exists = false;
   double gear_ratio = 0;
-  double sprocket_radius_m = 0;
+  double output_radius_m = 0;
   double counts_per_turn = 0;
   double rotor_inertia_kg_m2 = 0;
   double resistance_ohm = 0;
@@ -29,7 +29,9 @@ struct Nameplate {
   double output_limit_V = 0;  // of the amplifier, at the supply's open-circuit voltage
   bool has_current_monitor = false;
 
-  [[nodiscard]] double metres_per_rad() const noexcept { return sprocket_radius_m / gear_ratio; }
+  [[nodiscard]] double metres_per_motor_rad() const noexcept {
+    return output_radius_m / gear_ratio;
+  }
 };
 
 // One conversation with the controller, from power-on.

@@ -1,6 +1,6 @@
 // Model-based tuning: gains by pole placement on the model that EXP-OL-2 has found, once as stiff
-// as the sensitivity allows and once with the chain damped, tried on the same trapezoids as the
-// gains of Table 4.1, of Table 7.2 and the controller's own.
+// as the sensitivity allows and once with the transmission damped, tried on the same trapezoids as
+// the gains of Table 4.1, of Table 7.2 and the controller's own.
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -90,11 +90,13 @@ Trial try_gains(const ProcedureContext& context, const ModelTuningSettings& sett
 
 identify::TwoMassAxis model_of(const ProcedureContext& context) {
   const auto axis = believed_axis(context);
-  return {.inertia_kg_m2 = axis.inertia_kg_m2,
-          .rotor_inertia_kg_m2 = value_or(context, "rotor_inertia_kg_m2", axis.rotor_inertia_kg_m2),
-          .viscous_Nm_s_per_rad = axis.viscous_friction_Nm_s_per_rad,
-          .resonance_Hz = value_or(context, "chain_resonance_Hz", axis.chain.resonance_Hz),
-          .damping_ratio = value_or(context, "chain_damping_ratio", axis.chain.damping_ratio)};
+  return {
+      .inertia_kg_m2 = axis.inertia_kg_m2,
+      .rotor_inertia_kg_m2 = value_or(context, "rotor_inertia_kg_m2", axis.rotor_inertia_kg_m2),
+      .viscous_Nm_s_per_rad = axis.viscous_friction_Nm_s_per_rad,
+      .resonance_Hz = value_or(context, "transmission_resonance_Hz", axis.elasticity.resonance_Hz),
+      .damping_ratio =
+          value_or(context, "transmission_damping_ratio", axis.elasticity.damping_ratio)};
 }
 
 std::vector<GainSet> placed(const ProcedureContext& context, const ModelTuningSettings& settings) {
@@ -106,7 +108,8 @@ std::vector<GainSet> placed(const ProcedureContext& context, const ModelTuningSe
                                                .largest_sensitivity = settings.largest_sensitivity,
                                                .dominant = damped});
     if (found) {
-      sets.push_back({damped ? "poles placed, chain damped" : "poles placed, stiff", found->gains,
+      sets.push_back({damped ? "poles placed, transmission damped" : "poles placed, stiff",
+                      found->gains,
                       fmt::format("w_0 {:.0f} rad/s, M_s {:.2f}, slowest decay {:.2g} 1/s",
                                   found->frequency_rad_per_s, found->largest_sensitivity,
                                   found->slowest_decay_per_s)});

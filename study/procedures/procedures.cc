@@ -15,7 +15,8 @@ std::vector<std::unique_ptr<Procedure>> identification_procedures() {
   all.push_back(pulse_responses());
   all.push_back(relay_tuning());  // its guard takes off the swing that the pulses have found
   all.push_back(model_tuning());  // beside the relay's gains, by the model of the pulses
-  all.push_back(safe_range());    // takes the chain's stretch off by what the pulses have found
+  all.push_back(
+      safe_range());  // takes the transmission's stretch off by what the pulses have found
   all.push_back(torque_speed_map());
   all.push_back(validation());
   return all;

@@ -20,7 +20,7 @@ struct Response {
 
 constexpr double kProbeOn_s = 0.12;
 
-// Mean speed over the 0.12 s after the first pulse, in which the chain swings about once.
+// Mean speed over the 0.12 s after the first pulse, in which the transmission swings about once.
 double speed_after_pulse(const identify::Recording& data, core::Axis axis) {
   const auto& duty = data.axes[axis].duty_pct;
   std::size_t k = 0;

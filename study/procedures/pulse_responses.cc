@@ -76,8 +76,8 @@ class PulseResponses final : public Procedure {
 
  private:
   // The plan assumes a rigid axis. The motor of a two-mass axis swings about the planned speed, the
-  // further the softer the chain. Near the voltage limit the sag of the supply, which no model here
-  // has, changes the response; the pulses are then repeated with less duty.
+  // further the softer the transmission. Near the voltage limit the sag of the supply, which no
+  // model here has, changes the response; the pulses are then repeated with less duty.
   static identify::Recording play_below_saturation(const ProcedureContext& context,
                                                    const PulseResponsesSettings& settings,
                                                    PulsePlan& plan, double start_m) {

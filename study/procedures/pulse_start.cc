@@ -52,7 +52,8 @@ identify::TwoMassStart pulse_start(const ProcedureContext& context, const identi
   constexpr double kLeastLoad = 1.05;  // J over the rotor's own
   identify::TwoMassStart start{.axis = believed_axis(context), .path = believed_path(context)};
   // The swing that a coast shows is the free-free mode itself.
-  start.axis.chain.resonance_Hz = value_or(context, "swing_Hz", start.axis.chain.resonance_Hz);
+  start.axis.elasticity.resonance_Hz =
+      value_or(context, "swing_Hz", start.axis.elasticity.resonance_Hz);
   start.stribeck_known = 0.7;
   start.excess_known = 0.5;
   start.rotor_known = torque_scale(context).relative_deviation;

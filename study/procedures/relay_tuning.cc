@@ -155,7 +155,7 @@ class RelayTuning final : public Procedure {
 
   // Friction makes the relay's K_C too small where its amplitude is large, and a soft loop hunts
   // until the encoder's guard takes it for a broken one: then the stiffest of the curve, and more.
-  // Where a chain takes more of the phase than the relay met they are too much: then less.
+  // Where a transmission takes more of the phase than the relay met they are too much: then less.
   static std::string gains_of(const Critical& chosen, double share) {
     const auto p = number_after(chosen.gains, "--kp ");
     const auto i = number_after(chosen.gains, "--ki ");

@@ -1,11 +1,12 @@
 // EXP-P-5: the safe range of motion (thesis 4.1.2): each hall switch approached below the speed
 // that can be stopped before the hard end, by the controller's own homing.
 //
-// A switch acts on the carriage, the encoder sits on the motor, and at the edge the chain between
-// them is stretched by some hundred counts. Homing takes that off by its belief of friction and
-// chain. Here it is taken off again from the log, by the torque at the edge and the chain and the
-// motor's friction that the pulses have found (switch_study.h); so this comes after them. The
-// searches, many times faster, tell the same to within a row's way. The min switch is the origin.
+// A switch acts on the carriage, the encoder sits on the motor, and at the edge the transmission
+// between them is stretched by some hundred counts. Homing takes that off by its belief of friction
+// and transmission. Here it is taken off again from the log, by the torque at the edge and the
+// transmission and the motor's friction that the pulses have found (switch_study.h); so this comes
+// after them. The searches, many times faster, tell the same to within a row's way. The min switch
+// is the origin.
 #include <algorithm>
 #include <cmath>
 
@@ -54,15 +55,16 @@ class SafeRange final : public Procedure {
     const double room_max_m =
         belief.m_per_count() *
         static_cast<double>(belief.ends.hard_max_count - belief.ends.hall_max_count);
-    const auto [chain, doubts, known] = known_chain(context);
+    const auto [transmission, doubts, known] = known_transmission(context);
     const double slow_m_per_s = belief.homing.approach_speed_m_per_s;
     std::vector<Distance> all;
     std::vector<double> doubted(doubts.size(), 0.0);
-    ResultTable table{.title = "Approaches",
-                      .head = {"between the motor's counts at the edges", "the chain's stretch",
-                               "between the switches, counts +-", "the same at seeking speed",
-                               "weighed", "furthest beyond min switch, mm (room)",
-                               "beyond max switch, mm (room)", "controller's own shift, counts"}};
+    ResultTable table{
+        .title = "Approaches",
+        .head = {"between the motor's counts at the edges", "the transmission's stretch",
+                 "between the switches, counts +-", "the same at seeking speed", "weighed",
+                 "furthest beyond min switch, mm (room)", "beyond max switch, mm (room)",
+                 "controller's own shift, counts"}};
     for (int i = 0; i < settings.repeats; ++i) {
       const auto data = play(context, settings, track, i);
       if (!data.trouble.empty()) {
@@ -80,10 +82,10 @@ class SafeRange final : public Procedure {
       if (beyond_min_m > room_min_m || beyond_max_m > room_max_m) {
         return ProcedureOutcome::failed("the approach went as far as the hard end should be");
       }
-      const auto edges = study.edges(chain);
+      const auto edges = study.edges(transmission);
       const auto weighed = edges.weighed();
       for (std::size_t k = 0; k < doubts.size(); ++k) {
-        auto other = chain;
+        auto other = transmission;
         other.*doubts[k].what += doubts[k].deviation;
         doubted[k] += (study.edges(other).weighed().counts - weighed.counts) / settings.repeats;
       }
@@ -147,7 +149,7 @@ class SafeRange final : public Procedure {
     for (const double each : doubted) {
       square += each * each;
     }
-    // A chain that the model does not describe, one with play: of both edges.
+    // A transmission that the model does not describe, one with play: of both edges.
     if (const auto* left = context.find(kLeftByPulses); left != nullptr && left->value > kRight) {
       square += 2 * left->value * left->value;
     }
@@ -159,12 +161,12 @@ class SafeRange final : public Procedure {
            .axis = std::string(core::name_of(context.axis)),
            .value = value,
            .unit = "m",
-           .rests_on =
-               fmt::format("{} approaches by the controller's homing, less the chain's stretch by "
-                           "the torque at the edge with {}; the min switch is the origin",
-                           all.size(),
-                           identified ? "the chain and friction of EXP-OL-2"
-                                      : "a chain and friction that were only believed"),
+           .rests_on = fmt::format(
+               "{} approaches by the controller's homing, less the transmission's stretch by "
+               "the torque at the edge with {}; the min switch is the origin",
+               all.size(),
+               identified ? "the transmission and friction of EXP-OL-2"
+                          : "a transmission and friction that were only believed"),
            .procedure = "EXP-P-5"},
           std::sqrt(square) * m));
     };

@@ -47,7 +47,7 @@ class SaturationSpeed final : public Procedure {
     const double gain =
         value_or(context, "amplifier_gain_A_per_V", belief.drive.amplifier_gain_A_per_V);
     // Speed at the voltage limit without load: no machine of these documents goes faster.
-    const double limit_m_per_s = plate.output_limit_V / k * plate.metres_per_rad();
+    const double limit_m_per_s = plate.output_limit_V / k * plate.metres_per_motor_rad();
     const double torque_Nm = settings.duty_pct / 100 * plate.pwm_amplitude_V * gain * k;
     const double worst_Nm = belief.plausibility.worst_breakaway_Nm;
     if (torque_Nm <= worst_Nm) {
@@ -58,7 +58,7 @@ class SaturationSpeed final : public Procedure {
     const auto track = track_of(belief);
     // J v / (tau - S) to speed, then as long again.
     const double rise_s = belief.feed_forward.inertia_kg_m2 * limit_m_per_s /
-                          plate.metres_per_rad() / (torque_Nm - worst_Nm);
+                          plate.metres_per_motor_rad() / (torque_Nm - worst_Nm);
     const double way_m = settings.longest_share * track.length_m();
     const double time_s = std::min(way_m / limit_m_per_s, 60.0);
     if (time_s < 1.2 * rise_s) {

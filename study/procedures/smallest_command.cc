@@ -2,7 +2,7 @@
 // mechanical time constant (thesis 4.1.2), bracketed by halving.
 //
 // "To" is 98 % of what EXP-P-3 found: the last bit is asymptotic. The speed at the end of a step is
-// a straight line through its last part, longer than a swing of the chain.
+// a straight line through its last part, longer than a swing of the transmission.
 #include <algorithm>
 #include <cmath>
 
@@ -147,7 +147,7 @@ class SmallestCommand final : public Procedure {
   // (C + B w_s / (1 - 1/e)) / k, B = J / T, by the controller's belief of J and C.
   static double first_guess_pct(const ProcedureContext& context, double time_s, double saturation) {
     const auto axis = believed_axis(context);
-    const double w = saturation / context.machine.nameplate(context.axis).metres_per_rad();
+    const double w = saturation / context.machine.nameplate(context.axis).metres_per_motor_rad();
     const double torque =
         axis.coulomb_friction_Nm + axis.inertia_kg_m2 / time_s * w / (1 - std::exp(-1.0));
     return std::round(10 * torque / torque_scale(context).torque_per_duty_Nm) / 10;

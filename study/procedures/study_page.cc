@@ -77,7 +77,7 @@ std::string estimates_table(const identify::Estimates& estimates) {
   return text + "</table>\n";
 }
 
-std::string step_section(const ChainStep& step) {
+std::string step_section(const SequenceStep& step) {
   const auto& outcome = step.outcome;
   std::string text =
       heading(3, fmt::format("{} {}, axis {}", step.id, step.title, core::name_of(step.axis)));
@@ -101,7 +101,7 @@ std::string step_section(const ChainStep& step) {
 
 }  // namespace
 
-std::string study_page(const std::string& title, const ChainResult& result,
+std::string study_page(const std::string& title, const SequenceResult& result,
                        const std::vector<Recovery>& recoveries) {
   std::string page =
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"

@@ -11,50 +11,50 @@
 namespace towbench::study::procedures {
 namespace {
 
-double stiffness_Nm_per_rad(const Chain& chain) {
-  const double load = chain.inertia_kg_m2 - chain.rotor_kg_m2;
-  const double w = 2 * std::numbers::pi * chain.resonance_Hz;
-  return w * w * chain.rotor_kg_m2 * load / chain.inertia_kg_m2;
+double stiffness_Nm_per_rad(const Transmission& transmission) {
+  const double load = transmission.inertia_kg_m2 - transmission.rotor_kg_m2;
+  const double w = 2 * std::numbers::pi * transmission.resonance_Hz;
+  return w * w * transmission.rotor_kg_m2 * load / transmission.inertia_kg_m2;
 }
 
 // What of the torque the motor's own friction takes, (3.25).
-double own_friction_Nm(const Chain& chain, double rad_per_s) {
-  const double ratio = rad_per_s / chain.stribeck_rad_per_s;
-  return (1 - chain.carriage_share) *
-         (chain.common_Nm + chain.excess_Nm * std::exp(-ratio * ratio) +
-          chain.viscous_Nm_s_per_rad * rad_per_s);
+double own_friction_Nm(const Transmission& transmission, double rad_per_s) {
+  const double ratio = rad_per_s / transmission.stribeck_rad_per_s;
+  return (1 - transmission.carriage_share) *
+         (transmission.common_Nm + transmission.excess_Nm * std::exp(-ratio * ratio) +
+          transmission.viscous_Nm_s_per_rad * rad_per_s);
 }
 
 }  // namespace
 
 // What the pulses found, else belief, which may be off by a fifth.
-KnownChain known_chain(const ProcedureContext& context) {
+KnownTransmission known_transmission(const ProcedureContext& context) {
   constexpr double kBelieved = 0.2;
   const auto axis = believed_axis(context);
   const auto scale = torque_scale(context);
-  KnownChain known{.chain = {}, .doubts = {}, .identified = true};
-  auto& chain = known.chain;
-  chain.rotor_kg_m2 = axis.rotor_inertia_kg_m2;
-  chain.viscous_Nm_s_per_rad = axis.viscous_friction_Nm_s_per_rad;
-  chain.torque_per_duty_Nm = scale.torque_per_duty_Nm;
+  KnownTransmission known{.transmission = {}, .doubts = {}, .identified = true};
+  auto& transmission = known.transmission;
+  transmission.rotor_kg_m2 = axis.rotor_inertia_kg_m2;
+  transmission.viscous_Nm_s_per_rad = axis.viscous_friction_Nm_s_per_rad;
+  transmission.torque_per_duty_Nm = scale.torque_per_duty_Nm;
   known.doubts.push_back(
-      {&Chain::torque_per_duty_Nm,
+      {&Transmission::torque_per_duty_Nm,
        scale.torque_per_duty_Nm * (scale.measured ? scale.relative_deviation : kBelieved)});
-  const auto take = [&](double Chain::*what, const char* quantity, double belief) {
+  const auto take = [&](double Transmission::*what, const char* quantity, double belief) {
     const auto* found = context.find(quantity);
     known.identified = known.identified && found != nullptr;
-    chain.*what = found != nullptr ? found->value : belief;
+    transmission.*what = found != nullptr ? found->value : belief;
     known.doubts.push_back({what, found != nullptr ? found->half_width() / statistics::kNormal95
                                                    : kBelieved * belief});
   };
-  take(&Chain::inertia_kg_m2, "inertia_kg_m2", axis.inertia_kg_m2);
-  take(&Chain::resonance_Hz, "chain_resonance_Hz", axis.chain.resonance_Hz);
-  take(&Chain::damping_ratio, "chain_damping_ratio", axis.chain.damping_ratio);
-  take(&Chain::carriage_share, "friction_carriage_share", axis.friction.carriage_share);
-  take(&Chain::common_Nm, "friction_common_Nm", axis.coulomb_friction_Nm);
-  take(&Chain::excess_Nm, "stiction_excess_Nm",
+  take(&Transmission::inertia_kg_m2, "inertia_kg_m2", axis.inertia_kg_m2);
+  take(&Transmission::resonance_Hz, "transmission_resonance_Hz", axis.elasticity.resonance_Hz);
+  take(&Transmission::damping_ratio, "transmission_damping_ratio", axis.elasticity.damping_ratio);
+  take(&Transmission::carriage_share, "friction_carriage_share", axis.friction.carriage_share);
+  take(&Transmission::common_Nm, "friction_common_Nm", axis.coulomb_friction_Nm);
+  take(&Transmission::excess_Nm, "stiction_excess_Nm",
        axis.friction.breakaway_Nm - axis.coulomb_friction_Nm);
-  take(&Chain::stribeck_rad_per_s, "stribeck_speed_rad_per_s",
+  take(&Transmission::stribeck_rad_per_s, "stribeck_speed_rad_per_s",
        axis.friction.stribeck_speed_rad_per_s);
   return known;
 }
@@ -76,9 +76,9 @@ Distance Edges::weighed() const noexcept {
       .alike_counts = std::hypot(of_slow * slow.alike_counts, of_fast * fast.alike_counts) / all};
 }
 
-Edges SwitchStudy::edges(const Chain& chain) const {
-  Edges edges{.slow = between(chain, &identify::SwitchApproach::slow_edge),
-              .fast = between(chain, &identify::SwitchApproach::fast_edge)};
+Edges SwitchStudy::edges(const Transmission& transmission) const {
+  Edges edges{.slow = between(transmission, &identify::SwitchApproach::slow_edge),
+              .fast = between(transmission, &identify::SwitchApproach::fast_edge)};
   for (const auto& each : approaches_) {
     edges.motor_counts +=
         each.outward * 0.5 * (counts_[each.slow_edge] + counts_[each.slow_edge + 1]);
@@ -87,7 +87,7 @@ Edges SwitchStudy::edges(const Chain& chain) const {
 }
 
 // The switch closed somewhere between a row and the next one.
-Distance SwitchStudy::between(const Chain& chain,
+Distance SwitchStudy::between(const Transmission& transmission,
                               std::size_t identify::SwitchApproach::*edge) const {
   constexpr double kSomewhere = 0.29;  // 1/sqrt(12) of a row
   Distance distance;
@@ -95,7 +95,7 @@ Distance SwitchStudy::between(const Chain& chain,
   double alike_square = 0;
   for (const auto& each : approaches_) {
     const std::size_t row = each.*edge;
-    const auto ahead = lead(chain, each, row);
+    const auto ahead = lead(transmission, each, row);
     const double way = kSomewhere * (counts_[row + 1] - counts_[row]);
     distance.counts += each.outward * 0.5 * (counts_[row] + counts_[row + 1]) - ahead.counts;
     square += way * way + ahead.rounding_counts * ahead.rounding_counts;
@@ -140,15 +140,15 @@ Trend straight_line(const Column& column, std::size_t edge, std::size_t rows) {
 
 }  // namespace
 
-// By straight lines through a seventh of a swing: the chain's stretch may be on its way while the
-// carriage sticks and slips.
-SwitchStudy::Moment SwitchStudy::moment_at(const Chain& chain,
+// By straight lines through a seventh of a swing: the transmission's stretch may be on its way
+// while the carriage sticks and slips.
+SwitchStudy::Moment SwitchStudy::moment_at(const Transmission& transmission,
                                            const identify::SwitchApproach& approach,
                                            std::size_t edge) const {
   constexpr double kOfASwing = 0.15;
   constexpr std::size_t kFewest = 8;
-  const double held_s =
-      std::sqrt(chain.inertia_kg_m2 / chain.rotor_kg_m2) / chain.resonance_Hz;  // motor held
+  const double held_s = std::sqrt(transmission.inertia_kg_m2 / transmission.rotor_kg_m2) /
+                        transmission.resonance_Hz;  // motor held
   const auto rows =
       std::max(kFewest, static_cast<std::size_t>(std::lround(kOfASwing * held_s / data_.period_s)));
   const auto duty = straight_line(data_.axes[axis_].duty_pct, edge, rows);
@@ -162,31 +162,34 @@ SwitchStudy::Moment SwitchStudy::moment_at(const Chain& chain,
   const auto n = static_cast<double>(rows);
   // The slope of a stretch is the speed in its middle.
   const double since_s = 0.5 * static_cast<double>(rows) * data_.period_s;
-  return {.torque_Nm = approach.outward * duty.value * chain.torque_per_duty_Nm,
-          .torque_Nm_per_s = approach.outward * duty.per_row * chain.torque_per_duty_Nm * per_s,
-          .speed_rad_per_s = last.per_row * rad_per_count * per_s + acceleration * since_s,
-          .acceleration_rad_per_s2 = acceleration,
-          .acceleration_deviation =
-              std::sqrt(2 / (n * n * n * n * n)) * data_.rad_per_count[axis_] * per_s * per_s};
+  return {
+      .torque_Nm = approach.outward * duty.value * transmission.torque_per_duty_Nm,
+      .torque_Nm_per_s = approach.outward * duty.per_row * transmission.torque_per_duty_Nm * per_s,
+      .speed_rad_per_s = last.per_row * rad_per_count * per_s + acceleration * since_s,
+      .acceleration_rad_per_s2 = acceleration,
+      .acceleration_deviation =
+          std::sqrt(2 / (n * n * n * n * n)) * data_.rad_per_count[axis_] * per_s * per_s};
 }
 
-SwitchStudy::Lead SwitchStudy::lead(const Chain& chain, const identify::SwitchApproach& approach,
+SwitchStudy::Lead SwitchStudy::lead(const Transmission& transmission,
+                                    const identify::SwitchApproach& approach,
                                     std::size_t edge) const {
   // In a slip all of this changes within a few rows; straight lines were seen to miss by what two
   // to four rows change.
   constexpr double kLeftOut_rows = 3;
   constexpr double kLeast_counts = 1;
-  const auto moment = moment_at(chain, approach, edge);
-  const double counts_per_Nm = 1 / stiffness_Nm_per_rad(chain) / data_.rad_per_count[axis_];
-  const double chain_Nm = moment.torque_Nm -
-                          own_friction_Nm(chain, std::max(0.0, moment.speed_rad_per_s)) -
-                          chain.rotor_kg_m2 * moment.acceleration_rad_per_s2;
+  const auto moment = moment_at(transmission, approach, edge);
+  const double counts_per_Nm = 1 / stiffness_Nm_per_rad(transmission) / data_.rad_per_count[axis_];
+  const double transmission_Nm =
+      moment.torque_Nm - own_friction_Nm(transmission, std::max(0.0, moment.speed_rad_per_s)) -
+      transmission.rotor_kg_m2 * moment.acceleration_rad_per_s2;
   const double changes = moment.torque_Nm_per_s * counts_per_Nm;  // counts per s
   const double damping_s =
-      chain.damping_ratio / (std::numbers::pi * chain.resonance_Hz);  // 2 zeta / w_0
-  return {.counts = chain_Nm * counts_per_Nm - damping_s * changes,
-          .rounding_counts = chain.rotor_kg_m2 * moment.acceleration_deviation * counts_per_Nm,
-          .hidden_counts = std::hypot(kLeast_counts, kLeftOut_rows * data_.period_s * changes)};
+      transmission.damping_ratio / (std::numbers::pi * transmission.resonance_Hz);  // 2 zeta / w_0
+  return {
+      .counts = transmission_Nm * counts_per_Nm - damping_s * changes,
+      .rounding_counts = transmission.rotor_kg_m2 * moment.acceleration_deviation * counts_per_Nm,
+      .hidden_counts = std::hypot(kLeast_counts, kLeftOut_rows * data_.period_s * changes)};
 }
 
 }  // namespace towbench::study::procedures

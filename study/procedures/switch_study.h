@@ -1,6 +1,6 @@
 // Where the two switches of an axis stand, from a log in which homing met both.
 //
-// At the edge the motor leads the carriage by the chain's stretch, and the motor feels it:
+// At the edge the motor leads the carriage by the transmission's stretch, and the motor feels it:
 //
 //   lead = (tau - f_m(w) - J_m w') / k - (2 zeta / w_0) lead'
 //
@@ -19,8 +19,8 @@
 
 namespace towbench::study::procedures {
 
-// What the chain does between motor and carriage, as far as it is known.
-struct Chain {
+// What the transmission does between motor and carriage, as far as it is known.
+struct Transmission {
   double inertia_kg_m2 = 0;
   double rotor_kg_m2 = 0;
   double resonance_Hz = 0;
@@ -35,16 +35,16 @@ struct Chain {
 
 // One of them that may be off, and by how much.
 struct Doubt {
-  double Chain::*what = nullptr;
+  double Transmission::*what = nullptr;
   double deviation = 0;
 };
 
-struct KnownChain {
-  Chain chain;
+struct KnownTransmission {
+  Transmission transmission;
   std::vector<Doubt> doubts;
   bool identified = false;  // false: some of it is only believed, and may be off by a fifth
 };
-[[nodiscard]] KnownChain known_chain(const ProcedureContext& context);
+[[nodiscard]] KnownTransmission known_transmission(const ProcedureContext& context);
 
 // Distance between the switches by one kind of approach.
 struct Distance {
@@ -55,9 +55,9 @@ struct Distance {
 
 // Of one play: where its switches stand, in counts of one frame.
 //
-// At the approach that counts the carriage may stick and slip on its chain, and then a switch meets
-// it in a slip, when the stretch changes by ten counts a millisecond. The search is too fast to
-// stick, and known to a row's way. The surer of the two decides.
+// At the approach that counts the carriage may stick and slip on its transmission, and then a
+// switch meets it in a slip, when the stretch changes by ten counts a millisecond. The search is
+// too fast to stick, and known to a row's way. The surer of the two decides.
 struct Edges {
   Distance slow;            // by the approaches that count
   Distance fast;            // by the searches
@@ -72,7 +72,7 @@ class SwitchStudy {
   SwitchStudy(const identify::Recording& data, core::Axis axis,
               const std::vector<identify::SwitchApproach>& approaches);
 
-  [[nodiscard]] Edges edges(const Chain& chain) const;
+  [[nodiscard]] Edges edges(const Transmission& transmission) const;
   // How far the motor ran beyond where it met the switch.
   [[nodiscard]] double beyond_m(const identify::SwitchApproach& approach) const;
 
@@ -91,11 +91,11 @@ class SwitchStudy {
     double rounding_counts = 0;  // deviations
     double hidden_counts = 0;
   };
-  [[nodiscard]] Moment moment_at(const Chain& chain, const identify::SwitchApproach& approach,
-                                 std::size_t edge) const;
-  [[nodiscard]] Lead lead(const Chain& chain, const identify::SwitchApproach& approach,
-                          std::size_t edge) const;
-  [[nodiscard]] Distance between(const Chain& chain,
+  [[nodiscard]] Moment moment_at(const Transmission& transmission,
+                                 const identify::SwitchApproach& approach, std::size_t edge) const;
+  [[nodiscard]] Lead lead(const Transmission& transmission,
+                          const identify::SwitchApproach& approach, std::size_t edge) const;
+  [[nodiscard]] Distance between(const Transmission& transmission,
                                  std::size_t identify::SwitchApproach::*edge) const;
 
   const identify::Recording& data_;

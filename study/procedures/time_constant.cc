@@ -52,7 +52,7 @@ class TimeConstant final : public Procedure {
           fmt::format("stall: {} % duty is {:.2g} N m, break-away may take {:.2g} N m",
                       settings.duty_pct, torque_Nm, worst_Nm));
     }
-    const double radius = context.machine.nameplate(context.axis).metres_per_rad();
+    const double radius = context.machine.nameplate(context.axis).metres_per_motor_rad();
     const double speed = settings.speed_share * belief.speed_limit_m_per_s;
     const double push_s = axis.inertia_kg_m2 * speed / radius / (torque_Nm - worst_Nm);
     // Half as fast again as meant, down to rest against the least friction believed.
@@ -81,7 +81,7 @@ class TimeConstant final : public Procedure {
           identify::find_coasts(data, context.axis, {.fastest_m_per_s = fastest_coast(context)});
       const auto fit = identify::fit_coasts(data, context.axis, spans,
                                             axis.inertia_kg_m2 / axis.viscous_friction_Nm_s_per_rad,
-                                            axis.chain.resonance_Hz);
+                                            axis.elasticity.resonance_Hz);
       if (spans.size() < 2 || !fit.converged) {
         return ProcedureOutcome::failed(
             fmt::format("{} coasts from {:.2f} m gave no time constant", spans.size(), start_m));
@@ -105,7 +105,7 @@ class TimeConstant final : public Procedure {
     constexpr double kRoom = 0.9;
     const auto& plate = context.machine.nameplate(context.axis);
     return kRoom * plate.output_limit_V / believed_axis(context).torque_constant_Nm_per_A *
-           plate.metres_per_rad();
+           plate.metres_per_motor_rad();
   }
 
   static identify::Recording play(const ProcedureContext& context,
@@ -154,7 +154,8 @@ class TimeConstant final : public Procedure {
                                  "constant",
                                  constants.size()),
          .procedure = "EXP-P-2"});
-    // A first guess of the chain's mode for what comes after: the middle one, as wide as they lie.
+    // A first guess of the transmission's mode for what comes after: the middle one, as wide as
+    // they lie.
     std::sort(swings_Hz.begin(), swings_Hz.end());
     outcome.estimates.push_back({.quantity = "swing_Hz",
                                  .axis = std::string(core::name_of(context.axis)),

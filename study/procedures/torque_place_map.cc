@@ -94,7 +94,8 @@ class TorquePlaceMap final : public Procedure {
     talk.start_m[context.axis] = from_m;
     talk.steps = declare_position(talk, context.machine);
     for (const double sign : {1.0, -1.0}) {
-      // Smoothed over a swing of the carriage on its chain, so that it does not go on swinging.
+      // Smoothed over a swing of the carriage on its transmission, so that it does not go on
+      // swinging.
       talk.steps.push_back(move(fmt::format(
           "run -trapez {} --distance {:.6f}m --speed {}m/s --acceleration {}s --smooth {:.3f}s",
           core::name_of(context.axis), sign * way_m, speed, settings.rise_s,
@@ -151,7 +152,7 @@ class TorquePlaceMap final : public Procedure {
                                  const TorquePlaceMapSettings& settings,
                                  const std::array<double, 2>& speeds,
                                  const std::array<std::vector<Level>, 2>& levels) {
-    const double rad_per_m = 1 / context.machine.nameplate(context.axis).metres_per_rad();
+    const double rad_per_m = 1 / context.machine.nameplate(context.axis).metres_per_motor_rad();
     const auto scale = torque_scale(context);
     // B from the bins that both runs saw.
     double weight = 0;

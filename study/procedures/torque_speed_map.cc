@@ -3,7 +3,7 @@
 // Every steady stretch has its middle at the same place, so that friction of the place is the same
 // in all of them and the law of speed stands alone.
 //
-// Below the Stribeck speed the carriage can stick and slip on its chain while the motor runs
+// Below the Stribeck speed the carriage can stick and slip on its transmission while the motor runs
 // evenly: the mean torque is then below the friction at that speed, the law's fall looks too steep
 // and its line too flat. The identified plant does the same in the same experiment, so the law is
 // that plant's and what the differences of both say (identify/paired_law.h).
@@ -51,7 +51,7 @@ struct TorqueSpeedMapSettings {
 
 constexpr double kRise_s = 0.3;
 constexpr double kWait_s = 0.5;
-constexpr double kSettle_s = 0.6;  // until the chain and the law are quiet
+constexpr double kSettle_s = 0.6;  // until the transmission and the law are quiet
 
 class TorqueSpeedMap final : public Procedure {
  public:

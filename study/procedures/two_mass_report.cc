@@ -61,8 +61,10 @@ void add_estimates(const TwoMassReport& report, ProcedureOutcome& outcome) {
   add("viscous_friction_Nm_s_per_rad", fit.axis.viscous_friction_Nm_s_per_rad,
       fit.viscous_deviation, "N m s/rad", true);
   add("rotor_inertia_kg_m2", fit.axis.rotor_inertia_kg_m2, fit.rotor_deviation, "kg m2", false);
-  add("chain_resonance_Hz", fit.axis.chain.resonance_Hz, fit.resonance_deviation_Hz, "Hz", false);
-  add("chain_damping_ratio", fit.axis.chain.damping_ratio, fit.damping_deviation, "1", false);
+  add("transmission_resonance_Hz", fit.axis.elasticity.resonance_Hz, fit.resonance_deviation_Hz,
+      "Hz", false);
+  add("transmission_damping_ratio", fit.axis.elasticity.damping_ratio, fit.damping_deviation, "1",
+      false);
   add("friction_common_Nm", fit.axis.coulomb_friction_Nm, fit.common_deviation_Nm, "N m", true);
   add("friction_carriage_share", fit.axis.friction.carriage_share, fit.share_deviation, "1", false);
   add("stribeck_speed_rad_per_s", fit.axis.friction.stribeck_speed_rad_per_s,

@@ -43,8 +43,9 @@ struct ValidationSettings {
   }
 };
 
-// Each begins at rest, the chain slack: how a motion leaves a carriage that sticks depends on
-// hundredths of a millimetre, and the next one would begin differently on a machine of equal bits.
+// Each begins at rest, the transmission slack: how a motion leaves a carriage that sticks depends
+// on hundredths of a millimetre, and the next one would begin differently on a machine of equal
+// bits.
 struct Motion {
   const char* name;   // of the conversation
   const char* title;  // in tables

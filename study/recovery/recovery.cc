@@ -57,7 +57,7 @@ double saturation_speed_m_per_s(const emulator::RigParameters& rig, const RigAxi
     const double drawn_A = limit_V * current_A / rig.supply.amplifier_efficiency / supply_V;
     supply_V = rig.supply.voltage_V - rig.supply.source_resistance_ohm * drawn_A;
   }
-  return speed * p.sprocket_radius_m / p.gear_ratio;
+  return speed * p.output_radius_m / p.gear_ratio;
 }
 
 double inertia_over_friction_s(const emulator::AxisParameters& p) {
@@ -72,7 +72,7 @@ double smallest_command_pct(const emulator::RigParameters& rig, const RigAxisPar
   constexpr double kArrived = 0.98;
   const auto& p = axis.plant;
   const double speed =
-      saturation_speed_m_per_s(rig, axis, estimate) * p.gear_ratio / p.sprocket_radius_m;
+      saturation_speed_m_per_s(rig, axis, estimate) * p.gear_ratio / p.output_radius_m;
   const double torque_Nm =
       p.coulomb_friction_Nm + position_friction_at(p, estimate) +
       kArrived * p.viscous_friction_Nm_s_per_rad * speed / (1 - std::exp(-1.0));
@@ -84,7 +84,7 @@ double smallest_command_pct(const emulator::RigParameters& rig, const RigAxisPar
 double ten_counts_pct(const RigAxisParameters& axis) {
   const double metres_per_count = 2 * std::numbers::pi /
                                   static_cast<double>(axis.encoder.counts_per_turn) *
-                                  axis.plant.sprocket_radius_m / axis.plant.gear_ratio;
+                                  axis.plant.output_radius_m / axis.plant.gear_ratio;
   return 100 * 10 * metres_per_count / (axis.hall_max.position_m - axis.hall_min.position_m);
 }
 
@@ -92,15 +92,15 @@ double ten_counts_pct(const RigAxisParameters& axis) {
 // (of the place alike both ways), gravity on a tilted rail, a cable's pull.
 double breakaway_Nm(const emulator::AxisParameters& p, const Estimate& estimate) {
   constexpr double kGravity_m_per_s2 = 9.80665;
-  const double metres_per_rad = p.sprocket_radius_m / p.gear_ratio;
+  const double metres_per_motor_rad = p.output_radius_m / p.gear_ratio;
   const double carriage_kg =
-      (p.inertia_kg_m2 - p.rotor_inertia_kg_m2) / (metres_per_rad * metres_per_rad);
+      (p.inertia_kg_m2 - p.rotor_inertia_kg_m2) / (metres_per_motor_rad * metres_per_motor_rad);
   const auto& pushes = p.disturbances;
   const double force_N =
       carriage_kg * kGravity_m_per_s2 * std::sin(pushes.tilt_deg * std::numbers::pi / 180) +
       pushes.cable.stiffness_N_per_m * (estimate.at.value_or(0) - pushes.cable.reference_m);
   return p.friction.breakaway_Nm * (1 + p.friction.options.asymmetry.breakaway) +
-         position_friction_at(p, estimate) + force_N * metres_per_rad;
+         position_friction_at(p, estimate) + force_N * metres_per_motor_rad;
 }
 
 struct Demand {
@@ -138,10 +138,10 @@ const std::array<Demand, 20> kDemands{{
      }},
     {"steady_viscous_Nm_s_per_rad", 10,
      [](const auto&, const auto& a, const auto&) { return a.plant.viscous_friction_Nm_s_per_rad; }},
-    {"chain_resonance_Hz", 2,
-     [](const auto&, const auto& a, const auto&) { return a.plant.chain.resonance_Hz; }},
-    {"chain_damping_ratio", 20,
-     [](const auto&, const auto& a, const auto&) { return a.plant.chain.damping_ratio; }},
+    {"transmission_resonance_Hz", 2,
+     [](const auto&, const auto& a, const auto&) { return a.plant.elasticity.resonance_Hz; }},
+    {"transmission_damping_ratio", 20,
+     [](const auto&, const auto& a, const auto&) { return a.plant.elasticity.damping_ratio; }},
     {"smallest_command_pct", 0, smallest_command_pct},
     {"hall_distance_m", 0,
      [](const auto&, const auto& a, const auto&) {

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/random.h"
-#include "study/procedures/chain.h"
 #include "study/procedures/kept_outcome.h"
+#include "study/procedures/sequence.h"
 #include "study/results/worker_processes.h"
 
 namespace towbench::study {
@@ -38,7 +38,7 @@ std::uint64_t rows_of(const IdentificationSet& set) {
 }
 
 nlohmann::json to_json(const std::vector<Recovery>& recoveries,
-                       const procedures::ChainResult& result) {
+                       const procedures::SequenceResult& result) {
   nlohmann::json json{{"recoveries", nlohmann::json::array()},
                       {"not_done", nlohmann::json::array()},
                       {"withheld", nlohmann::json::array()}};
@@ -66,15 +66,15 @@ void identify_one(const IdentificationSet& set, std::uint64_t number, std::uint6
   const auto machine = drawn.machine(set.controller, seed, {.stop = set.stop, .progress = {}});
   const auto folder = folder_of(set, number, seed);
   const auto fingerprint = fingerprint_of(set, rig, number, seed);
-  const auto result = procedures::run_chain(machine, procedures::identification_procedures(),
-                                            {.only = {},
-                                             .axes = set.axes,
-                                             .settings = set.settings,
-                                             .out = folder,
-                                             .fingerprint = fingerprint,
-                                             .resume = true,
-                                             .progress = {},
-                                             .stop = set.stop});
+  const auto result = procedures::run_sequence(machine, procedures::identification_procedures(),
+                                               {.only = {},
+                                                .axes = set.axes,
+                                                .settings = set.settings,
+                                                .out = folder,
+                                                .fingerprint = fingerprint,
+                                                .resume = true,
+                                                .progress = {},
+                                                .stop = set.stop});
   if (set.stop != nullptr && set.stop->load()) {
     return;
   }
@@ -121,8 +121,8 @@ harness::RigFixture drawn_machine(harness::RigFixture rig, std::uint64_t number,
     plant.friction.breakaway_Nm *= dry;
     plant.torque_constant_Nm_per_A *= factor();
     plant.amplifier_gain_A_per_V *= factor();
-    plant.chain.resonance_Hz *= factor();
-    plant.chain.damping_ratio *= factor();
+    plant.elasticity.resonance_Hz *= factor();
+    plant.elasticity.damping_ratio *= factor();
   }
   return rig;
 }

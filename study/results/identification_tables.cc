@@ -89,8 +89,8 @@ std::string dynamics(const emulator::RigParameters& truth, const identify::Estim
         Wanted{"C_eff, N m, place in m", "coulomb_friction_Nm", "2.26e-3"},
         Wanted{"the same, from steady runs", "sliding_friction_Nm", "2.26e-3"},
         Wanted{"break-away, N m, place in m", "breakaway_Nm", "3.7e-3"},
-        Wanted{"chain mode, Hz", "chain_resonance_Hz", "seen, not identified"},
-        Wanted{"its damping", "chain_damping_ratio", "seen, not identified"},
+        Wanted{"transmission mode, Hz", "transmission_resonance_Hz", "seen, not identified"},
+        Wanted{"its damping", "transmission_damping_ratio", "seen, not identified"},
         Wanted{"Stribeck speed, rad/s", "stribeck_speed_rad_per_s", "not reached"},
         Wanted{"the same, EXP-CL-1", "map_stribeck_rad_per_s", "not reached"},
         Wanted{"gain of the model on fresh motions", "validation_gain", "-"},
@@ -110,8 +110,8 @@ std::string dynamics(const emulator::RigParameters& truth, const identify::Estim
         Wanted{"B_eff, N m s/rad", "viscous_friction_Nm_s_per_rad", "-"},
         Wanted{"C_eff, N m, place in m", "coulomb_friction_Nm", "-"},
         Wanted{"break-away, N m, place in m", "breakaway_Nm", "-"},
-        Wanted{"chain mode, Hz", "chain_resonance_Hz", "-"},
-        Wanted{"its damping", "chain_damping_ratio", "-"},
+        Wanted{"transmission mode, Hz", "transmission_resonance_Hz", "-"},
+        Wanted{"its damping", "transmission_damping_ratio", "-"},
         Wanted{"Stribeck speed, rad/s", "stribeck_speed_rad_per_s", "-"},
         Wanted{"the same, EXP-CL-1", "map_stribeck_rad_per_s", "-"},
         Wanted{"duty of fresh motions unexplained, %", "validation_unexplained_pct", "-"},
@@ -122,10 +122,12 @@ std::string dynamics(const emulator::RigParameters& truth, const identify::Estim
 }
 
 // Ordinary least squares beside output error, as EXP-OL-2 tells them.
-std::string least_squares(const procedures::ChainResult& identified) {
+std::string least_squares(const procedures::SequenceResult& identified) {
   std::string text =
-      "\n7.2.1 filters the chain's oscillation out before (4.9), by a Gaussian whose width it does "
-      "not state. On Y a cut-off at the\nchain's mode or above it misses the carriage; below it J "
+      "\n7.2.1 filters the transmission's oscillation out before (4.9), by a Gaussian whose width "
+      "it does "
+      "not state. On Y a cut-off at the\ntransmission's mode or above it misses the carriage; "
+      "below it J "
       "is near, and B and C carry friction by place and the filter on\nsgn.\n";
   for (const auto& step : identified.steps) {
     if (step.id != "EXP-OL-2") {
@@ -146,7 +148,7 @@ std::string least_squares(const procedures::ChainResult& identified) {
   return text;
 }
 
-std::string not_done(const procedures::ChainResult& identified) {
+std::string not_done(const procedures::SequenceResult& identified) {
   std::string text;
   for (const auto& step : identified.steps) {
     if (step.outcome.status != procedures::ProcedureOutcome::Status::kDone) {
@@ -160,7 +162,7 @@ std::string not_done(const procedures::ChainResult& identified) {
 }  // namespace
 
 std::string identification_tables(const emulator::RigParameters& truth,
-                                  const procedures::ChainResult& identified) {
+                                  const procedures::SequenceResult& identified) {
   std::string text = table_7_1(truth, identified.estimates);
   text += preliminary(truth, identified.estimates);
   text += dynamics(truth, identified.estimates);

@@ -5,12 +5,12 @@
 #include <string>
 
 #include "emulator/rig_parameters.h"
-#include "study/procedures/chain.h"
+#include "study/procedures/sequence.h"
 
 namespace towbench::study {
 
 // Markdown. Estimates that were not made say so.
 [[nodiscard]] std::string identification_tables(const emulator::RigParameters& truth,
-                                                const procedures::ChainResult& identified);
+                                                const procedures::SequenceResult& identified);
 
 }  // namespace towbench::study

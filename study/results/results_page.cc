@@ -16,7 +16,7 @@ std::string tracking(const Results& results) {
   std::string text =
       "\n## Table 7.6: trapezoids on Y, plain PID\n\n"
       "um. Motor side: steady state, peak of the whole profile. Truth: the carriage behind the "
-      "elastic chain.\n\n"
+      "elastic transmission.\n\n"
       "| mm/s | thesis, mean | bench, mean | RMS | peak | truth, carriage peak |\n"
       "| --- | --- | --- | --- | --- | --- |\n";
   for (std::size_t k = 0; k < results.slow.size(); ++k) {
@@ -85,7 +85,8 @@ std::string tuning(const Results& results) {
   std::string text =
       "\n## Tuning: by the model, by Table 4.1, by the thesis\n\nPoles placed on the model that "
       "EXP-OL-2 has found (`study/identify/pole_placement.h`). Stiff: the fastest loop within the\n"
-      "sensitivity M_s; the carriage swings behind it nearly undamped. Chain damped: no pole "
+      "sensitivity M_s; the carriage swings behind it nearly undamped. Transmission damped: no "
+      "pole "
       "decays "
       "slower than the placed ones.\n";
   for (const auto& step : results.identified.steps) {

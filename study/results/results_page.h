@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "study/procedures/chain.h"
+#include "study/procedures/sequence.h"
 #include "study/procedures/tow/tow_procedure.h"
 #include "study/recovery/recovery.h"
 #include "study/results/own_gains.h"
@@ -25,7 +25,7 @@ struct TowResult {
 struct Results {
   std::string rig;
   emulator::RigParameters truth;  // of the machine
-  procedures::ChainResult identified;
+  procedures::SequenceResult identified;
   std::vector<TowResult> tows;
   std::vector<TrackedSpeed> slow;      // the 14 speeds of Table 7.6, thesis's trapezoids
   std::vector<TrackedSpeed> fast_air;  // the 6 speeds of Table 8.3

@@ -62,7 +62,8 @@ std::string set_page(const IdentificationSet& set, const std::vector<SetRun>& ru
   }
   std::string text = fmt::format(
       "# Identification of {} machines, {} seeds each\n\n"
-      "Machine 0 is `{}`, the others have inertia, friction, drive constants and chain drawn "
+      "Machine 0 is `{}`, the others have inertia, friction, drive constants and transmission "
+      "drawn "
       "within "
       "+-{:.0f} %.\n{} of {} runs are done. Percentages are of the truth. Demand: value within p "
       "%, "

@@ -18,8 +18,8 @@ struct SetUpTracking {
   std::string trouble;               // why it could not be set up; empty: it was
 };
 
-// With bbmc-tuned on trapezoids and bbmc-best on S-curves, each averaged over a period of the chain
-// as the controller believes it. Throws FixtureError.
+// With bbmc-tuned on trapezoids and bbmc-best on S-curves, each averaged over a period of the
+// transmission as the controller believes it. Throws FixtureError.
 [[nodiscard]] std::vector<SetUpTracking> track_set_up(const harness::RigFixture& rig,
                                                       const procedures::Machine& machine,
                                                       const identify::Estimates& estimates);

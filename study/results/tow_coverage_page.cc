@@ -100,7 +100,7 @@ std::string tow_coverage_page(const TowSet& set, const std::vector<TowSetRun>& r
   std::string text = fmt::format(
       "# Coverage of the tow experiments' intervals\n\n"
       "{} machines, {} seeds each: {} of {} runs are done. Machine 0 is `{}`, the others have "
-      "other friction, inertia, motor and chain.\n"
+      "other friction, inertia, motor and transmission.\n"
       "Each quantity is pooled over machines, seeds and the places of its map. Percentages of "
       "errors and widths are of the truth. Demand: 90 to 99 % of\n"
       "the 95 % intervals hold the truth; range: where the true share is likely to be (Clopper and "

@@ -117,7 +117,7 @@ harness::RigFixture drawn_for_towing(harness::RigFixture rig, std::uint64_t numb
     plant.friction.breakaway_Nm *= dry;
     plant.torque_constant_Nm_per_A *= factor(0.9, 1.0);
     plant.amplifier_gain_A_per_V *= factor(0.9, 1.1);
-    plant.chain.resonance_Hz *= factor(0.9, 1.2);
+    plant.elasticity.resonance_Hz *= factor(0.9, 1.2);
   }
   return rig;
 }

@@ -16,9 +16,9 @@
 
 namespace towbench::study {
 
-// A machine like `rig` with other friction, inertia, motor and chain, the same for the same number;
-// 0 is `rig` itself. The motor constant is only ever lower: a higher one could not reach the
-// thesis's 0.55 m/s at 10.8 V.
+// A machine like `rig` with other friction, inertia, motor and transmission, the same for the same
+// number; 0 is `rig` itself. The motor constant is only ever lower: a higher one could not reach
+// the thesis's 0.55 m/s at 10.8 V.
 [[nodiscard]] harness::RigFixture drawn_for_towing(harness::RigFixture rig, std::uint64_t number);
 
 struct TowSet {

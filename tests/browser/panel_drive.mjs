@@ -103,7 +103,7 @@ export async function driveRuns({ checks, person, page, bench, root, runs, shots
   await checks.run("an end-stop that is tripped by hand stops the axis", async () => {
     // Slowly: on a busy host the page comes late, and the motion of six seconds must not be over by then.
     await person.start("trapezoid-400", "0.1", { hold: true, limit_s: 600 });
-    await person.until("Y", /^position$/);
+    await person.until("y", /^position$/);
     await person.untilTime(0.8); // it moves from 0.5 s on
     await page.getByRole("button", { name: "Trip y max" }).click();
     await person.until("Fault", /latched/);
@@ -115,7 +115,7 @@ export async function driveRuns({ checks, person, page, bench, root, runs, shots
     const faults = { hold: true, limit_s: 600, faults: "encoder.x phase" };
     await person.start("trapezoid-400", "0.1", faults);
     if (/allowed/.test((await page.textContent(".trouble")) ?? "")) assert.fail(await page.textContent(".trouble"));
-    await person.until("Y", /^position$/);
+    await person.until("y", /^position$/);
     await person.untilTime(0.8); // it moves from 0.5 s on
     await page.selectOption("#fault-part", "encoder.y");
     await page.selectOption("#fault-kind", "frozen");

@@ -74,7 +74,7 @@ TEST(PlantNodeMeasurement, AHeldLoadShowsThePushAndItsMomentInTheTankFrame) {
       {{.kind = ScheduledEventKind::kPushCarriage, .axis = Axis::kY, .value = -0.8},
        {.kind = ScheduledEventKind::kPushCarriage, .axis = Axis::kX, .value = 0.5}});
   c.greet();
-  c.run_for(2000 * kMillisecond_ns);  // below break-away: the chain rings, then all is still
+  c.run_for(2000 * kMillisecond_ns);  // below break-away: the transmission rings, then all is still
   const auto sample = c.peer.all<protocol::ForceSample>().back();
   EXPECT_NEAR(sample.force_N[0], 0.5, 1e-3);
   EXPECT_NEAR(sample.force_N[1], -0.8, 1e-3);

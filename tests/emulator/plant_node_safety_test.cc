@@ -38,7 +38,7 @@ TEST(PlantNodeSafety, NothingFlowsBeforeTheAmplifierIsEnabled) {
 TEST(PlantNodeSafety, AnEncoderFasterThanItsChannelsCarryIsReportedOnceAndLosesNoEdge) {
   RigParameters rig = rig_starting_at(1.0, 0.3);
   rig.axes[Axis::kY].encoder.max_channel_Hz = 20e3;
-  rig.axes[Axis::kY].plant.chain.rigid = true;  // passes it once, without swinging
+  rig.axes[Axis::kY].plant.elasticity.rigid = true;  // passes it once, without swinging
   auto c = driven(rig);
   c.greet();
   c.enable();

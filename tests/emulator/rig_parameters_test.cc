@@ -82,7 +82,7 @@ TEST(RigParameters, TheNominalCarriageOfYCarriesThePlatformOfX) {
   const RigParameters rig;
   const auto moved_kg = [&](Axis axis) {
     const AxisParameters& p = rig.axes[axis].plant;
-    const double motor_rad_per_m = p.gear_ratio / p.sprocket_radius_m;
+    const double motor_rad_per_m = p.gear_ratio / p.output_radius_m;
     return (p.inertia_kg_m2 - p.rotor_inertia_kg_m2) * motor_rad_per_m * motor_rad_per_m;
   };
   EXPECT_NEAR(moved_kg(Axis::kY), 6.63, 0.01);

@@ -71,7 +71,7 @@ TEST(Rig, TheCountIsTheFloorOfTheMotorsAngleAtTheEndOfEveryTick) {
   EXPECT_GT(reversals, 20);
 }
 
-// Behind the elastic chain, which the carriage leaves by many counts.
+// Behind the elastic transmission, which the carriage leaves by many counts.
 TEST(Rig, AnEncoderOnTheLoadCountsTheCarriage) {
   auto parameters = rig_starting_at(1.0, 0.3);
   parameters.axes[Axis::kY].encoder.side = EncoderSide::kLoad;
@@ -108,14 +108,14 @@ TEST(Rig, AxesAreIndependentWithoutACrossTerm) {
             y_only.truth().axes[Axis::kY].motor_angle_rad);
 }
 
-TEST(Rig, TheCrossTermPushesByItsShareOfTheOtherAxissChainForce) {
-  // Y held below break-away: at rest its chain carries exactly the push, and X's chain force is
-  // X's own friction once X runs at constant speed.
+TEST(Rig, TheCrossTermPushesByItsShareOfTheOtherAxissTransmissionForce) {
+  // Y held below break-away: at rest its transmission carries exactly the push, and X's
+  // transmission force is X's own friction once X runs at constant speed.
   RigParameters parameters = rig_starting_at(1.0, 0.1);
   parameters.axes[Axis::kY].cross_axis_force_ratio = 0.25;
   Rig with = driven_rig(parameters, 0, 150);
   run(with, 0.02);
-  const double x_force = with.truth().axes[Axis::kX].chain_force_N;
+  const double x_force = with.truth().axes[Axis::kX].transmission_force_N;
   with.step();
   const double y_external = with.axis(Axis::kY)->plant().forces().external_force_N;
   ASSERT_GT(std::fabs(x_force), 0.05);
@@ -165,7 +165,7 @@ TEST(Rig, APushGivesItsImpulseHoweverItFallsIntoATick) {
     y.coulomb_friction_Nm = 0.0;
     y.friction.breakaway_Nm = 0.0;
     y.viscous_friction_Nm_s_per_rad = 0.0;
-    y.chain.rigid = true;
+    y.elasticity.rigid = true;
     Rig rig(parameters, 1);
     for (int tick = 0; tick < 100; ++tick) {
       if (push_ns >= rig.now_ns() && push_ns < rig.now_ns() + core::kPlantTick_ns) {

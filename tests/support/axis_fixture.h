@@ -22,11 +22,11 @@ inline emulator::AxisParameters nominal_x() {
   x.viscous_friction_Nm_s_per_rad = 4e-6;
   x.coulomb_friction_Nm = 1.6e-3;
   x.friction.breakaway_Nm = 2.4e-3;
-  x.sprocket_radius_m = 0.030;
+  x.output_radius_m = 0.030;
   x.torque_constant_Nm_per_A = 23.5e-3;
   x.winding.resistance_ohm = 2.3;
   x.winding.inductance_H = 0.24e-3;
-  x.chain.resonance_Hz = 22.0;
+  x.elasticity.resonance_Hz = 22.0;
   x.hard_ends.max_m = 505000.0 / 742241.0;
   return x;
 }
@@ -42,7 +42,7 @@ inline emulator::AxisParameters linear_axis() {
 
 // Metres a radian of motor, R/n.
 inline double radius_of(const emulator::AxisParameters& axis) {
-  return axis.sprocket_radius_m / axis.gear_ratio;
+  return axis.output_radius_m / axis.gear_ratio;
 }
 
 // A plant and what it was last told, stepped by the tick.

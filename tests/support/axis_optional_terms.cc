@@ -24,12 +24,12 @@ std::vector<OptionalTerm> optional_terms() {
          p.disturbances.torque_ripple = {
              .amplitude_Nm = 3e-4, .periods_per_turn = 7, .phase_deg = 30};
        }},
-      {"eccentric sprocket",
+      {"eccentric wheel",
        [](AxisParameters& p) {
-         p.disturbances.sprocket.eccentricity_m = 2e-4;
-         p.disturbances.sprocket.eccentricity_phase_deg = 40;
+         p.disturbances.wheel.eccentricity_m = 2e-4;
+         p.disturbances.wheel.eccentricity_phase_deg = 40;
        }},
-      {"polygon", [](AxisParameters& p) { p.disturbances.sprocket.teeth = 13; }},
+      {"polygon", [](AxisParameters& p) { p.disturbances.wheel.teeth = 13; }},
       {"cable, tilt, position force", bend_the_rails},
       {"weight of a joint",
        [](AxisParameters& p) { p.disturbances.gravity = {.torque_Nm = 1.5, .zero_at_deg = 40}; }},
@@ -48,8 +48,8 @@ std::vector<OptionalTerm> optional_terms() {
          p.friction.options.presliding = {.travel_rad = 0.02, .damping_ratio = 0.5};
        }},
       {"backlash", [](AxisParameters& p) { p.gear.backlash_deg = 0.35; }},
-      {"pre-tension", [](AxisParameters& p) { p.chain.pretension_N = 3.0; }},
-      {"slack", [](AxisParameters& p) { p.chain.slack_m = 1e-3; }},
+      {"pre-tension", [](AxisParameters& p) { p.elasticity.pretension_N = 3.0; }},
+      {"slack", [](AxisParameters& p) { p.elasticity.slack_m = 1e-3; }},
   };
 }
 

@@ -17,18 +17,18 @@ AxisOracle::AxisOracle(const emulator::AxisParameters& parameters, double carria
                        double tolerance)
     : p_(parameters), tolerance_(tolerance) {
   const double pi = std::numbers::pi;
-  r_ = p_.sprocket_radius_m / p_.gear_ratio;
-  share_ = p_.chain.rigid ? 0.0 : p_.friction.carriage_share;
-  jm_ = p_.chain.rigid ? p_.inertia_kg_m2 : p_.rotor_inertia_kg_m2;
+  r_ = p_.output_radius_m / p_.gear_ratio;
+  share_ = p_.elasticity.rigid ? 0.0 : p_.friction.carriage_share;
+  jm_ = p_.elasticity.rigid ? p_.inertia_kg_m2 : p_.rotor_inertia_kg_m2;
   mass_ = (p_.inertia_kg_m2 - p_.rotor_inertia_kg_m2) / std::pow(r_, 2);
   bm_ = (1 - share_) * p_.viscous_friction_Nm_s_per_rad;
   bc_ = share_ * p_.viscous_friction_Nm_s_per_rad / std::pow(r_, 2);
   // Free-free mode of two masses J_m/r^2 and M: the reduced mass swings on the spring.
   const double motor_mass = p_.rotor_inertia_kg_m2 / std::pow(r_, 2);
   const double reduced = motor_mass * mass_ / (motor_mass + mass_);
-  const double w0 = 2 * pi * p_.chain.resonance_Hz;
+  const double w0 = 2 * pi * p_.elasticity.resonance_Hz;
   ks_ = reduced * w0 * w0;
-  bs_ = 2 * p_.chain.damping_ratio * reduced * w0;
+  bs_ = 2 * p_.elasticity.damping_ratio * reduced * w0;
   kp_ = 2 * pi * p_.amplifier.current_loop_bandwidth_Hz *
         (p_.winding.inductance_H + p_.winding.choke_inductance_H);
   ki_ = 2 * pi * p_.amplifier.current_loop_bandwidth_Hz * p_.winding.resistance_ohm;
@@ -36,7 +36,8 @@ AxisOracle::AxisOracle(const emulator::AxisParameters& parameters, double carria
   for (int i = 0; i < 50; ++i) {
     y_[2] -= stretch_m(y_) / lever_m(y_);
   }
-  half_gap_m_ = 0.5 * (p_.gear.backlash_deg * pi / 180 * p_.sprocket_radius_m + p_.chain.slack_m);
+  half_gap_m_ =
+      0.5 * (p_.gear.backlash_deg * pi / 180 * p_.output_radius_m + p_.elasticity.slack_m);
   play_ = half_gap_m_ > 0 ? Play::kGap : Play::kTaut;
   const auto& yielding = p_.friction.options.presliding;
   if (yielding.travel_rad > 0) {
@@ -73,16 +74,16 @@ double AxisOracle::terminal_V(const State& y) const {
   return p_.winding.resistance_ohm * y[0] + p_.torque_constant_Nm_per_A * y[3];
 }
 
-// Chain paid out by a sprocket of true shape, less where the carriage is.
+// Transmission paid out by a wheel of true shape, less where the carriage is.
 double AxisOracle::stretch_m(const State& y) const {
-  const auto& sprocket = p_.disturbances.sprocket;
-  const double radius = p_.sprocket_radius_m;
+  const auto& wheel = p_.disturbances.wheel;
+  const double radius = p_.output_radius_m;
   const double turned = y[2] / p_.gear_ratio;
-  const double phase = sprocket.eccentricity_phase_deg * std::numbers::pi / 180;
+  const double phase = wheel.eccentricity_phase_deg * std::numbers::pi / 180;
   double paid_out =
-      radius * turned + sprocket.eccentricity_m * (std::sin(turned + phase) - std::sin(phase));
-  if (sprocket.teeth > 0) {
-    const double half = std::numbers::pi / sprocket.teeth;
+      radius * turned + wheel.eccentricity_m * (std::sin(turned + phase) - std::sin(phase));
+  if (wheel.teeth > 0) {
+    const double half = std::numbers::pi / wheel.teeth;
     const double psi = std::remainder(turned, 2 * half);
     paid_out += radius * half / std::sin(half) * std::sin(psi) - radius * psi;
   }
@@ -90,13 +91,13 @@ double AxisOracle::stretch_m(const State& y) const {
 }
 
 double AxisOracle::lever_m(const State& y) const {
-  const auto& sprocket = p_.disturbances.sprocket;
+  const auto& wheel = p_.disturbances.wheel;
   const double turned = y[2] / p_.gear_ratio;
-  const double phase = sprocket.eccentricity_phase_deg * std::numbers::pi / 180;
-  double radius = p_.sprocket_radius_m + sprocket.eccentricity_m * std::cos(turned + phase);
-  if (sprocket.teeth > 0) {
-    const double half = std::numbers::pi / sprocket.teeth;
-    radius += p_.sprocket_radius_m *
+  const double phase = wheel.eccentricity_phase_deg * std::numbers::pi / 180;
+  double radius = p_.output_radius_m + wheel.eccentricity_m * std::cos(turned + phase);
+  if (wheel.teeth > 0) {
+    const double half = std::numbers::pi / wheel.teeth;
+    radius += p_.output_radius_m *
               (half / std::sin(half) * std::cos(std::remainder(turned, 2 * half)) - 1);
   }
   return radius / p_.gear_ratio;
@@ -104,7 +105,7 @@ double AxisOracle::lever_m(const State& y) const {
 
 // Two strands, each half the spring, each pulling its way.
 double AxisOracle::strands_N(const State& y, Play play) const {
-  const double tight = p_.chain.pretension_N;
+  const double tight = p_.elasticity.pretension_N;
   const double pull =
       0.5 * (ks_ * (stretch_m(y) - side_ * half_gap_m_) + bs_ * (lever_m(y) * y[3] - y[5]));
   const double upper = tight + pull;
@@ -119,8 +120,8 @@ double AxisOracle::strands_N(const State& y, Play play) const {
   }
 }
 
-double AxisOracle::chain_N(const State& y) const {
-  return p_.chain.rigid ? 0.0 : strands_N(y, play_);
+double AxisOracle::transmission_N(const State& y) const {
+  return p_.elasticity.rigid ? 0.0 : strands_N(y, play_);
 }
 
 double AxisOracle::push_N(const State& y) const {
@@ -167,21 +168,21 @@ double AxisOracle::friction_Nm(const State& y, double share, int direction,
 
 double AxisOracle::motor_limit_Nm(const State& y, int direction) const {
   const double own = friction_Nm(y, 1 - share_, direction, motor_ == 0 ? 0.0 : y[3]);
-  const double passed_on = lever_m(y) * chain_N(y);
+  const double passed_on = lever_m(y) * transmission_N(y);
   const double efficiency = p_.gear.efficiency;
   const double lost = direction * passed_on > 0
                           ? std::abs(passed_on) / efficiency - std::abs(passed_on)
                           : std::abs(passed_on) - efficiency * std::abs(passed_on);
   const auto& rails = p_.friction.position;
   return own + lost +
-         (p_.chain.rigid ? interpolated(rails.position_m, rails.friction_Nm, y[4]) : 0.0);
+         (p_.elasticity.rigid ? interpolated(rails.position_m, rails.friction_Nm, y[4]) : 0.0);
 }
 
 double AxisOracle::carriage_limit_N(const State& y, int direction) const {
   const auto& rails = p_.friction.position;
   const double at_motor = friction_Nm(y, share_, direction, carriage_ == 0 ? 0.0 : y[5] / r_) +
                           interpolated(rails.position_m, rails.friction_Nm, y[4]);
-  return at_motor / r_ + p_.friction.options.load_ratio * std::abs(chain_N(y));
+  return at_motor / r_ + p_.friction.options.load_ratio * std::abs(transmission_N(y));
 }
 
 double AxisOracle::outside_N(const State& y) const {
@@ -198,12 +199,12 @@ double AxisOracle::motor_load_Nm(const State& y) const {
   const auto& ripple = p_.disturbances.torque_ripple;
   const double cogging = ripple.amplitude_Nm * std::sin(ripple.periods_per_turn * y[2] +
                                                         ripple.phase_deg * std::numbers::pi / 180);
-  const double load_N = p_.chain.rigid ? outside_N(y) : -chain_N(y);
+  const double load_N = p_.elasticity.rigid ? outside_N(y) : -transmission_N(y);
   return p_.torque_constant_Nm_per_A * y[0] + cogging + lever_m(y) * load_N;
 }
 
 double AxisOracle::carriage_load_N(const State& y) const {
-  return chain_N(y) + outside_N(y);
+  return transmission_N(y) + outside_N(y);
 }
 
 // What a resting body's contact holds: the share of its break-away level to which it is bent.
@@ -237,7 +238,7 @@ void AxisOracle::derivative(const State& y, State& rate) const {
   const bool motor_stands = motor_ == 0 && motor_spring_ == 0;
   rate[3] = motor_stands ? 0.0 : (motor_load_Nm(y) - bm_ * y[3] - motor_dry) / jm_;
   rate[4] = y[5];
-  if (p_.chain.rigid) {
+  if (p_.elasticity.rigid) {
     rate[5] = r_ * rate[3];
   } else {
     const double dry =
@@ -248,7 +249,8 @@ void AxisOracle::derivative(const State& y, State& rate) const {
   const auto& warming = p_.friction.options.warming;
   const double heating_W =
       (motor_ == 0 ? 0.0 : motor_limit_Nm(y, motor_) * std::abs(y[3])) +
-      (carriage_ == 0 || p_.chain.rigid ? 0.0 : carriage_limit_N(y, carriage_) * std::abs(y[5]));
+      (carriage_ == 0 || p_.elasticity.rigid ? 0.0
+                                             : carriage_limit_N(y, carriage_) * std::abs(y[5]));
   rate[6] =
       warming.depth > 0 ? (heating_W / warming.full_power_W - y[6]) / warming.time_constant_s : 0.0;
 }

@@ -53,10 +53,10 @@ class AxisOracle {
   [[nodiscard]] double stretch_m(const State& y) const;
   [[nodiscard]] double lever_m(const State& y) const;
   [[nodiscard]] double strands_N(const State& y, Play play) const;
-  [[nodiscard]] double chain_N(const State& y) const;
+  [[nodiscard]] double transmission_N(const State& y) const;
   [[nodiscard]] double outside_N(const State& y) const;
-  void chain_margins(const State& y, Margins& m) const;
-  void handle_chain(std::size_t margin);
+  void transmission_margins(const State& y, Margins& m) const;
+  void handle_transmission(std::size_t margin);
   [[nodiscard]] double end_N(const State& y) const;
   [[nodiscard]] double push_N(const State& y) const;
   // At the motor, a share of the axis's, in one direction.

@@ -53,9 +53,9 @@ AxisOracle::Margins AxisOracle::margins(const State& y) const {
     m[2] = motor_spring_ > 0 ? travel - bent : motor_limit_Nm(y, 1) - motor_load_Nm(y);
     m[3] = motor_spring_ > 0 ? travel + bent : motor_limit_Nm(y, -1) + motor_load_Nm(y);
   }
-  if (!p_.chain.rigid && carriage_ != 0) {
+  if (!p_.elasticity.rigid && carriage_ != 0) {
     m[4] = carriage_ * y[5];
-  } else if (!p_.chain.rigid) {
+  } else if (!p_.elasticity.rigid) {
     const double bent = y[4] - carriage_anchor_;
     const double travel = r_ * p_.friction.options.presliding.travel_rad;
     m[4] = carriage_spring_ > 0 ? travel - bent : carriage_limit_N(y, 1) - carriage_load_N(y);
@@ -72,45 +72,45 @@ AxisOracle::Margins AxisOracle::margins(const State& y) const {
     m[6] = -push_N(y);
     m[7] = end_sign_ > 0 ? over_max : under_min;
   }
-  chain_margins(y, m);
+  transmission_margins(y, m);
   return m;
 }
 
-void AxisOracle::chain_margins(const State& y, Margins& m) const {
-  const bool strands = p_.chain.pretension_N > 0;
+void AxisOracle::transmission_margins(const State& y, Margins& m) const {
+  const bool strands = p_.elasticity.pretension_N > 0;
   if (half_gap_m_ == 0 && !strands) {
     return;
   }
   const double stretch = stretch_m(y);
   const double past_gap = side_ * stretch - half_gap_m_;
-  const double slack_strand_N = p_.chain.pretension_N - 0.5 * ks_ * past_gap;
+  const double slack_strand_N = p_.elasticity.pretension_N - 0.5 * ks_ * past_gap;
   switch (play_) {
     case Play::kGap:
       m[8] = half_gap_m_ - stretch;
       m[9] = half_gap_m_ + stretch;
       return;
     case Play::kParting:
-      m[8] = -side_ * strands_N(y, p_.chain.slack_m > 0 ? Play::kHalf : Play::kTaut);
+      m[8] = -side_ * strands_N(y, p_.elasticity.slack_m > 0 ? Play::kHalf : Play::kTaut);
       m[9] = past_gap;
       return;
     case Play::kHalf:
-      m[8] = strands ? -slack_strand_N : side_ * chain_N(y);
+      m[8] = strands ? -slack_strand_N : side_ * transmission_N(y);
       return;
     case Play::kTaut:
       if (half_gap_m_ == 0) {
-        m[8] = p_.chain.pretension_N - 0.5 * ks_ * stretch;
-        m[9] = p_.chain.pretension_N + 0.5 * ks_ * stretch;
+        m[8] = p_.elasticity.pretension_N - 0.5 * ks_ * stretch;
+        m[9] = p_.elasticity.pretension_N + 0.5 * ks_ * stretch;
         return;
       }
-      m[8] = side_ * chain_N(y);
+      m[8] = side_ * transmission_N(y);
       m[9] = strands ? slack_strand_N : kNever;
       return;
   }
 }
 
-void AxisOracle::handle_chain(std::size_t margin) {
+void AxisOracle::handle_transmission(std::size_t margin) {
   const int way = margin == 8 ? 1 : -1;
-  const Play engaged = p_.chain.slack_m > 0 ? Play::kHalf : Play::kTaut;
+  const Play engaged = p_.elasticity.slack_m > 0 ? Play::kHalf : Play::kTaut;
   switch (play_) {
     case Play::kGap:
       play_ = engaged;
@@ -120,7 +120,7 @@ void AxisOracle::handle_chain(std::size_t margin) {
       play_ = margin == 8 ? engaged : Play::kGap;
       break;
     case Play::kHalf:
-      play_ = p_.chain.pretension_N > 0 ? Play::kTaut : Play::kParting;
+      play_ = p_.elasticity.pretension_N > 0 ? Play::kTaut : Play::kParting;
       side_ = half_gap_m_ > 0 ? side_ : 0;
       break;
     case Play::kTaut:
@@ -141,7 +141,7 @@ void AxisOracle::settle_rest() {
     if (motor_ == 0 && motor_spring_ == 0 && way * motor_load_Nm(y_) > motor_limit_Nm(y_, way)) {
       motor_ = way;
     }
-    if (!p_.chain.rigid && carriage_ == 0 && carriage_spring_ == 0 &&
+    if (!p_.elasticity.rigid && carriage_ == 0 && carriage_spring_ == 0 &&
         way * carriage_load_N(y_) > carriage_limit_N(y_, way)) {
       carriage_ = way;
     }
@@ -207,7 +207,7 @@ void AxisOracle::handle(std::size_t margin) {
       return;
     }
     y_[3] = 0;
-    y_[5] = p_.chain.rigid ? 0 : y_[5];
+    y_[5] = p_.elasticity.rigid ? 0 : y_[5];
     motor_anchor_ = y_[2] - motor_ * travel_rad;
     motor_ = 0;
     settle_rest();
@@ -225,7 +225,7 @@ void AxisOracle::handle(std::size_t margin) {
     return;
   }
   if (margin >= 8) {
-    handle_chain(margin);
+    handle_transmission(margin);
     return;
   }
   if (end_ == End::kFree) {

@@ -25,12 +25,12 @@ constexpr std::array<OptionSpec, kOptionCount> kOptions{{
 
 void report(const SystemManager& system, core::Axis axis, TextWriter& out) {
   const RelayResult& result = system.status().axes[axis].tuning;
-  const double m_per_rad = system.configuration().axes[axis].m_per_rad();
+  const double metres_per_motor_rad = system.configuration().axes[axis].metres_per_motor_rad();
   const ZieglerNicholsGains gains = ziegler_nichols_pid(result);
   out.text("K_C ");
   write_quantity(out, result.critical_gain_Nm_per_rad, Dimension::kProportionalGain);
   out.text(", T_C ").fixed(1e3 * result.critical_period_s, 2).text("ms at ");
-  out.fixed(1e3 * result.amplitude_rad * m_per_rad, 3).text("mm, relay ");
+  out.fixed(1e3 * result.amplitude_rad * metres_per_motor_rad, 3).text("mm, relay ");
   out.fixed(1e3 * result.relay_Nm, 2).text("mNm").end_line();
   out.text("Ziegler-Nichols: config gains ").text(core::name_of(axis)).text(" --kp ");
   write_quantity(out, gains.proportional_Nm_per_rad, Dimension::kProportionalGain);

@@ -1,24 +1,22 @@
 // How things stand, in words.
 import { element, setText } from "../dom";
 import { readable } from "../units";
-import { axisNames, endStopBit, faultColumn, furtherAxes, linesColumn, logColumns, type AxisName, type State } from "./wire";
+import { axisNames, endStopBit, faultColumn, furtherAxes, linesColumn, logColumns, planarAxes, type AxisName, type State } from "./wire";
 
 const modes = ["no drive", "open loop", "position", "velocity", "braking", "latched fault"];
 const killBit = 4;
 const readyBits: [string, number][] = [
-  ["Y", 5],
-  ["X", 6],
+  ["y", 5],
+  ["x", 6],
 ];
 const furtherReadyBit = 15; // of all further axes in series
-const y = logColumns("y");
-const x = logColumns("x");
 
 export class Lamps {
   readonly list = element("dl", "lamps");
   private readonly values = new Map<string, { box: HTMLElement; value: HTMLElement }>();
 
   constructor() {
-    for (const name of ["Run", "Virtual time", "Y", "X", "Fault", "Kill switch", "End-stops", "Amplifiers", "Duty", "Carrier", "Not shown"]) {
+    for (const name of ["Run", "Virtual time", ...axisNames, "Fault", "Kill switch", "End-stops", "Amplifiers", "Duty", "Carrier", "Not shown"]) {
       this.add(name);
     }
   }
@@ -27,36 +25,31 @@ export class Lamps {
     const running = state.phase === "running";
     this.set("Run", state.phase + (running && state.paused ? ", paused" : ""), false);
     this.set("Virtual time", row === null ? "none" : `${row[0]!.toFixed(3)} s`, false);
-    const [yMode, xMode] = [row?.[y.mode] ?? 0, row?.[x.mode] ?? 0];
-    this.set("Y", modes[yMode] ?? "unknown", yMode >= 4);
-    this.set("X", modes[xMode] ?? "unknown", xMode >= 4);
+    const further = furtherAxes.filter((axis) => state.limits?.[axis]?.exists);
+    const shown = [...planarAxes, ...further];
+    this.showModes(shown, row);
     const fault = row?.[faultColumn] ?? 0;
     this.set("Fault", fault === 0 ? "none" : `${fault} latched`, fault !== 0);
     const lines = truth?.[linesColumn] ?? 0;
     const killed = ((lines >> killBit) & 1) === 1;
     this.set("Kill switch", killed ? "pressed" : "released", killed);
-    const tripped = axisNames.flatMap((axis) => ["min", "max"].filter((_, end) => (lines >> (endStopBit(axis) + end)) & 1).map((end) => `${axis.toUpperCase()} ${end}`));
+    const tripped = axisNames.flatMap((axis) => ["min", "max"].filter((_, end) => (lines >> (endStopBit(axis) + end)) & 1).map((end) => `${axis} ${end}`));
     this.set("End-stops", tripped.length === 0 ? "all free" : `${tripped.join(", ")} tripped`, tripped.length > 0);
-    const further = furtherAxes.filter((axis) => state.limits?.[axis]?.exists);
-    const bits: typeof readyBits = further.length === 0 ? readyBits : [...readyBits, [further.join(" ").toUpperCase(), furtherReadyBit]];
+    const bits: typeof readyBits = further.length === 0 ? readyBits : [...readyBits, [further.join(" "), furtherReadyBit]];
     const ready = bits.map(([name, bit]) => `${name} ${(lines >> bit) & 1 ? "ready" : "not ready"}`);
     this.set("Amplifiers", truth === null ? "none" : ready.join(", "), false);
-    const duties = [y, x, ...further.map(logColumns)].map((at) => readable(row?.[at.duty] ?? 0));
+    const duties = shown.map((axis) => readable(row?.[logColumns(axis).duty] ?? 0));
     this.set("Duty", row === null ? "none" : `${duties.join(" / ")} %`, false);
-    this.showFurther(further, row);
     this.set("Carrier", state.clock === "real" ? "local socket, wall clock" : "in process, lockstep", false);
     this.set("Not shown", `${state.dropped} rows, ${missed} frames`, false);
   }
 
-  // Behind the lamps that every machine has.
-  private showFurther(axes: AxisName[], row: (number | null)[] | null): void {
-    for (const axis of furtherAxes) {
-      const name = axis.toUpperCase();
-      if (axes.includes(axis) && !this.values.has(name)) this.add(name);
-      if (!this.values.has(name)) continue;
-      this.values.get(name)!.box.hidden = !axes.includes(axis);
+  private showModes(axes: AxisName[], row: (number | null)[] | null): void {
+    for (const axis of axisNames) {
+      this.values.get(axis)!.box.hidden = !axes.includes(axis);
+      if (!axes.includes(axis)) continue;
       const mode = row?.[logColumns(axis).mode] ?? 0;
-      this.set(name, modes[mode] ?? "unknown", mode >= 4);
+      this.set(axis, modes[mode] ?? "unknown", mode >= 4);
     }
   }
 

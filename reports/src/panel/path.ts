@@ -13,7 +13,7 @@ export class Path {
 
   constructor() {
     const caption = element("figcaption");
-    caption.append(element("strong", "", "X-Y path: reference dashed, motor side solid"));
+    caption.append(element("strong", "", "Path in the plane: reference dashed, motor side solid"));
     this.box.append(caption, this.canvas);
     this.canvas.style.maxWidth = "100%";
     new ResizeObserver(() => {

@@ -37,13 +37,13 @@ export class Plan {
   private readonly beam = shape("rect", { class: "beam", width: 14 });
   private readonly effector = shape("circle", { class: "effector", r: 7 });
   private readonly aim = shape("circle", { class: "aim", r: 11 });
-  private readonly chain = new Arrow("force");
+  private readonly transmission = new Arrow("force");
   private readonly sensor = new Arrow("force sensed", 28);
   private readonly caption = element("figcaption", "help");
   private halls: SVGElement[] = [];
 
-  // `name`: of the axis that stands in y's place where it is drawn alone.
-  constructor(private readonly name = "Y") {
+  // `name`: of the axis that stands in the first's place where it is drawn alone.
+  constructor(private readonly name = "y") {
     this.svg.setAttribute("class", "plan");
     this.svg.setAttribute("role", "img");
     this.svg.setAttribute("aria-label", "Where the machine is");
@@ -95,7 +95,7 @@ export class Plan {
       ...this.halls,
       this.beam,
       this.aim,
-      this.chain.group,
+      this.transmission.group,
       this.sensor.group,
       this.effector,
     );
@@ -162,11 +162,11 @@ export class Plan {
     this.effector.setAttribute("cy", String(y));
     this.aim.setAttribute("cx", String(this.right(pose.yReference_m)));
     this.aim.setAttribute("cy", String(this.down(pose.xReference_m)));
-    this.chain.show(x, y, pose.yForce_N, pose.xForce_N);
+    this.transmission.show(x, y, pose.yForce_N, pose.xForce_N);
     this.sensor.show(x, y, pose.sensor_N?.y ?? 0, pose.sensor_N?.x ?? 0);
     setText(
       this.caption,
-      (this.limits.x.exists ? "Y right, X up; bar, dot: carriage, end-effector " : `${this.name} right; bar and dot: the load `) +
+      (this.limits.x.exists ? "y right, x up; bar, dot: carriage, end-effector " : `${this.name} right; bar and dot: the load `) +
         (pose.isTruth ? "(truth)" : "(as the controller has it)") +
         "; ring: reference; arrow: drive's force" +
         (pose.sensor_N === null ? "" : "; dotted: sensor's") +

@@ -49,7 +49,8 @@ export interface BenchEvent {
 
 export type AxisName = "y" | "x" | "z" | "a" | "b" | "c";
 export const furtherAxes: AxisName[] = ["z", "a", "b", "c"];
-export const axisNames: AxisName[] = ["y", "x", ...furtherAxes];
+export const planarAxes: AxisName[] = ["y", "x"];
+export const axisNames: AxisName[] = [...planarAxes, ...furtherAxes];
 
 // Columns of a row: time, then of y and of x what logColumns names, then the fault and the force
 // sensor's y and x; of a machine with further axes, then the same of each of these.

@@ -21,8 +21,8 @@ struct UncertainMean {
 // shorter ones. Needs at least 8 samples; fewer give a deviation of infinity.
 [[nodiscard]] UncertainMean block_mean(std::span<const double> samples, std::size_t block_rows);
 
-// One period of a carriage that swings on its chain against a held motor (4.12 Hz). It dies out
-// over 1.4 s, so a steady part always has some of it left.
+// One period of a carriage that swings on its transmission against a held motor (4.12 Hz). It dies
+// out over 1.4 s, so a steady part always has some of it left.
 inline constexpr double kSwing_s = 0.243;
 
 // Running mean over `rows`, twice: a triangle, which takes out a swing of that period and most of

@@ -101,7 +101,7 @@ Harmonic harmonic_of(std::span<const double> period) {
 }
 
 CarriageTurn carriage_turn(const Recording& in, const Recording& out, const TurnRows& rows,
-                           core::Axis axis, const CarriageChain& chain) {
+                           core::Axis axis, const CarriageTransmission& transmission) {
   const auto& log = in.axes[axis];
   const auto force_out = part(out.force_N[axis], rows.first_out, rows.rows);
   const auto force_in = part(in.force_N[axis], rows.first_in, rows.rows);
@@ -114,7 +114,7 @@ CarriageTurn carriage_turn(const Recording& in, const Recording& out, const Turn
           harmonic_of(part(log.reference_velocity_m_per_s, rows.first_in, rows.rows)).amplitude) /
       std::abs(harmonic_of(part(log.reference_m, rows.first_in, rows.rows)).amplitude);
   turn.rate_rad_per_s = w;
-  const double share = std::pow(w / chain.rate_rad_per_s, 2);
+  const double share = std::pow(w / transmission.rate_rad_per_s, 2);
   const Complex motor_in = motor_amplitude(in, rows.first_in, rows.rows, axis);
   const Complex motor_out = motor_amplitude(out, rows.first_out, rows.rows, axis);
   // m e^(-jwt)
@@ -127,9 +127,9 @@ CarriageTurn carriage_turn(const Recording& in, const Recording& out, const Turn
   constexpr int kRounds = 4;  // each gains a factor of `share`
   for (int round = 0; round < kRounds; ++round) {
     const double added = turn.mass_in_kg - turn.mass_out_kg;
-    const double later_s = drag_N_s_per_m / chain.stiffness_N_per_m();
+    const double later_s = drag_N_s_per_m / transmission.stiffness_N_per_m();
     turn.place_m = motor_in * delay * std::polar(1.0, -w * later_s) /
-                   (1.0 - share * (1.0 + added / chain.mass_kg));
+                   (1.0 - share * (1.0 + added / transmission.mass_kg));
     const Complex felt = turn.force_in_N.amplitude / turn.place_m;
     turn.mass_in_kg = felt.real() / (w * w);
     drag_N_s_per_m = -felt.imag() / w;
@@ -182,9 +182,10 @@ std::vector<WaterForce> water_forces(std::span<const CarriageTurn> axes, double 
   return forces;
 }
 
-double doubt_by_chain(const CarriageChain& chain, double rate_rad_per_s) noexcept {
+double doubt_by_transmission(const CarriageTransmission& transmission,
+                             double rate_rad_per_s) noexcept {
   // Drag goes with (1 - w^2 M/k)^2.
-  return 4 * std::pow(rate_rad_per_s / chain.rate_rad_per_s, 2) * chain.deviation;
+  return 4 * std::pow(rate_rad_per_s / transmission.rate_rad_per_s, 2) * transmission.deviation;
 }
 
 }  // namespace towbench::study::identify

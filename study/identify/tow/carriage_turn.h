@@ -1,19 +1,19 @@
-// What the water does to a carriage that goes to and fro behind its chain, from one period of its
-// motion in the water and of the same motion out of it.
+// What the water does to a carriage that goes to and fro behind its transmission, from one period
+// of its motion in the water and of the same motion out of it.
 //
 // The force sensor between mount and load feels, with x the carriage's place along an axis,
 //
 //   out of the water  F = -m x''        in it  F = -(m + A) x'' - D |v| x'
 //
 // but the encoder sees the motor. In complex amplitudes at the rate w of the motion, X of the
-// motor, k and M of chain and carriage,
+// motor, k and M of transmission and carriage,
 //
 //   x = X e^(-jwt) / (1 - w^2 M/k)      in the water M + A for M, and later by D |v| / k
 //
 // t is what friction, play and the sensor's own bandwidth delay: the phase of the force out of the
-// water shows it, whatever its causes. About that sine the carriage swings on its chain, more where
-// friction turns round; how, the force in the water shows but for the drag, which follows from the
-// velocity with the swing: in rounds, until both agree.
+// water shows it, whatever its causes. About that sine the carriage swings on its transmission,
+// more where friction turns round; how, the force in the water shows but for the drag, which
+// follows from the velocity with the swing: in rounds, until both agree.
 #pragma once
 
 #include <complex>
@@ -27,7 +27,7 @@
 namespace towbench::study::identify {
 
 // Of an axis: `rate_rad_per_s` is sqrt(k/M), the carriage's swing behind a motor that is held.
-struct CarriageChain {
+struct CarriageTransmission {
   double rate_rad_per_s = 0;  // > 0
   double mass_kg = 0;         // M, > 0; 10 % off changes drag by less than 1e-4 of it
   double deviation = 0;       // standard deviation of the rate as a share of it
@@ -75,7 +75,7 @@ struct CarriageTurn {
 // Both recordings have force columns, and all those rows.
 [[nodiscard]] CarriageTurn carriage_turn(const Recording& in, const Recording& out,
                                          const TurnRows& rows, core::Axis axis,
-                                         const CarriageChain& chain);
+                                         const CarriageTransmission& transmission);
 
 // Of one axis.
 struct WaterForce {
@@ -91,10 +91,11 @@ struct WaterForce {
 [[nodiscard]] std::vector<WaterForce> water_forces(std::span<const CarriageTurn> axes,
                                                    double period_s);
 
-// Of a chain's deviation: it rests on some thousand rows of one swing.
-inline constexpr double kChainFreedom = 100;
-// By how much drag is unsure because the chain is, as a share of it. `rate_rad_per_s`: the
+// Of a transmission's deviation: it rests on some thousand rows of one swing.
+inline constexpr double kTransmissionFreedom = 100;
+// By how much drag is unsure because the transmission is, as a share of it. `rate_rad_per_s`: the
 // motion's.
-[[nodiscard]] double doubt_by_chain(const CarriageChain& chain, double rate_rad_per_s) noexcept;
+[[nodiscard]] double doubt_by_transmission(const CarriageTransmission& transmission,
+                                           double rate_rad_per_s) noexcept;
 
 }  // namespace towbench::study::identify

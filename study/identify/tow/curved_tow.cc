@@ -128,12 +128,12 @@ struct Turn {
 };
 
 Turn turn_of(std::span<const Row> rows, const Recording& with, const Recording& without,
-             const core::PerPlanarAxis<CarriageChain>& chain) {
+             const core::PerPlanarAxis<CarriageTransmission>& transmission) {
   Turn turn;
   for (const auto axis : core::kPlanarAxes) {
     turn.carriage.push_back(
         carriage_turn(with, without, {rows.front().row_with, rows.front().row_without, rows.size()},
-                      axis, chain[axis]));
+                      axis, transmission[axis]));
   }
   turn.water = water_forces(turn.carriage, with.period_s);
   turn.speeds = speeds_of(turn.water);
@@ -143,9 +143,9 @@ Turn turn_of(std::span<const Row> rows, const Recording& with, const Recording& 
   return turn;
 }
 
-// Along and across the motion a round body's drag is constant, so the chain's swing can be averaged
-// out, of the force and of the speeds alike. What the carriage's acceleration needs, the run out of
-// the water shows.
+// Along and across the motion a round body's drag is constant, so the transmission's swing can be
+// averaged out, of the force and of the speeds alike. What the carriage's acceleration needs, the
+// run out of the water shows.
 void add_headings(std::span<const Row> rows, const Turn& turn, const Recording& with,
                   const Recording& without, std::vector<Repeats>& repeats) {
   std::array<std::vector<double>, 3> columns;  // along, across, |v| v along
@@ -225,9 +225,9 @@ std::optional<CurvedDrag> curved_drive(const Recording& with, const Recording& w
                     .added_mass_kg = mean_of_repeats(masses)};
 }
 
-std::optional<CurvedDrag> curved_force(const Recording& with, const Recording& without,
-                                       const core::PerPlanarAxis<CarriageChain>& chain,
-                                       std::size_t headings) {
+std::optional<CurvedDrag> curved_force(
+    const Recording& with, const Recording& without,
+    const core::PerPlanarAxis<CarriageTransmission>& transmission, std::size_t headings) {
   if (!has_forces(with) || !has_forces(without)) {
     return std::nullopt;
   }
@@ -248,7 +248,7 @@ std::optional<CurvedDrag> curved_force(const Recording& with, const Recording& w
   const double share = 1.0 / static_cast<double>(turns.size());
   double rate_rad_per_s = 0;
   for (const auto& rows_of_turn : turns) {
-    const auto turn = turn_of(rows_of_turn, with, without, chain);
+    const auto turn = turn_of(rows_of_turn, with, without, transmission);
     drags.push_back(0.5 * (turn.water[0].drag_N_s2_per_m2 + turn.water[1].drag_N_s2_per_m2));
     masses.push_back(turn.added_mass_kg);
     add_headings(rows_of_turn, turn, with, without, repeats);
@@ -259,12 +259,13 @@ std::optional<CurvedDrag> curved_force(const Recording& with, const Recording& w
   }
   double all_doubt = 0;
   for (const auto axis : core::kPlanarAxes) {
-    const double doubt = doubt_by_chain(chain[axis], rate_rad_per_s);
+    const double doubt = doubt_by_transmission(transmission[axis], rate_rad_per_s);
     result.along_axis_N_s2_per_m2[axis] =
-        doubted(mean_of_repeats(along[axis]), doubt, kChainFreedom);
+        doubted(mean_of_repeats(along[axis]), doubt, kTransmissionFreedom);
     all_doubt = std::hypot(all_doubt, 0.5 * doubt);  // each axis has half of the drag
   }
-  result.quadratic_drag_N_s2_per_m2 = doubted(mean_of_repeats(drags), all_doubt, kChainFreedom);
+  result.quadratic_drag_N_s2_per_m2 =
+      doubted(mean_of_repeats(drags), all_doubt, kTransmissionFreedom);
   result.added_mass_kg = mean_of_repeats(masses);
   for (std::size_t bin = 0; bin < headings; ++bin) {
     const double middle = (static_cast<double>(bin) + 0.5) / static_cast<double>(headings);

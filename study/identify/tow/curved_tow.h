@@ -50,6 +50,6 @@ struct CurvedDriveSettings {
 // `headings`: stretches of a turn in the map.
 [[nodiscard]] std::optional<CurvedDrag> curved_force(
     const Recording& with, const Recording& without,
-    const core::PerPlanarAxis<CarriageChain>& chain, std::size_t headings = 12);
+    const core::PerPlanarAxis<CarriageTransmission>& transmission, std::size_t headings = 12);
 
 }  // namespace towbench::study::identify

@@ -17,7 +17,8 @@
 
 namespace towbench::study::identify {
 
-// Rows of a mean's blocks: 0.2 s of them, two periods of the chain and ten of the sensor's memory.
+// Rows of a mean's blocks: 0.2 s of them, two periods of the transmission and ten of the sensor's
+// memory.
 [[nodiscard]] std::size_t block_rows(const Recording& recording) noexcept;
 
 // Mean over both directions of direction x scale x (with - without), at the mean speed. Empty when

@@ -36,7 +36,8 @@ std::vector<std::size_t> period_starts(const Recording& run, core::Axis axis, st
 }  // namespace
 
 std::optional<SinusoidalDrag> sinusoidal_force(const Recording& with, const Recording& without,
-                                               core::Axis axis, const CarriageChain& chain,
+                                               core::Axis axis,
+                                               const CarriageTransmission& transmission,
                                                std::size_t skip) {
   const std::size_t start = first_moving(with, axis);
   const std::size_t other = first_moving(without, axis);
@@ -51,7 +52,7 @@ std::optional<SinusoidalDrag> sinusoidal_force(const Recording& with, const Reco
     if (rows.first_out + rows.rows > without.rows()) {
       break;
     }
-    const std::array turn{carriage_turn(with, without, rows, axis, chain)};
+    const std::array turn{carriage_turn(with, without, rows, axis, transmission)};
     const auto found = water_forces(turn, with.period_s).front();
     masses.push_back(found.added_mass_kg);
     drags.push_back(found.drag_N_s2_per_m2);

@@ -7,7 +7,7 @@
 //
 // by least squares. The carriage swings a little further than the motor behind which it hangs: A
 // comes out larger by about (f / f_c)^2, 1.5 % at an eighth of the frequency f_c of the carriage on
-// the chain.
+// the transmission.
 #pragma once
 
 #include <optional>
@@ -33,11 +33,9 @@ struct SinusoidalTowSettings {
 
 // By the force sensor, `skip` periods at the start and as many at the end left out. Empty when the
 // recordings have not at least two periods in common.
-[[nodiscard]] std::optional<SinusoidalDrag> sinusoidal_force(const Recording& with,
-                                                             const Recording& without,
-                                                             core::Axis axis,
-                                                             const CarriageChain& chain,
-                                                             std::size_t skip);
+[[nodiscard]] std::optional<SinusoidalDrag> sinusoidal_force(
+    const Recording& with, const Recording& without, core::Axis axis,
+    const CarriageTransmission& transmission, std::size_t skip);
 
 // By any column.
 [[nodiscard]] std::optional<SinusoidalDrag> sinusoidal_tow(

@@ -20,8 +20,8 @@ struct SteadySpan {
   [[nodiscard]] double direction() const noexcept { return speed_m_per_s < 0 ? -1.0 : 1.0; }
 };
 
-// In time order. The first `settle_s` of each, in which the chain still swings, are left out; what
-// is then shorter than 0.3 s is no span.
+// In time order. The first `settle_s` of each, in which the transmission still swings, are left
+// out; what is then shorter than 0.3 s is no span.
 [[nodiscard]] std::vector<SteadySpan> steady_spans(const Recording& recording, core::Axis axis,
                                                    double settle_s);
 

@@ -70,8 +70,8 @@ Conversation sine(const Machine& machine, const std::string& name, const AddedMa
   return talk;
 }
 
-// What one frequency gives is one repeat: what the chain's swing and the reversals' friction leave
-// in it differs from frequency to frequency.
+// What one frequency gives is one repeat: what the transmission's swing and the reversals' friction
+// leave in it differs from frequency to frequency.
 struct Repeats {
   std::vector<double> by_sensor;
   std::vector<double> by_drive;
@@ -127,7 +127,8 @@ class AddedMass final : public TowProcedure {
       context.tell(static_cast<double>(repeats.drag.size()) /
                    static_cast<double>(s.frequencies_Hz.size()));
     }
-    auto outcome = told(repeats, identify::doubt_by_chain(weighed.chain, s.mean_rate_rad_per_s()));
+    auto outcome = told(
+        repeats, identify::doubt_by_transmission(weighed.transmission, s.mean_rate_rad_per_s()));
     outcome.simulated_s = dry.simulated_s() + wet.simulated_s();
     return outcome;
   }
@@ -136,7 +137,7 @@ class AddedMass final : public TowProcedure {
   static bool add(const identify::Recording& in, const identify::Recording& out,
                   const WeighedDrive& weighed, Repeats& repeats) {
     constexpr std::size_t kSkip = 2;
-    const auto sensor = identify::sinusoidal_force(in, out, Axis::kY, weighed.chain, kSkip);
+    const auto sensor = identify::sinusoidal_force(in, out, Axis::kY, weighed.transmission, kSkip);
     // Whole periods: what friction does at the reversals has no part in phase with acceleration.
     const auto drive = identify::sinusoidal_tow(
         in, in.axes[Axis::kY].duty_pct, out, out.axes[Axis::kY].duty_pct, Axis::kY,
@@ -150,14 +151,15 @@ class AddedMass final : public TowProcedure {
     return true;
   }
 
-  // `doubt`: of drag, by the chain, as a share of it; all frequencies have it in common.
+  // `doubt`: of drag, by the transmission, as a share of it; all frequencies have it in common.
   static TowOutcome told(const Repeats& repeats, double doubt) {
     TowOutcome outcome;
     const std::string by_sensor =
-        "force sensor in the water and out of it, the carriage's own motion behind its chain; "
+        "force sensor in the water and out of it, the carriage's own motion behind its "
+        "transmission; "
         "scatter between frequencies";
-    const auto drag =
-        identify::doubted(identify::mean_of_repeats(repeats.drag), doubt, identify::kChainFreedom);
+    const auto drag = identify::doubted(identify::mean_of_repeats(repeats.drag), doubt,
+                                        identify::kTransmissionFreedom);
     outcome.estimates = {
         identify::to_estimate(identify::mean_of_repeats(repeats.by_sensor), "fsm_added_mass_kg",
                               "y", "kg", by_sensor),

@@ -73,7 +73,7 @@ TowOutcome told(const identify::CurvedDrag& sensor, const identify::CurvedDrag& 
   TowOutcome outcome;
   const std::string by_sensor =
       "force sensor in the water and out of it, turn by turn, the carriage's own motion behind its "
-      "chain";
+      "transmission";
   const auto add = [&](const identify::UncertainMean& mean, const char* quantity, const char* axis,
                        const std::string& rests_on) {
     outcome.estimates.push_back(identify::to_estimate(mean, quantity, axis, "N s2/m2", rests_on));
@@ -127,14 +127,14 @@ class CurvedDragTow final : public TowProcedure {
       return tow_refused(why);
     }
     core::PerPlanarAxis<double> scale{};
-    core::PerPlanarAxis<identify::CarriageChain> chain{};
+    core::PerPlanarAxis<identify::CarriageTransmission> transmission{};
     for (const auto axis : core::kPlanarAxes) {
       const auto weighed = weigh_drive(dry, axis, s.weigh);
       if (!weighed.trouble.empty()) {
         return tow_failed(weighed.trouble);
       }
       scale[axis] = weighed.scale.force_per_duty_N;
-      chain[axis] = weighed.chain;
+      transmission[axis] = weighed.transmission;
     }
     context.tell(0.5);
     const auto in = wet.play(circle(wet, "circle in the water", s));
@@ -144,7 +144,7 @@ class CurvedDragTow final : public TowProcedure {
         return tow_failed(each->trouble);
       }
     }
-    const auto sensor = identify::curved_force(in, out, chain);
+    const auto sensor = identify::curved_force(in, out, transmission);
     const auto drive =
         identify::curved_drive(in, out, {.scale = scale, .slow_share = s.slow_share});
     if (!sensor || !drive) {

@@ -14,12 +14,12 @@ std::string too_fast(const Machine& machine, core::Axis axis, double speed_m_per
     return fmt::format("{}: {:.3f} m/s is above the controller's limit of {:.3f} m/s",
                        core::name_of(axis), speed_m_per_s, believed.speed_limit_m_per_s);
   }
-  const double metres_per_rad = plate.metres_per_rad();
-  const double speed = speed_m_per_s / metres_per_rad;
+  const double metres_per_motor_rad = plate.metres_per_motor_rad();
+  const double speed = speed_m_per_s / metres_per_motor_rad;
   const auto& model = believed.feed_forward;
-  const double ramp_Nm = model.inertia_kg_m2 * acceleration_m_per_s2 / metres_per_rad;
+  const double ramp_Nm = model.inertia_kg_m2 * acceleration_m_per_s2 / metres_per_motor_rad;
   const double torque = model.viscous_friction_Nm_s_per_rad * speed + model.coulomb_friction_Nm +
-                        drag_N * metres_per_rad + std::max(0.0, ramp_Nm);
+                        drag_N * metres_per_motor_rad + std::max(0.0, ramp_Nm);
   const double k = believed.drive.torque_constant_Nm_per_A;
   const double needed_V = k * speed + plate.resistance_ohm * torque / k;
   return needed_V <= plate.output_limit_V

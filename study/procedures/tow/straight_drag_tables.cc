@@ -24,7 +24,7 @@ std::string interval_of(const identify::Estimate& e) {
 identify::Estimate scale_estimate(const identify::DriveScale& scale, const Machine& machine) {
   const auto& believed = machine.configuration().axes[Axis::kY].drive;
   const double table_7_1 =
-      believed.full_duty_torque_Nm() / machine.nameplate(Axis::kY).metres_per_rad() / 100.0;
+      believed.full_duty_torque_Nm() / machine.nameplate(Axis::kY).metres_per_motor_rad() / 100.0;
   return identify::to_estimate(
       {scale.force_per_duty_N, scale.deviation_N, scale.freedom}, "force_per_duty_N_per_pct", "y",
       "N/%",
@@ -70,7 +70,7 @@ Figure friction_figure(const identify::RigidModel& near, const identify::RigidMo
 
 ResultTable model_table(const identify::RigidModel& near, const identify::RigidModel& middle,
                         const Machine& machine) {
-  const double r = machine.nameplate(Axis::kY).metres_per_rad();
+  const double r = machine.nameplate(Axis::kY).metres_per_motor_rad();
   ResultTable table{
       .title = "Table 8.2: rigid, position-blind model (8.2) of Y",
       .head = {"quantity", "thesis", "identified at the near end", "identified in mid tank"}};

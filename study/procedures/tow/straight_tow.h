@@ -1,5 +1,5 @@
 // Straight tows: trapezoids there and back (8.3), smoothed over one period of the carriage on its
-// chain so that the steady part begins at rest.
+// transmission so that the steady part begins at rest.
 #pragma once
 
 #include <string>

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "study/identify/tow/chain_swing.h"
+#include "study/identify/tow/transmission_swing.h"
 #include "study/procedures/tow/feasibility.h"
 
 namespace towbench::study::procedures {
@@ -69,11 +69,11 @@ Conversation conversation(const Machine& machine, core::Axis axis, const WeighSe
   return talk;
 }
 
-// Behind the chain, by the controller's belief of the inertia.
+// Behind the transmission, by the controller's belief of the inertia.
 double moved_mass_kg(const Machine& machine, core::Axis axis) {
   const auto& plate = machine.nameplate(axis);
   const double believed = machine.configuration().axes[axis].feed_forward.inertia_kg_m2;
-  const double r = plate.metres_per_rad();
+  const double r = plate.metres_per_motor_rad();
   return std::max(believed - plate.rotor_inertia_kg_m2, 0.1 * believed) / (r * r);
 }
 
@@ -121,13 +121,14 @@ WeighedDrive weigh_drive(const Machine& machine, core::Axis axis, const WeighSet
   }
   found.scale = *scale;
   const double pull_s = plan_of(axis, settings).pull_s;
-  const auto swing = identify::chain_swing(pulled, axis, pull_s + kOnset_s, pull_s + kSettle_s);
+  const auto swing =
+      identify::transmission_swing(pulled, axis, pull_s + kOnset_s, pull_s + kSettle_s);
   if (!swing) {
     found.trouble = "weighing the drive: the carriage does not swing where the weight sets in";
     return found;
   }
-  found.chain = {swing->rate_rad_per_s, moved_mass_kg(machine, axis),
-                 swing->deviation / swing->rate_rad_per_s};
+  found.transmission = {swing->rate_rad_per_s, moved_mass_kg(machine, axis),
+                        swing->deviation / swing->rate_rad_per_s};
   return found;
 }
 

@@ -1,7 +1,7 @@
 // The drive's scale by a known weight (identify/tow/drive_scale.h): one tow in air during which a
 // weight over a pulley begins to pull, and one without it. The onset of the weight makes the
-// carriage swing on its chain, which gives the natural frequency of the
-// chain (identify/tow/chain_swing.h).
+// carriage swing on its transmission, which gives the natural frequency of the
+// transmission (identify/tow/transmission_swing.h).
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@
 namespace towbench::study::procedures {
 
 // On Y the tow is faster than the weight makes the carriage swing, 16 N over mass and rate, at most
-// 0.11 m/s: a carriage that turns round for a moment reads its chain's rate 8 % low. X has no room
-// for that; its stiff chain makes less than 1e-4 of it.
+// 0.11 m/s: a carriage that turns round for a moment reads its transmission's rate 8 % low. X has
+// no room for that; its stiff transmission makes less than 1e-4 of it.
 struct WeighSettings {
   double weight_N = 16.0;
   double speed_y_m_per_s = 0.14;
@@ -39,7 +39,7 @@ struct WeighSettings {
 
 struct WeighedDrive {
   identify::DriveScale scale;
-  identify::CarriageChain chain;
+  identify::CarriageTransmission transmission;
   std::string trouble;  // empty: it was found
 };
 

@@ -36,9 +36,9 @@ double stribeck_Nm(const emulator::AxisParameters& axis, double speed_rad_per_s)
 // The motor's and the carriage's Stribeck speed are the same speed of the axis, so the effective
 // curve is one curve.
 double unmodelled_Nm(const emulator::AxisParameters& axis, const TowStretch& stretch) {
-  const double metres_per_rad = axis.sprocket_radius_m / axis.gear_ratio;
+  const double metres_per_motor_rad = axis.output_radius_m / axis.gear_ratio;
   return mean_position_friction_Nm(axis, stretch.from_m, stretch.to_m) +
-         stribeck_Nm(axis, stretch.speed_m_per_s / metres_per_rad);
+         stribeck_Nm(axis, stretch.speed_m_per_s / metres_per_motor_rad);
 }
 
 struct Line {
@@ -88,14 +88,14 @@ double mean_position_friction_Nm(const emulator::AxisParameters& axis, double fr
 double blind_model_drag_bias(const emulator::AxisParameters& axis,
                              std::span<const TowStretch> identified,
                              std::span<const TowStretch> towed) {
-  const double metres_per_rad = axis.sprocket_radius_m / axis.gear_ratio;
+  const double metres_per_motor_rad = axis.output_radius_m / axis.gear_ratio;
   const auto line = line_through(axis, identified);
   double moment = 0;
   double square = 0;
   for (const auto& each : towed) {
     const double v = each.speed_m_per_s;
     const double force_N =
-        (unmodelled_Nm(axis, each) - line.level - line.slope * v) / metres_per_rad;
+        (unmodelled_Nm(axis, each) - line.level - line.slope * v) / metres_per_motor_rad;
     moment += v * v * force_N;
     square += std::pow(v, 4);
   }

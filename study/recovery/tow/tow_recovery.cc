@@ -35,9 +35,8 @@ double drag_at_yaw(const RigParameters& rig, const Estimate& estimate) {
 
 double force_per_duty(const RigParameters& rig) {
   const auto& axis = rig.axes[core::Axis::kY];
-  return axis.plant.gear_ratio / axis.plant.sprocket_radius_m *
-         axis.plant.torque_constant_Nm_per_A * axis.plant.amplifier_gain_A_per_V *
-         axis.command.pwm_amplitude_V / 100.0;
+  return axis.plant.gear_ratio / axis.plant.output_radius_m * axis.plant.torque_constant_Nm_per_A *
+         axis.plant.amplifier_gain_A_per_V * axis.command.pwm_amplitude_V / 100.0;
 }
 
 struct Demand {

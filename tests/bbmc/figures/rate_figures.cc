@@ -109,7 +109,7 @@ void print_rates() {
   const bbmc::Configuration defaults;
   const auto& y = defaults.axes[core::Axis::kY];
   const double least_Nm_per_rad =
-      y.friction.breakaway_Nm / (defaults.safety.tracking_error_limit_m / y.m_per_rad());
+      y.friction.breakaway_Nm / (defaults.safety.tracking_error_limit_m / y.metres_per_motor_rad());
   fmt::print(
       "\nSo a loop wants some twenty to thirty times its natural frequency, more where little "
       "friction damps it. `bbmc-tuned` is near its best from\n250 Hz on and swings below; "

@@ -67,8 +67,9 @@ SpeedFigures measure_speed(SpeedSource source, double speed_m_per_s) {
     }
     bbmc::AxisState full;
     if (again.works()) {
-      full = again.update(state.position_m / y.m_per_rad(), state.velocity_m_per_s / y.m_per_rad(),
-                          applied_Nm, 1 / options.configuration.control_rate_Hz);
+      full = again.update(state.position_m / y.metres_per_motor_rad(),
+                          state.velocity_m_per_s / y.metres_per_motor_rad(), applied_Nm,
+                          1 / options.configuration.control_rate_Hz);
     }
     applied_Nm = torque_per_duty_Nm * state.duty_pct;
     while (next < machine.truth.size() && machine.truth[next].time_ns < row.time_ns) {
@@ -80,18 +81,18 @@ SpeedFigures measure_speed(SpeedSource source, double speed_m_per_s) {
     }
     const auto& truth = machine.truth[next].axes[Axis::kY];
     const double speed =
-        again.works() ? full.motor_rad_per_s * y.m_per_rad() : state.velocity_m_per_s;
-    const double off = speed - truth.motor_speed_rad_per_s * y.m_per_rad();
-    const double stretch = truth.carriage_m - truth.motor_angle_rad * y.m_per_rad();
+        again.works() ? full.motor_rad_per_s * y.metres_per_motor_rad() : state.velocity_m_per_s;
+    const double off = speed - truth.motor_speed_rad_per_s * y.metres_per_motor_rad();
+    const double stretch = truth.carriage_m - truth.motor_angle_rad * y.metres_per_motor_rad();
     const double tracking = state.reference_m - state.position_m;
     figures.speed_rms_m_per_s += off * off;
     figures.speed_largest_m_per_s = std::max(figures.speed_largest_m_per_s, std::fabs(off));
     figures.tracking_rms_m += tracking * tracking;
     figures.stretch_rms_m += stretch * stretch;
     if (again.works()) {
-      const double carriage = full.carriage_rad * y.m_per_rad() - truth.carriage_m;
+      const double carriage = full.carriage_rad * y.metres_per_motor_rad() - truth.carriage_m;
       const double carriage_speed =
-          full.carriage_rad_per_s * y.m_per_rad() - truth.carriage_speed_m_per_s;
+          full.carriage_rad_per_s * y.metres_per_motor_rad() - truth.carriage_speed_m_per_s;
       figures.carriage_rms_m += carriage * carriage;
       figures.carriage_speed_rms_m_per_s += carriage_speed * carriage_speed;
     }

@@ -83,8 +83,9 @@ double way_after(Lie lie, bool coasting) {
 // v^2 / 2a of the rigid axis at its brake's torque, without friction.
 double rigid_way_m(double speed_m_per_s) {
   const bbmc::AxisConfiguration settings = bbmc::Configuration().axes[Axis::kY];
-  const double acceleration_m_per_s2 =
-      bbmc::braking_torque_Nm(settings) / settings.braking.inertia_kg_m2 * settings.m_per_rad();
+  const double acceleration_m_per_s2 = bbmc::braking_torque_Nm(settings) /
+                                       settings.braking.inertia_kg_m2 *
+                                       settings.metres_per_motor_rad();
   return speed_m_per_s * speed_m_per_s / (2 * acceleration_m_per_s2);
 }
 

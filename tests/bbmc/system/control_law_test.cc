@@ -19,18 +19,19 @@ AxisConfiguration with_nothing() {
 
 ControlLaw::Input input_at(const AxisConfiguration& axis, double speed_rad_per_s,
                            double acceleration_rad_per_s2) {
-  return {.reference = {.velocity_m_per_s = speed_rad_per_s * axis.m_per_rad(),
-                        .acceleration_m_per_s2 = acceleration_rad_per_s2 * axis.m_per_rad()},
-          .velocity_m_per_s = speed_rad_per_s * axis.m_per_rad(),
-          .limit_Nm = 1.0,
-          .step_s = 1e-3};
+  return {
+      .reference = {.velocity_m_per_s = speed_rad_per_s * axis.metres_per_motor_rad(),
+                    .acceleration_m_per_s2 = acceleration_rad_per_s2 * axis.metres_per_motor_rad()},
+      .velocity_m_per_s = speed_rad_per_s * axis.metres_per_motor_rad(),
+      .limit_Nm = 1.0,
+      .step_s = 1e-3};
 }
 
 TEST(ControlLaw, WithNothingAddedItIsThePidToTheLastBit) {
   const AxisConfiguration axis;
   ControlLaw law(axis);
   Pid pid(axis.gains);
-  const double rad_per_m = 1.0 / axis.m_per_rad();
+  const double rad_per_m = 1.0 / axis.metres_per_motor_rad();
   for (int k = 0; k < 200; ++k) {
     const double q = 0.001 * k;
     const double n = 0.00097 * k;

@@ -39,7 +39,7 @@ class BrakedAxis {
   BrakedAxis(double speed_m_per_s, double carriage_m_per_s,
              const bbmc::AxisConfiguration& built = nominal_y())
       : settings_(nominal_y()),
-        speed_rad_per_s_(speed_m_per_s / settings_.m_per_rad()),
+        speed_rad_per_s_(speed_m_per_s / settings_.metres_per_motor_rad()),
         limit_Nm_(settings_.drive.torque_limit_Nm()),
         bodies_(built, speed_m_per_s, carriage_m_per_s),
         brake_(settings_),
@@ -56,7 +56,7 @@ class BrakedAxis {
                               -limit_Nm_, limit_Nm_);
     }
   }
-  void skip(double way_m) { bodies_.skip(way_m / settings_.m_per_rad()); }
+  void skip(double way_m) { bodies_.skip(way_m / settings_.metres_per_motor_rad()); }
 
   // `obeys`: 1, or -1 for an amplifier that inverts.
   [[nodiscard]] Stop stop(bool told_of_end, double obeys = 1, double room_m = kYMaxRoom_m) {
@@ -74,8 +74,8 @@ class BrakedAxis {
       torque_Nm_ = state == BrakeState::kBraking ? brake_.torque_Nm() : 0;
       result.torques_Nm.push_back(torque_Nm_);
       advance(obeys);
-      result.furthest_m =
-          std::max(result.furthest_m, (bodies_.carriage_rad() - begun_rad) * settings_.m_per_rad());
+      result.furthest_m = std::max(result.furthest_m, (bodies_.carriage_rad() - begun_rad) *
+                                                          settings_.metres_per_motor_rad());
     }
     return result;
   }
@@ -168,7 +168,7 @@ TEST(ThrownMotor, ADriveThatPushesIsGivenUp) {
       pushed_Nm_s += 1e-3 * std::fabs(stop.torques_Nm.at(static_cast<std::size_t>(ms)));
     }
     const auto& settings = axis.settings();
-    EXPECT_LT(pushed_Nm_s / settings.braking.inertia_kg_m2 * settings.m_per_rad(),
+    EXPECT_LT(pushed_Nm_s / settings.braking.inertia_kg_m2 * settings.metres_per_motor_rad(),
               1.3 * (speed_m_per_s + 0.1));
   }
 }

@@ -69,7 +69,7 @@ class EndStop : public ::testing::Test {
           std::max(outcome.beyond_hall_m, entry.direction * (truth.carriage_m - hall_m));
       if (edge != nullptr && row.time_ns > edge->time_ns) {
         outcome.chain_torque_Nm =
-            std::max(outcome.chain_torque_Nm, std::fabs(truth.chain_force_N) * radius_m);
+            std::max(outcome.chain_torque_Nm, std::fabs(truth.transmission_force_N) * radius_m);
       }
     }
     const SystemEvent* fault = machine_->find(SystemEvent::Kind::kFaultLatched);

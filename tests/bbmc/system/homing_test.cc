@@ -42,7 +42,8 @@ bbmc::HomingRequest homing_of(Axis axis, End end) {
 // What the controller believes less what is true, by the motor's angle: the encoder sits there.
 double error_in_counts(Machine& machine, Axis axis) {
   const bbmc::AxisConfiguration settings = bbmc::Configuration().axes[axis];
-  const double motor_m = machine.truth.back().axes[axis].motor_angle_rad * settings.m_per_rad();
+  const double motor_m =
+      machine.truth.back().axes[axis].motor_angle_rad * settings.metres_per_motor_rad();
   return (machine.status(axis).position_m - motor_m) * settings.counts_per_m();
 }
 

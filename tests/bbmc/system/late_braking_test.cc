@@ -56,11 +56,12 @@ LateStop stop(core::Axis axis, double speed_m_per_s, int delay_ms, int told_ms) 
                         .age_ns = told_ms * kNanosecondsPerMillisecond,
                         .momentum_count_per_s = reckoning.momentum_count_per_s()});
     torque_Nm = brake.torque_Nm();
-    result.furthest_m =
-        std::max(result.furthest_m, (bodies.carriage_rad() - begun_rad) * settings.m_per_rad());
+    result.furthest_m = std::max(
+        result.furthest_m, (bodies.carriage_rad() - begun_rad) * settings.metres_per_motor_rad());
     if (ms > 500) {
-      result.fastest_m_per_s = std::max(result.fastest_m_per_s,
-                                        std::fabs(bodies.rotor_rad_per_s()) * settings.m_per_rad());
+      result.fastest_m_per_s =
+          std::max(result.fastest_m_per_s,
+                   std::fabs(bodies.rotor_rad_per_s()) * settings.metres_per_motor_rad());
     }
   }
   return result;

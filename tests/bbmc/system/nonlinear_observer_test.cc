@@ -109,8 +109,8 @@ TEST(NonlinearObserver, GivesTheLawWhatFrictionCompensationLeavesOver) {
   const double friction = friction_torque_Nm(axis.friction, speed);
   double wanted = 0;
   for (int k = 0; k < 3000; ++k) {
-    wanted = law.torque_Nm({.reference = {.velocity_m_per_s = speed * axis.m_per_rad()},
-                            .velocity_m_per_s = speed * axis.m_per_rad(),
+    wanted = law.torque_Nm({.reference = {.velocity_m_per_s = speed * axis.metres_per_motor_rad()},
+                            .velocity_m_per_s = speed * axis.metres_per_motor_rad(),
                             .applied_Nm = friction + 1.5e-3,
                             .limit_Nm = 1,
                             .step_s = 1e-3});

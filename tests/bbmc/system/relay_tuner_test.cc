@@ -106,7 +106,8 @@ TEST_P(Tuning, OnTheMachineTheGainFoundIsTheEdgeOfOscillationAndItsGainsHold) {
   EXPECT_EQ(machine.system().status().fault, ErrorCode::kNone);
   const bbmc::RelayResult found = machine.status(axis).tuning;
   ASSERT_TRUE(found.found());
-  EXPECT_NEAR(found.amplitude_rad * bbmc::Configuration().axes[axis].m_per_rad(), 5e-4, 2.5e-5);
+  EXPECT_NEAR(found.amplitude_rad * bbmc::Configuration().axes[axis].metres_per_motor_rad(), 5e-4,
+              2.5e-5);
 
   const AfterKick below = after_kick(axis, 0.7 * found.critical_gain_Nm_per_rad);
   EXPECT_FALSE(below.stopped);
@@ -145,8 +146,9 @@ TEST_P(Tuning, EveryAmplitudeThatTheCommandTakesIsReached) {
     EXPECT_EQ(machine.system().status().fault, ErrorCode::kNone) << amplitude_m;
     const bbmc::RelayResult found = machine.status(axis).tuning;
     ASSERT_TRUE(found.found()) << amplitude_m;
-    EXPECT_NEAR(found.amplitude_rad * bbmc::Configuration().axes[axis].m_per_rad() / amplitude_m,
-                1.0, 0.05);
+    EXPECT_NEAR(
+        found.amplitude_rad * bbmc::Configuration().axes[axis].metres_per_motor_rad() / amplitude_m,
+        1.0, 0.05);
   }
 }
 

@@ -18,8 +18,8 @@ class TwoBodies {
       : rotor_kg_m2_(axis.braking.rotor_inertia_kg_m2),
         carriage_kg_m2_(axis.braking.inertia_kg_m2 - rotor_kg_m2_),
         friction_Nm_(0.5 * axis.plausibility.worst_breakaway_Nm),
-        rotor_rad_per_s_(speed_m_per_s / axis.m_per_rad()),
-        carriage_rad_per_s_(rotor_rad_per_s_ + carriage_m_per_s / axis.m_per_rad()) {
+        rotor_rad_per_s_(speed_m_per_s / axis.metres_per_motor_rad()),
+        carriage_rad_per_s_(rotor_rad_per_s_ + carriage_m_per_s / axis.metres_per_motor_rad()) {
     const double held_rad_per_s = 2 * std::numbers::pi * axis.braking.held_motor_chain_Hz;
     stiffness_Nm_per_rad_ = carriage_kg_m2_ * held_rad_per_s * held_rad_per_s;
     damping_Nm_s_per_rad_ = 2 * kDampingRatio * carriage_kg_m2_ * held_rad_per_s;

@@ -18,7 +18,7 @@ using emulator::AxisParameters;
 
 AxisParameters rigid_coulomb_axis() {
   AxisParameters axis;
-  axis.chain.rigid = true;
+  axis.elasticity.rigid = true;
   axis.friction.breakaway_Nm = axis.coulomb_friction_Nm;  // no Stribeck fall
   axis.hard_ends.fitted = false;
   return axis;
@@ -56,7 +56,7 @@ TEST(ClosedForms, AFreeMotorSpinsDownUnderCoulombAndViscousFriction) {
 
 TEST(ClosedForms, ALinearMotorAnswersAVoltageStepWithItsTwoExponentials) {
   AxisParameters axis = linear_axis();
-  axis.chain.rigid = true;
+  axis.elasticity.rigid = true;
   axis.amplifier.mode = emulator::AmplifierMode::kVoltage;
   axis.current_limit_A = 1e3;
   Bench bench(axis, 0);
@@ -115,8 +115,8 @@ TEST(ClosedForms, TheFreeFreeModeHasTheStatedFrequencyAndDampingToATenthOfAPerce
     AxisParameters linear = linear_axis();
     linear.inertia_kg_m2 = axis.inertia_kg_m2;
     linear.rotor_inertia_kg_m2 = axis.rotor_inertia_kg_m2;
-    linear.sprocket_radius_m = axis.sprocket_radius_m;
-    linear.chain = axis.chain;
+    linear.output_radius_m = axis.output_radius_m;
+    linear.elasticity = axis.elasticity;
     linear.viscous_friction_Nm_s_per_rad = 0;
     Bench bench(linear, 0);
     bench.input = {.carriage_force_N = 20.0};
@@ -133,8 +133,8 @@ TEST(ClosedForms, TheFreeFreeModeHasTheStatedFrequencyAndDampingToATenthOfAPerce
     const std::size_t last = swing.crossing_s.size() - 2;
     ASSERT_GE(last, 5U);
     const double periods = static_cast<double>(last);
-    const double zeta = axis.chain.damping_ratio;
-    const double damped_Hz = axis.chain.resonance_Hz * std::sqrt(1 - zeta * zeta);
+    const double zeta = axis.elasticity.damping_ratio;
+    const double damped_Hz = axis.elasticity.resonance_Hz * std::sqrt(1 - zeta * zeta);
     const double decrement = std::log(swing.peak[0] / swing.peak[last]) / periods;
     const double tau = 2 * std::numbers::pi;
     EXPECT_NEAR(periods / (swing.crossing_s[last] - swing.crossing_s[0]), damped_Hz,
@@ -157,11 +157,11 @@ TEST(ClosedForms, AtConstantSpeedDriveAndFrictionBalance) {
   const double on_carriage = axis.friction.carriage_share *
                              (axis.coulomb_friction_Nm + axis.viscous_friction_Nm_s_per_rad * w) /
                              radius_of(axis);
-  EXPECT_NEAR(forces.chain_force_N, on_carriage, 1e-8);
+  EXPECT_NEAR(forces.transmission_force_N, on_carriage, 1e-8);
   EXPECT_NEAR(forces.carriage_friction_N, -on_carriage, 1e-8);
 }
 
-// Speeds the axis up to 0.5 m/s with no swing left in the chain.
+// Speeds the axis up to 0.5 m/s with no swing left in the transmission.
 Bench at_half_a_metre_per_second(const AxisParameters& axis) {
   Bench bench(axis, 0);
   const double w = 0.5 / radius_of(axis);
@@ -203,14 +203,14 @@ TEST(ClosedForms, FromHalfAMetrePerSecondTheCarriageCoastsAThirdOfAMetre) {
   const double coast_m = radius_of(axis) * j / b * (w - c / b * std::log1p(b * w / c));
   bench.input.command_V = 0;
   const double coasted_m = distance_to_standstill_m(bench, start_m);
-  EXPECT_NEAR(coasted_m, coast_m, 0.01 * coast_m);  // chain and Stribeck: below a percent
+  EXPECT_NEAR(coasted_m, coast_m, 0.01 * coast_m);  // transmission and Stribeck: below a percent
   EXPECT_NEAR(coasted_m, 0.32, 0.01);
 }
 
 TEST(ClosedForms, FullReverseStopsARigidCarriageInFifteenMillimetres) {
   AxisParameters axis;
   axis.hard_ends.fitted = false;
-  axis.chain.rigid = true;
+  axis.elasticity.rigid = true;
   Bench bench = at_half_a_metre_per_second(axis);
   const double start_m = bench.plant.state().carriage_m;
   bench.input.command_V = -10.0;
@@ -219,7 +219,7 @@ TEST(ClosedForms, FullReverseStopsARigidCarriageInFifteenMillimetres) {
 
 // docs/reference/constants.md says 21-23 mm; both the plant and the oracle give 20.65, the lower
 // end of that range.
-TEST(ClosedForms, WithChainAndTwoMillisecondsOfLatencyItTakesTwentyOneMillimetres) {
+TEST(ClosedForms, WithTransmissionAndTwoMillisecondsOfLatencyItTakesTwentyOneMillimetres) {
   AxisParameters axis;
   axis.hard_ends.fitted = false;
   Bench bench = at_half_a_metre_per_second(axis);
@@ -274,10 +274,10 @@ TEST(ClosedForms, LoadSideAndMotorSideInputGiveTheSameTrajectory) {
 TEST(ClosedForms, ALoadSideDriveAcceleratesByForceOverMass) {
   AxisParameters axis;
   axis.gear_ratio = 1.0;
-  axis.sprocket_radius_m = 1.0;
+  axis.output_radius_m = 1.0;
   axis.torque_constant_Nm_per_A = 12.0;  // N/A
   axis.winding = {.resistance_ohm = 2.0, .inductance_H = 5e-3, .choke_inductance_H = 0};
-  axis.chain.rigid = true;
+  axis.elasticity.rigid = true;
   axis.hard_ends.fitted = false;
   axis.rotor_inertia_kg_m2 = 1.0;
   emulator::apply({.mass_kg = 6.0, .coulomb_friction_N = 3.0, .force_gain_N_per_V = 4.0}, axis);

@@ -84,9 +84,9 @@ TEST_P(Convergence, HoldsInVoltageModeWithItsCurrentLimit) {
   }
 }
 
-TEST_P(Convergence, HoldsForARigidChainAndForLorentzFriction) {
+TEST_P(Convergence, HoldsForARigidTransmissionAndForLorentzFriction) {
   AxisParameters rigid = nominal_y();
-  rigid.chain.rigid = true;
+  rigid.elasticity.rigid = true;
   AxisParameters lorentz = nominal_y();
   lorentz.friction.stribeck_form = emulator::StribeckForm::kLorentz;
   for (const auto& history : histories(5.0)) {
@@ -110,7 +110,7 @@ TEST_P(Convergence, HoldsThroughHardEnds) {
   axis.hard_ends.min_m = 0;
   axis.hard_ends.max_m = 0.1;  // starts in the middle of ten centimetres
   EXPECT_LT(worst_error(axis, inputs_of(histories(5.0)[0])), 0.5);
-  axis.chain.rigid = true;
+  axis.elasticity.rigid = true;
   EXPECT_LT(worst_error(axis, inputs_of(histories(5.0)[0])), 0.5);
 }
 

@@ -19,7 +19,7 @@ constexpr double kTurn = 2 * std::numbers::pi;
 AxisParameters free_rigid_axis() {
   AxisParameters axis = linear_axis();
   axis.viscous_friction_Nm_s_per_rad = 0;
-  axis.chain.rigid = true;
+  axis.elasticity.rigid = true;
   return axis;
 }
 
@@ -128,18 +128,18 @@ TEST(Disturbances, TorqueRippleOnlyLendsEnergy) {
   }
 }
 
-// Slowly and with a stiff, well damped chain: the carriage then is where the sprocket puts it.
+// Slowly and with a stiff, well damped transmission: the carriage then is where the wheel puts it.
 struct SlowTow {
   AxisParameters axis = linear_axis();
-  double turns = 0;  // of the sprocket
+  double turns = 0;  // of the wheel
 
-  explicit SlowTow(const emulator::SprocketParameters& sprocket) {
+  explicit SlowTow(const emulator::WheelParameters& wheel) {
     axis.viscous_friction_Nm_s_per_rad = 0;
-    axis.chain.resonance_Hz = 120;
-    axis.chain.damping_ratio = 0.7;
-    axis.disturbances.sprocket = sprocket;
+    axis.elasticity.resonance_Hz = 120;
+    axis.elasticity.damping_ratio = 0.7;
+    axis.disturbances.wheel = wheel;
   }
-  // Worst distance from `excess` of the sprocket's angle over two of its turns.
+  // Worst distance from `excess` of the wheel's angle over two of its turns.
   template <typename Law>
   double worst_m(const Law& excess) {
     Bench bench(axis, 0.0);
@@ -153,14 +153,14 @@ struct SlowTow {
       bench.tick();
       const auto s = bench.plant.state();
       const double phi = s.motor_angle_rad / axis.gear_ratio;
-      worst = std::max(worst, std::abs(s.carriage_m - axis.sprocket_radius_m * phi - excess(phi)));
+      worst = std::max(worst, std::abs(s.carriage_m - axis.output_radius_m * phi - excess(phi)));
       turns = (s.motor_angle_rad - start) / axis.gear_ratio / kTurn;
     }
     return worst;
   }
 };
 
-TEST(Disturbances, AnEccentricSprocketPaysOutItsSineOnceATurn) {
+TEST(Disturbances, AnEccentricWheelPaysOutItsSineOnceATurn) {
   const double e = 2e-4;
   const double phase = 40 * kTurn / 360;
   SlowTow tow({.eccentricity_m = e, .eccentricity_phase_deg = 40});
@@ -168,11 +168,11 @@ TEST(Disturbances, AnEccentricSprocketPaysOutItsSineOnceATurn) {
             0.01 * e);
 }
 
-TEST(Disturbances, ASprocketOfThirteenTeethPaysOutThirteenChordsATurn) {
+TEST(Disturbances, AWheelOfThirteenTeethPaysOutThirteenChordsATurn) {
   SlowTow tow({.teeth = 13});
-  const double r = tow.axis.sprocket_radius_m;
+  const double r = tow.axis.output_radius_m;
   const double half = kTurn / 26;
-  // Between teeth the chain leaves at R_p sin(psi), R_p such that 13 chords make 2 pi R.
+  // Between teeth the transmission leaves at R_p sin(psi), R_p such that 13 chords make 2 pi R.
   const auto law = [&](double phi) {
     const double psi = std::remainder(phi, 2 * half);
     return r * half / std::sin(half) * std::sin(psi) - r * psi;

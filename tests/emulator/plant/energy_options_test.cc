@@ -16,44 +16,44 @@ using emulator::AxisForces;
 using emulator::AxisParameters;
 using emulator::AxisState;
 
-// Chain stretch and its rate with the sprocket's true shape, once more from its definition.
-struct Chain {
+// Transmission stretch and its rate with the wheel's true shape, once more from its definition.
+struct Transmission {
   double stretch_m = 0;
   double rate_m_per_s = 0;
   double stiffness = 0;
   double damping = 0;
 
-  Chain(const AxisParameters& p, const AxisState& s) {
+  Transmission(const AxisParameters& p, const AxisState& s) {
     const double r = radius_of(p);
     const double turned = s.motor_angle_rad / p.gear_ratio;
-    const double e = p.disturbances.sprocket.eccentricity_m;
-    const double phase = p.disturbances.sprocket.eccentricity_phase_deg * std::numbers::pi / 180;
-    double lever_m = p.sprocket_radius_m + e * std::cos(turned + phase);
-    stretch_m = p.sprocket_radius_m * turned + e * (std::sin(turned + phase) - std::sin(phase)) -
+    const double e = p.disturbances.wheel.eccentricity_m;
+    const double phase = p.disturbances.wheel.eccentricity_phase_deg * std::numbers::pi / 180;
+    double lever_m = p.output_radius_m + e * std::cos(turned + phase);
+    stretch_m = p.output_radius_m * turned + e * (std::sin(turned + phase) - std::sin(phase)) -
                 s.carriage_m;
-    if (const double teeth = p.disturbances.sprocket.teeth; teeth > 0) {
+    if (const double teeth = p.disturbances.wheel.teeth; teeth > 0) {
       const double half = std::numbers::pi / teeth;
-      const double pitch_m = p.sprocket_radius_m * half / std::sin(half);
+      const double pitch_m = p.output_radius_m * half / std::sin(half);
       const double psi = std::remainder(turned, 2 * half);
-      stretch_m += pitch_m * std::sin(psi) - p.sprocket_radius_m * psi;
-      lever_m += pitch_m * std::cos(psi) - p.sprocket_radius_m;
+      stretch_m += pitch_m * std::sin(psi) - p.output_radius_m * psi;
+      lever_m += pitch_m * std::cos(psi) - p.output_radius_m;
     }
     rate_m_per_s = lever_m / p.gear_ratio * s.motor_speed_rad_per_s - s.carriage_speed_m_per_s;
     const double motor_kg = p.rotor_inertia_kg_m2 / (r * r);
     const double carriage_kg = (p.inertia_kg_m2 - p.rotor_inertia_kg_m2) / (r * r);
     const double reduced_kg = motor_kg * carriage_kg / (motor_kg + carriage_kg);
-    const double w0 = 2 * std::numbers::pi * p.chain.resonance_Hz;
+    const double w0 = 2 * std::numbers::pi * p.elasticity.resonance_Hz;
     stiffness = reduced_kg * w0 * w0;
-    damping = 2 * p.chain.damping_ratio * reduced_kg * w0;
+    damping = 2 * p.elasticity.damping_ratio * reduced_kg * w0;
   }
 };
 
 double stored_J(const AxisParameters& p, const AxisState& s) {
-  const Chain chain(p, s);
+  const Transmission transmission(p, s);
   const double carriage_kg = (p.inertia_kg_m2 - p.rotor_inertia_kg_m2) / std::pow(radius_of(p), 2);
   return 0.5 * p.rotor_inertia_kg_m2 * s.motor_speed_rad_per_s * s.motor_speed_rad_per_s +
          0.5 * carriage_kg * s.carriage_speed_m_per_s * s.carriage_speed_m_per_s +
-         0.5 * chain.stiffness * chain.stretch_m * chain.stretch_m;
+         0.5 * transmission.stiffness * transmission.stretch_m * transmission.stretch_m;
 }
 
 struct Balance {
@@ -69,10 +69,10 @@ Balance balance_over(const AxisParameters& p, double tick_s) {
   const auto power_W = [&](double& friction_W) {
     const AxisState s = bench.plant.state();
     const AxisForces f = bench.plant.forces();
-    const Chain chain(p, s);
+    const Transmission transmission(p, s);
     friction_W = -f.motor_friction_Nm * s.motor_speed_rad_per_s -
                  f.carriage_friction_N * s.carriage_speed_m_per_s +
-                 chain.damping * chain.rate_m_per_s * chain.rate_m_per_s;
+                 transmission.damping * transmission.rate_m_per_s * transmission.rate_m_per_s;
     return (f.motor_torque_Nm + f.ripple_torque_Nm) * s.motor_speed_rad_per_s +
            f.standing_force_N * s.carriage_speed_m_per_s - friction_W;
   };
@@ -96,7 +96,7 @@ AxisParameters smooth_terms() {
   AxisParameters p = with_every_term(nominal_y());
   p.friction.options.presliding.travel_rad = 0;
   p.gear.backlash_deg = 0;
-  p.chain.pretension_N = 0;
+  p.elasticity.pretension_N = 0;
   return p;
 }
 
@@ -115,7 +115,7 @@ TEST(EnergyOfOptions, EachTermAloneClosesToo) {
     AxisParameters p = nominal_y();
     term.add_to(p);
     const bool stores = p.friction.options.presliding.travel_rad > 0 || p.gear.backlash_deg > 0 ||
-                        p.chain.pretension_N > 0 || p.chain.slack_m > 0;
+                        p.elasticity.pretension_N > 0 || p.elasticity.slack_m > 0;
     if (!stores) {
       const Balance b = balance_over(p, 2e-5);
       EXPECT_LT(std::abs(b.residual_J), 2e-5 * b.turnover_J) << term.name;

@@ -25,14 +25,14 @@ Constants constants_of(const AxisParameters& axis) {
   const double mass = (axis.inertia_kg_m2 - axis.rotor_inertia_kg_m2) / (r * r);
   const double motor_mass = axis.rotor_inertia_kg_m2 / (r * r);
   const double reduced = mass * motor_mass / (mass + motor_mass);
-  const double w0 = 2 * M_PI * axis.chain.resonance_Hz;
+  const double w0 = 2 * M_PI * axis.elasticity.resonance_Hz;
   const double inductance = axis.winding.inductance_H + axis.winding.choke_inductance_H;
   return {.r = r,
           .inductance = inductance,
           .kp = 2 * M_PI * axis.amplifier.current_loop_bandwidth_Hz * inductance,
           .mass = mass,
           .stiffness = reduced * w0 * w0,
-          .damping = 2 * axis.chain.damping_ratio * reduced * w0,
+          .damping = 2 * axis.elasticity.damping_ratio * reduced * w0,
           .motor_viscous = 0};
 }
 
@@ -42,7 +42,7 @@ enum Term : std::size_t {
   kCopper,
   kMotorFriction,
   kCarriageFriction,
-  kChainDamping,
+  kTransmissionDamping,
   kTermCount
 };
 using Powers = std::array<double, kTermCount>;
@@ -52,7 +52,7 @@ struct MechanicalBalance {
   double stored_J = 0;
   [[nodiscard]] double residual_J() const {
     return work_J[kElectrical] + work_J[kHand] - work_J[kCopper] - work_J[kMotorFriction] -
-           work_J[kCarriageFriction] - work_J[kChainDamping] - stored_J;
+           work_J[kCarriageFriction] - work_J[kTransmissionDamping] - stored_J;
   }
 };
 
@@ -110,7 +110,7 @@ TEST(Energy, ClosesToAMillionthAndTheResidualFallsWithTheSquareOfTheTick) {
   const MechanicalBalance coarse = mechanical_balance(axis, 2e-5);
   const MechanicalBalance fine = mechanical_balance(axis, 1e-5);
   const double turnover_J = fine.work_J[kCopper] + fine.work_J[kMotorFriction] +
-                            fine.work_J[kCarriageFriction] + fine.work_J[kChainDamping];
+                            fine.work_J[kCarriageFriction] + fine.work_J[kTransmissionDamping];
   RecordProperty("turnover_J", std::to_string(turnover_J));
   RecordProperty("residual_20us_J", std::to_string(coarse.residual_J()));
   RecordProperty("residual_10us_J", std::to_string(fine.residual_J()));
@@ -121,7 +121,7 @@ TEST(Energy, ClosesToAMillionthAndTheResidualFallsWithTheSquareOfTheTick) {
 
 TEST(Energy, EveryDissipativeTermOnlyTakes) {
   const MechanicalBalance b = mechanical_balance(nominal_y(), 1e-5);
-  for (const Term term : {kCopper, kMotorFriction, kCarriageFriction, kChainDamping}) {
+  for (const Term term : {kCopper, kMotorFriction, kCarriageFriction, kTransmissionDamping}) {
     EXPECT_GT(b.work_J[term], 0.0) << term;
   }
 }
@@ -129,7 +129,7 @@ TEST(Energy, EveryDissipativeTermOnlyTakes) {
 TEST(Energy, AFreeElasticAxisWithoutLossesKeepsItsEnergy) {
   AxisParameters axis = linear_axis();
   axis.viscous_friction_Nm_s_per_rad = 0;
-  axis.chain.damping_ratio = 0;
+  axis.elasticity.damping_ratio = 0;
   const Constants c = constants_of(axis);
   Bench bench(axis, 0);
   bench.input = {.carriage_force_N = 20.0};

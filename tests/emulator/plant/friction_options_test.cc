@@ -12,7 +12,7 @@ using emulator::AxisParameters;
 
 AxisParameters rigid_axis() {
   AxisParameters axis;
-  axis.chain.rigid = true;
+  axis.elasticity.rigid = true;
   axis.hard_ends.fitted = false;
   return axis;
 }
@@ -59,7 +59,7 @@ TEST(FrictionOptions, AnAsymmetricAxisRunsAtEachDirectionsOwnSpeed) {
   }
 }
 
-TEST(FrictionOptions, ALoadedCarriageHoldsByItsShareOfTheChainForceMore) {
+TEST(FrictionOptions, ALoadedCarriageHoldsByItsShareOfTheTransmissionForceMore) {
   AxisParameters axis;
   axis.friction.carriage_share = 1.0;
   axis.friction.options.load_ratio = 0.2;
@@ -70,21 +70,22 @@ TEST(FrictionOptions, ALoadedCarriageHoldsByItsShareOfTheChainForceMore) {
   }
   // F = S / r + 0.2 F
   const double expected_N = axis.friction.breakaway_Nm / radius_of(axis) / (1 - 0.2);
-  EXPECT_NEAR(bench.plant.forces().chain_force_N, expected_N, 1e-3 * expected_N);
+  EXPECT_NEAR(bench.plant.forces().transmission_force_N, expected_N, 1e-3 * expected_N);
 }
 
-// A motor that hangs a force on the chain: the torque at which it begins to lift, and to lower.
+// A motor that hangs a force on the transmission: the torque at which it begins to lift, and to
+// lower.
 double torque_to_move_Nm(const AxisParameters& axis, double force_N, double sign) {
   Bench bench(axis, 1.0);
   const double hold_A = force_N * radius_of(axis) / axis.torque_constant_Nm_per_A;
   constexpr int kRampTicks = 20000;
-  for (int k = 1; k <= kRampTicks; ++k) {  // slowly: the chain must not swing
+  for (int k = 1; k <= kRampTicks; ++k) {  // slowly: the transmission must not swing
     bench.input.carriage_force_N = -force_N * k / kRampTicks;
     bench.ask_current(axis, hold_A * k / kRampTicks);
     bench.tick();
   }
   bench.run(5.0);
-  EXPECT_NEAR(bench.plant.forces().chain_force_N, force_N, 1e-6);
+  EXPECT_NEAR(bench.plant.forces().transmission_force_N, force_N, 1e-6);
   EXPECT_TRUE(bench.plant.forces().motor_sticks);
   for (int k = 1; bench.plant.forces().motor_sticks; ++k) {
     bench.ask_current(axis, hold_A + sign * k * 1e-5);
@@ -97,7 +98,7 @@ TEST(FrictionOptions, AGearOfEightyPercentNeedsAQuarterMoreToLiftAndAFifthLessTo
   AxisParameters axis;
   axis.hard_ends.fitted = false;
   axis.friction.carriage_share = 0;
-  axis.chain.damping_ratio = 0.5;
+  axis.elasticity.damping_ratio = 0.5;
   axis.gear.efficiency = 0.8;
   const double load_Nm = 20.0 * radius_of(axis);
   const double s = axis.friction.breakaway_Nm;
@@ -111,7 +112,7 @@ TEST(FrictionOptions, AGearPassesOnItsEfficiencyOfThePowerEitherWay) {
   AxisParameters axis = linear_axis();
   axis.viscous_friction_Nm_s_per_rad = 0;
   axis.gear.efficiency = 0.8;
-  axis.chain.damping_ratio = 0.5;
+  axis.elasticity.damping_ratio = 0.5;
   for (const double force_N : {-20.0, 20.0}) {  // against the motion, and with it
     Bench bench(axis, 0.0);
     const double ratio = force_N < 0 ? 1 / 0.8 : 0.8;

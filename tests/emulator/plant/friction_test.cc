@@ -42,7 +42,7 @@ double break_away_current_A(const AxisParameters& axis, double step_A, double si
 
 TEST(Friction, ARigidAxisBreaksAwayAtItsLevelToATenthOfAPercentEitherWay) {
   AxisParameters axis;
-  axis.chain.rigid = true;
+  axis.elasticity.rigid = true;
   const double expected_A = axis.friction.breakaway_Nm / axis.torque_constant_Nm_per_A;
   for (const double sign : {1.0, -1.0}) {
     EXPECT_NEAR(break_away_current_A(axis, 2e-5, sign), expected_A, 1e-3 * expected_A);
@@ -51,7 +51,7 @@ TEST(Friction, ARigidAxisBreaksAwayAtItsLevelToATenthOfAPercentEitherWay) {
 
 TEST(Friction, BreakAwayRisesByThePositionFrictionOfThePlace) {
   AxisParameters axis = nominal_y();
-  axis.chain.rigid = true;
+  axis.elasticity.rigid = true;
   const double extra_Nm = 1.6e-3 * 1.0 / 1.976;  // starts at 1.0 m
   const double expected_A = (axis.friction.breakaway_Nm + extra_Nm) / axis.torque_constant_Nm_per_A;
   EXPECT_NEAR(break_away_current_A(axis, 2e-5, 1.0), expected_A, 1e-3 * expected_A);
@@ -64,13 +64,13 @@ TEST(Friction, AnElasticAxisMovesItsMotorAtTheMotorsShareAndItsCarriageAtTheWhol
   EXPECT_NEAR(break_away_current_A(axis, 2e-6, 1.0), motor_A, 1e-3 * motor_A);
 
   Bench bench(axis, 1.0);
-  // 2 mA/s: slow enough for the chain to follow.
+  // 2 mA/s: slow enough for the transmission to follow.
   for (int k = 1; bench.plant.forces().carriage_sticks; ++k) {
     bench.ask_current(axis, k * 2e-7);
     bench.tick();
   }
   const double whole_A = axis.friction.breakaway_Nm / axis.torque_constant_Nm_per_A;
-  EXPECT_NEAR(bench.plant.forces().chain_force_N * radius_of(axis),
+  EXPECT_NEAR(bench.plant.forces().transmission_force_N * radius_of(axis),
               axis.friction.carriage_share * axis.friction.breakaway_Nm,
               1e-3 * axis.friction.breakaway_Nm);
   EXPECT_NEAR(bench.plant.state().current_A, whole_A, 0.02 * whole_A);  // the motor lurches
@@ -78,7 +78,7 @@ TEST(Friction, AnElasticAxisMovesItsMotorAtTheMotorsShareAndItsCarriageAtTheWhol
 
 TEST(Friction, SticksAgainAfterASlipAndCarriesTheLoadFromThen) {
   AxisParameters axis;
-  axis.chain.rigid = true;
+  axis.elasticity.rigid = true;
   Bench bench(axis, 1.0);
   bench.ask_current(axis, 0.3);
   bench.run(0.1);

@@ -76,7 +76,7 @@ TEST(HardEnd, ARigidCarriageReboundsWithTheRestitutionOfItsDamper) {
   // ends when K d + C d' = 0; the closed form of that instant gives the ratio of speeds.
   AxisParameters axis = linear_axis();
   axis.viscous_friction_Nm_s_per_rad = 0;
-  axis.chain.rigid = true;
+  axis.elasticity.rigid = true;
   axis.hard_ends = {.fitted = true, .min_m = 0, .max_m = 1};
   const double r = radius_of(axis);
   Bench bench(axis, 0.9);

@@ -14,7 +14,7 @@ constexpr double kTravel_rad = 0.03;
 
 AxisParameters yielding_axis() {
   AxisParameters axis;
-  axis.chain.rigid = true;
+  axis.elasticity.rigid = true;
   axis.friction.options.presliding = {.travel_rad = kTravel_rad, .damping_ratio = 0.5};
   return axis;
 }

@@ -20,9 +20,9 @@ constexpr double kInertia_kg_m2 = 0.15;  // at the joint, motor and gear include
 AxisParameters free_joint(double zero_at_deg = 0) {
   AxisParameters joint = linear_axis();
   joint.viscous_friction_Nm_s_per_rad = 0;
-  joint.chain.rigid = true;
+  joint.elasticity.rigid = true;
   joint.gear_ratio = 50;
-  joint.sprocket_radius_m = 1;
+  joint.output_radius_m = 1;
   joint.inertia_kg_m2 = kInertia_kg_m2 / (50.0 * 50.0);
   joint.disturbances.gravity = {.torque_Nm = kWeight_Nm, .zero_at_deg = zero_at_deg};
   return joint;
@@ -105,7 +105,7 @@ TEST(Weight, OnlyLendsEnergyThroughWholeTurns) {
 // Behind an elastic gear the motor swings along; both bodies and the spring keep their energy.
 TEST(Weight, KeepsItsEnergyBehindAnElasticGear) {
   AxisParameters joint = free_joint();
-  joint.chain = {.rigid = false, .resonance_Hz = 30, .damping_ratio = 0};
+  joint.elasticity = {.rigid = false, .resonance_Hz = 30, .damping_ratio = 0};
   joint.rotor_inertia_kg_m2 = 0.3 * joint.inertia_kg_m2;
   Bench bench = swinging(joint, 2.0);
   const double n = joint.gear_ratio;

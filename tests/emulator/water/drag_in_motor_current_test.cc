@@ -1,5 +1,5 @@
 // Drag as the drive feels it: the two-step motor current method of chapter 8, (8.5), on the nominal
-// machine with its elastic chain, friction map and quantised duty.
+// machine with its elastic transmission, friction map and quantised duty.
 #include <algorithm>
 #include <cmath>
 
@@ -24,7 +24,7 @@ Tow tow(const WaterParameters& water, double speed_m_per_s) {
   parameters.water = water;
   parameters.axes[Axis::kY].start_m = 0.5;
   const AxisParameters& p = parameters.axes[Axis::kY].plant;
-  const double metres_per_rad = p.sprocket_radius_m / p.gear_ratio;
+  const double metres_per_motor_rad = p.output_radius_m / p.gear_ratio;
   Rig rig(parameters, 1);
   RigAxis& y = *rig.axis(Axis::kY);
   y.enable_line = true;
@@ -36,7 +36,7 @@ Tow tow(const WaterParameters& water, double speed_m_per_s) {
   for (std::uint32_t tick = 0; y.plant().state().carriage_m < 2.6; ++tick) {
     const AxisState state = y.plant().state();
     if (tick % 10 == 0) {
-      const double error = speed_m_per_s - metres_per_rad * state.motor_speed_rad_per_s;
+      const double error = speed_m_per_s - metres_per_motor_rad * state.motor_speed_rad_per_s;
       integral += 1e-3 * error;
       const double wanted = std::clamp(1500.0 * error + 3000.0 * integral, -999.0, 999.0);
       const auto size = static_cast<std::uint16_t>(std::lround(std::fabs(wanted)));

@@ -12,13 +12,13 @@ inline RigParameters free_rig() {
   RigParameters rig;
   for (RigAxisParameters& axis : rig.axes) {
     AxisParameters& p = axis.plant;
-    const double r = p.sprocket_radius_m / p.gear_ratio;
+    const double r = p.output_radius_m / p.gear_ratio;
     p.inertia_kg_m2 = kFreeMass_kg * r * r;
     p.rotor_inertia_kg_m2 = 0.2 * p.inertia_kg_m2;
     p.viscous_friction_Nm_s_per_rad = 0.0;
     p.coulomb_friction_Nm = 0.0;
     p.friction.breakaway_Nm = 0.0;
-    p.chain.rigid = true;
+    p.elasticity.rigid = true;
     p.hard_ends.fitted = false;
     axis.hall_min.fitted = false;
     axis.hall_max.fitted = false;

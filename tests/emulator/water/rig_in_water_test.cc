@@ -153,23 +153,23 @@ TEST(RigInWater, AddedMassSlowsThePushByTheMassRatio) {
 }
 
 // The free-free mode of the elastic axis: the same spring, the carriage heavier by the water.
-TEST(RigInWater, AddedMassLowersTheChainModeAsTheTwoMassFormulaSays) {
+TEST(RigInWater, AddedMassLowersTheTransmissionModeAsTheTwoMassFormulaSays) {
   RigParameters parameters = free_rig();
   AxisParameters& p = parameters.axes[Axis::kY].plant;
-  p.chain = {.rigid = false, .resonance_Hz = 9.0, .damping_ratio = 0.0};
+  p.elasticity = {.rigid = false, .resonance_Hz = 9.0, .damping_ratio = 0.0};
   constexpr double kAdded_kg = 3.0;
   parameters.water.object = {.in_water = true, .added_mass_kg = kAdded_kg};
   Rig rig(parameters, 1);
   rig.push_carriage(Axis::kY, 10.0, 0);
   // Stretch against time: count the upward zero crossings of its oscillation about its mean.
-  const double r = p.sprocket_radius_m / p.gear_ratio;
+  const double r = p.output_radius_m / p.gear_ratio;
   const double motor_kg = 0.2 * kFreeMass_kg;
   const double carriage_kg = 0.8 * kFreeMass_kg;
   const double expected_Hz = 9.0 * std::sqrt((1.0 / motor_kg + 1.0 / (carriage_kg + kAdded_kg)) /
                                              (1.0 / motor_kg + 1.0 / carriage_kg));
   const double w0 = 2.0 * std::acos(-1.0) * 9.0;
   const double stiffness = w0 * w0 / (1.0 / motor_kg + 1.0 / carriage_kg);
-  // Accelerating together, the chain pulls the motor's mass along.
+  // Accelerating together, the transmission pulls the motor's mass along.
   const double mean_stretch = -10.0 * motor_kg / (motor_kg + carriage_kg + kAdded_kg) / stiffness;
   double last = 0.0;
   double first_s = 0.0;

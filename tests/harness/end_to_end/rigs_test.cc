@@ -14,7 +14,7 @@ ExperimentFixture experiment_on(RigFixture rig) {
   auto fixture = rig.parameters.axes[Axis::kX].exists
                      ? load_experiment("fixtures/motions/trapezoid-y.toml")
                      : Runs::shipped("one-axis");
-  // Its own budgets are of another machine; 0.6 to 0.8 m, a tenth more where the sprocket is
+  // Its own budgets are of another machine; 0.6 to 0.8 m, a tenth more where the wheel is
   // larger.
   fixture.experiment.budgets = {{.metric = "y_carriage_travel_m", .min = 0.5, .max = 1.0},
                                 {.metric = "fault_number", .max = 0.0}};

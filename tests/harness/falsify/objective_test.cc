@@ -91,9 +91,10 @@ TEST(Objective, AsksForWhatAControllerCouldHaveDone) {
       // A larger jump than the drive can make is asked for also while nothing is driven; BBMC does
       // not find this one (docs/theory/safety.md).
       {"motions/circle-short", "encoder.y jump at_s=0.0025 counts=360", "encoder_fault_found"},
-      // The switch told it 10 ms before the chain skipped: that is not forgotten when the fault
+      // The switch told it 10 ms before the transmission skipped: that is not forgotten when the
+      // fault
       // begins.
-      {"experiments/endstop-y-max", "drive.y chain_skip at_s=3.02636 by_m=-0.03",
+      {"experiments/endstop-y-max", "drive.y tooth_skip at_s=3.02636 by_m=-0.03",
        "would have prevented it"},
       // No command arrives, so that no brake is asked for; that nobody finds the loss is.
       {"experiments/circle", "link.to_plant corrupt_byte at_s=6.937446 probability=1",

@@ -9,8 +9,8 @@
 namespace towbench::harness {
 namespace {
 
-// The supply dies 81 ms into the stop at Y's max end. The carriage turns round on its chain 13 ms
-// later, but the motor still runs outwards and takes it along again.
+// The supply dies 81 ms into the stop at Y's max end. The carriage turns round on its transmission
+// 13 ms later, but the motor still runs outwards and takes it along again.
 TEST(ContactBound, ACarriageThatSwingsBackOnADeadDriveHasNotStopped) {
   std::unique_ptr<CaseRecord> run;
   const auto verdict =

@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
         Trial{kMid, "supply over_current phase=cruise"}, Trial{kMid, "supply sag phase=cruise"},
         Trial{kMid, "kill_switch welded phase=cruise"},
         Trial{"../motions/end-y-max-and-back", "endstop.y_max latching"},
-        Trial{kMid, "drive.y chain_skip phase=cruise"},
+        Trial{kMid, "drive.y tooth_skip phase=cruise"},
         Trial{kMid, "drive.y growing_backlash play=0.5deg"},
         Trial{kMid, "drive.y jam phase=cruise"}, Trial{kMid, "drive.y dropped_load phase=cruise"},
         Trial{kMid, "drive.y brake_drag phase=cruise"},
@@ -123,11 +123,12 @@ TEST(FaultEffects, ASlippedDiscKeepsItsIndexAndLosesItsCounts) {
   EXPECT_EQ(run->first_fault(), nullptr);
 }
 
-TEST(FaultEffects, ASkippedChainLeavesTheCarriageBehindTheMotorByATooth) {
+TEST(FaultEffects, ASkippedTransmissionLeavesTheCarriageBehindTheMotorByATooth) {
   std::unique_ptr<CaseRecord> run;
-  (void)stage(kMid).carry_out("drive.y chain_skip phase=cruise after=0.1s by=8mm", &run);
+  (void)stage(kMid).carry_out("drive.y tooth_skip phase=cruise after=0.1s by=8mm", &run);
   ASSERT_EQ(run->first_fault(), nullptr);
-  // As long as it is held the chain is as relaxed as the reference run's, to what friction holds.
+  // As long as it is held the transmission is as relaxed as the reference run's, to what friction
+  // holds.
   const auto held_ns = *drive_ends_ns(*run, 0, run->outcome.end_ns);
   const auto& truth = run->truth_at(held_ns).axes[core::Axis::kY];
   const auto& reference = stage(kMid).reference->truth_at(held_ns).axes[core::Axis::kY];

@@ -16,7 +16,8 @@ using core::Axis;
 
 constexpr double kMotorRadPerMetre = 50.0;
 
-// A millisecond a row; the motor turns with the carriage, which swings a little on its chain.
+// A millisecond a row; the motor turns with the carriage, which swings a little on its
+// transmission.
 template <typename Place>
 std::unique_ptr<CaseRecord> moved(double end_s, Place place_m) {
   auto run = std::make_unique<CaseRecord>();

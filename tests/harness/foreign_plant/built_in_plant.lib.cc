@@ -60,7 +60,7 @@ int towbench_plant_step(void* plant, double until_s, const towbench_plant_input*
                   .velocity_m_per_s = s.carriage_speed_m_per_s,
                   .motor_angle_rad = s.motor_angle_rad,
                   .motor_speed_rad_per_s = s.motor_speed_rad_per_s,
-                  .force_N = axis.forces().chain_force_N,
+                  .force_N = axis.forces().transmission_force_N,
                   .current_A = s.current_A};
   }
   machine.time_s = until_s;

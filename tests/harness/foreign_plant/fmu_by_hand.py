@@ -127,7 +127,7 @@ def main():
         # 0.5 A/V times 2 V, less what the rising back EMF costs the current loop.
         check(0.98 < unit.get("current_A") < 1.0, f"a current of {unit.get('current_A')} A")
         metres = unit.get("motor_angle_rad") * 0.02 / 10.0
-        check(abs(unit.get("position_m") - metres) < 1e-9, "load and motor apart on a rigid chain")
+        check(abs(unit.get("position_m") - metres) < 1e-9, "load and motor apart on a rigid transmission")
         state = c.c_void_p()
         unit.done(unit.lib.fmi3GetFMUState(unit.instance, c.byref(state)), "get state")
         unit.step(0.2, 0.1)

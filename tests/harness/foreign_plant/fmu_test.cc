@@ -86,7 +86,8 @@ TEST(Fmu, ExportedAndImportedGivesTheLogOfTheBuiltInAxis) {
   const auto truth = CsvTable::load(own.folder / "truth.csv");
   const auto told = CsvTable::load(fmu.folder / "truth.csv");
   ASSERT_EQ(truth.rows(), told.rows());
-  for (const char* column : {"y_carriage_m", "y_current_A", "y_chain_force_N", "y_edges_total"}) {
+  for (const char* column :
+       {"y_carriage_m", "y_current_A", "y_transmission_force_N", "y_edges_total"}) {
     for (std::size_t row = 0; row < truth.rows(); ++row) {
       ASSERT_EQ(truth.column(column)[row], told.column(column)[row]) << column << ' ' << row;
     }

@@ -111,7 +111,7 @@ TEST(ScrewStage, RefusesAFaultInsideItsDriveTrain) {
   const Stage stage;
   const auto plain = without_expectations(stage.experiment());
   const auto reference = run_reference(plain, 1);
-  for (const char* words : {"drive.y chain_skip phase=cruise", "drive.y growing_backlash"}) {
+  for (const char* words : {"drive.y tooth_skip phase=cruise", "drive.y growing_backlash"}) {
     try {
       (void)prepare({parse_fault(words)}, plain, *reference);
       ADD_FAILURE() << words;

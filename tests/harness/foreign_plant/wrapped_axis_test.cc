@@ -171,7 +171,7 @@ TEST(WrappedAxis, MeetsAHardEndOfTheBenchAsItsOwn) {
   ASSERT_GT(depth_m, 1e-4);
   EXPECT_NEAR(bench.deepest_m - end_m, depth_m, 0.02 * depth_m);
   EXPECT_NEAR(bench.rebound_m_per_s, own.rebound_m_per_s, 0.05 * std::fabs(own.rebound_m_per_s));
-  // The bench does not see the chain between motor and carriage: all of the mass counts.
+  // The bench does not see the transmission between motor and carriage: all of the mass counts.
   EXPECT_NEAR(bench.contact.energy_J, own.contact.energy_J, 0.1 * own.contact.energy_J);
 }
 

@@ -171,6 +171,25 @@ TEST(Windows, MayCountFromTheFirstMotion) {
   EXPECT_FALSE(windows[1].span.holds(0.051));
 }
 
+// Another controller tells of no state, and its machine may have axes beside y and x.
+TEST(Windows, CountFromTheFirstAxisThatIsDrivenWhicheverItIs) {
+  const TemporaryFixtures files;
+  files.write("log.csv",
+              "time_s,y_duty_pct,x_duty_pct,z_duty_pct\n"
+              "0,0,0,0\n0.001,0,0,0\n0.002,0,0,5\n0.003,0,-5,5\n");
+  files.write("truth.csv", "time_s\n0.001\n");
+  files.write("events.jsonl", "");
+  core::PerAxis<AxisLimits> limits;
+  for (const auto further : core::kFurtherAxes) {
+    limits[further].exists = further == core::Axis::kZ;
+  }
+  const auto window = resolve_windows({{"w", EvaluationWindow::Origin::kMotion, 0, 1}},
+                                      load_run_data(files.folder(), limits))[0];
+  ASSERT_TRUE(window.found);
+  EXPECT_TRUE(window.span.holds(0.002));
+  EXPECT_FALSE(window.span.holds(0.001));
+}
+
 TEST(Windows, WithoutMotionAreNotFound) {
   SyntheticRun run;
   run.write(

@@ -26,7 +26,7 @@ TEST_F(TruthTailTest, ReadsWhatTheRecorderWrote) {
   emulator::TruthRow row;
   row.time_ns = 1'500'000'000;
   row.axes[core::Axis::kY].carriage_m = 1.25;
-  row.axes[core::Axis::kY].chain_force_N = -3.5;
+  row.axes[core::Axis::kY].transmission_force_N = -3.5;
   row.axes[core::Axis::kX].carriage_speed_m_per_s = 0.125;
   row.axes[core::Axis::kX].current_A = 2;
   row.input_lines = 0x15;
@@ -40,7 +40,7 @@ TEST_F(TruthTailTest, ReadsWhatTheRecorderWrote) {
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0].time_ns, row.time_ns);
   EXPECT_EQ(rows[0].axis(core::Axis::kY).carriage_m, 1.25);
-  EXPECT_EQ(rows[0].axis(core::Axis::kY).chain_force_N, -3.5F);
+  EXPECT_EQ(rows[0].axis(core::Axis::kY).transmission_force_N, -3.5F);
   EXPECT_EQ(rows[0].axis(core::Axis::kX).carriage_speed_m_per_s, 0.125F);
   EXPECT_EQ(rows[0].axis(core::Axis::kX).current_A, 2.0F);
   EXPECT_EQ(rows[0].input_lines, 0x15);

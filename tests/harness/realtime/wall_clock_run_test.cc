@@ -197,8 +197,8 @@ TEST_P(WallClockRunTest, MovesTheMachineAndReplaysToTheLastBit) {
   // The machine's own truth: the carriage went where it was sent.
   const auto truth = CsvTable::load(folder() / "truth.csv");
   const auto carriage = truth.column("y_carriage_m");
-  constexpr double kChainGives_m = 1e-3;  // as the trapezoids' budget has it
-  EXPECT_NEAR(carriage.back() - carriage.front(), 0.1, kChainGives_m);
+  constexpr double kTransmissionGives_m = 1e-3;  // as the trapezoids' budget has it
+  EXPECT_NEAR(carriage.back() - carriage.front(), 0.1, kTransmissionGives_m);
   EXPECT_THAT(contents_of(folder() / "events.jsonl"),
               testing::Not(testing::HasSubstr("fault_latched")));
 

@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 TEST(EncoderRate, ARehearsalFindsTheSpeedOfTheExperiment) {
   const auto peak = rehearse_edges(Runs::shipped("trapezoid-400"), 1);
   EXPECT_EQ(peak.exchange_ns, core::kNanosecondsPerMillisecond);
-  // 0.4 m/s at 2.24 um a count (TRK-1: half a count is 1.12 um), and the chain's swing.
+  // 0.4 m/s at 2.24 um a count (TRK-1: half a count is 1.12 um), and the transmission's swing.
   const double profile = 0.4 / 2.24e-6;
   EXPECT_GT(peak.edges_per_s(), profile);
   EXPECT_LT(peak.edges_per_s(), 1.25 * profile);

@@ -42,10 +42,10 @@ void add_truth(Digest& digest, const CaseRecord& run) {
     digest.add(std::uint64_t{row.input_lines});
     for (const auto which : core::kPlanarAxes) {
       const auto& axis = row.axes[which];
-      for (const double number :
-           {axis.motor_angle_rad, axis.motor_speed_rad_per_s, axis.carriage_m,
-            axis.carriage_speed_m_per_s, axis.current_A, axis.motor_torque_Nm,
-            axis.motor_friction_Nm, axis.carriage_friction_N, axis.chain_force_N, axis.command_V}) {
+      for (const double number : {axis.motor_angle_rad, axis.motor_speed_rad_per_s, axis.carriage_m,
+                                  axis.carriage_speed_m_per_s, axis.current_A, axis.motor_torque_Nm,
+                                  axis.motor_friction_Nm, axis.carriage_friction_N,
+                                  axis.transmission_force_N, axis.command_V}) {
         digest.add(number);
       }
       digest.time(axis.count);

@@ -20,8 +20,8 @@ using ::testing::HasSubstr;
 constexpr const char* kNominal = "fixtures/plants/macs-nominal.toml";
 constexpr const char* kExercise = "fixtures/diagnosis/exercise-y.toml";
 
-// Table 7.4's axis over 0.9: J, B, C, break-away and the friction of places; the chain's mode
-// stays.
+// Table 7.4's axis over 0.9: J, B, C, break-away and the friction of places; the transmission's
+// mode stays.
 constexpr const char* kEverythingHeavier = R"(
 inertia_kg_m2 = 1.90444e-5
 rotor_inertia_kg_m2 = 4.0e-6

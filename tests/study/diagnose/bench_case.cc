@@ -32,12 +32,12 @@ struct Hideout {
 // The spring stays: its mode gets slower with the carriage.
 void add_to_carriage(emulator::AxisParameters& p, double mass_kg) {
   const auto before = emulator::derive(p);
-  const double r = before.metres_per_radian;
+  const double r = before.metres_per_motor_rad;
   p.inertia_kg_m2 += mass_kg * r * r;
   const double mobility = 1 / (before.carriage_mass_kg + mass_kg) + r * r / p.rotor_inertia_kg_m2;
-  const double w = std::sqrt(before.chain_stiffness_N_per_m * mobility);
-  p.chain.damping_ratio = before.chain_damping_N_s_per_m * mobility / (2 * w);
-  p.chain.resonance_Hz = w / 6.283185307179586;
+  const double w = std::sqrt(before.transmission_stiffness_N_per_m * mobility);
+  p.elasticity.damping_ratio = before.transmission_damping_N_s_per_m * mobility / (2 * w);
+  p.elasticity.resonance_Hz = w / 6.283185307179586;
 }
 
 const std::map<std::string, Hideout>& hideouts() {
@@ -88,7 +88,7 @@ const std::map<std::string, Hideout>& hideouts() {
       {"amplifier_gain",
        {[](auto& a, double s) { a.plant.amplifier_gain_A_per_V *= 1 - 0.1 * s; }}},
       {"chain_elasticity",
-       {[](auto& a, double s) { a.plant.chain.resonance_Hz *= 1 - 0.12 * s; }, true}},
+       {[](auto& a, double s) { a.plant.elasticity.resonance_Hz *= 1 - 0.12 * s; }, true}},
       {"backlash", {[](auto& a, double s) { a.plant.gear.backlash_deg = 0.5 * s; }}},
   };
   return kAll;

@@ -1,7 +1,7 @@
 // A log of the bench's own rig, with one thing in the machine other than its plant file says.
 //
 // The machine is the emulator, the controller BBMC, the model what
-// fixtures/plants/macs-nominal.toml states: elastic chain, Stribeck, friction by place. The
+// fixtures/plants/macs-nominal.toml states: elastic transmission, Stribeck, friction by place. The
 // diagnosis shares no code with the plant.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Logs of the bench's own rig, elastic chain and all, made by the emulator under BBMC.
+// Logs of the bench's own rig, elastic transmission and all, made by the emulator under BBMC.
 #include <algorithm>
 
 #include <gmock/gmock.h>

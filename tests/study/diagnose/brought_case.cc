@@ -25,7 +25,7 @@ std::string plant_of(const HiddenAxis& axis) {
       "torque_constant_Nm_per_A = {}\namplifier_gain_A_per_V = {:.12f}\npwm_amplitude_V = 10.0\n"
       "current_limit_A = 3.7\nencoder_counts_per_rev = {}\n",
       axis.mass_kg * r * r, axis.viscous_N_s_per_m * r * r, axis.coulomb_N * r,
-      axis.sprocket_radius_m / r, axis.sprocket_radius_m, kTorque_Nm_per_A,
+      axis.output_radius_m / r, axis.output_radius_m, kTorque_Nm_per_A,
       axis.newton_per_duty_pct * 100 / 10 * r / kTorque_Nm_per_A,
       std::lround(axis.counts_per_m / axis.motor_turns_per_m));
 }

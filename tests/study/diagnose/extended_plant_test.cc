@@ -89,24 +89,28 @@ TEST_F(ExtendedPlantFile, NothingFoundLeavesTheModelAsItWas) {
   EXPECT_DOUBLE_EQ(back.breakaway_excess_N, plant_.model.breakaway_excess_N);
 }
 
-TEST_F(ExtendedPlantFile, MovedParametersComeBackAndTheChainKeepsItsStiffness) {
+TEST_F(ExtendedPlantFile, MovedParametersComeBackAndTheTransmissionKeepsItsStiffness) {
   move(Key::kMass, "inertia", 1.1 * plant_.model.mass_kg);
   move(Key::kCoulomb, "coulomb", 1.3 * plant_.model.coulomb_N);
   const NominalModel back = reloaded().model;
   EXPECT_NEAR(back.mass_kg, 1.1 * plant_.model.mass_kg, 1e-6);
   EXPECT_NEAR(back.coulomb_N, 1.3 * plant_.model.coulomb_N, 1e-6);
   EXPECT_NEAR(back.breakaway_excess_N, plant_.model.breakaway_excess_N, 1e-6);
-  EXPECT_NEAR(back.chain.stiffness_N_per_m / plant_.model.chain.stiffness_N_per_m, 1, 1e-6);
-  EXPECT_NEAR(back.chain.damping_N_s_per_m / plant_.model.chain.damping_N_s_per_m, 1, 1e-6);
+  EXPECT_NEAR(back.transmission.stiffness_N_per_m / plant_.model.transmission.stiffness_N_per_m, 1,
+              1e-6);
+  EXPECT_NEAR(back.transmission.damping_N_s_per_m / plant_.model.transmission.damping_N_s_per_m, 1,
+              1e-6);
 }
 
-TEST_F(ExtendedPlantFile, ASofterChainComesBackSofter) {
-  const auto& chain = plant_.model.chain;
-  add("chain_elasticity", {{Key::kStiffness, 0.8 * chain.stiffness_N_per_m},
-                           {Key::kDamping, 1.5 * chain.damping_N_s_per_m}});
+TEST_F(ExtendedPlantFile, ASofterTransmissionComesBackSofter) {
+  const auto& transmission = plant_.model.transmission;
+  add("chain_elasticity", {{Key::kStiffness, 0.8 * transmission.stiffness_N_per_m},
+                           {Key::kDamping, 1.5 * transmission.damping_N_s_per_m}});
   const NominalModel back = reloaded().model;
-  EXPECT_NEAR(back.chain.stiffness_N_per_m / plant_.model.chain.stiffness_N_per_m, 0.8, 1e-6);
-  EXPECT_NEAR(back.chain.damping_N_s_per_m / plant_.model.chain.damping_N_s_per_m, 1.5, 1e-6);
+  EXPECT_NEAR(back.transmission.stiffness_N_per_m / plant_.model.transmission.stiffness_N_per_m,
+              0.8, 1e-6);
+  EXPECT_NEAR(back.transmission.damping_N_s_per_m / plant_.model.transmission.damping_N_s_per_m,
+              1.5, 1e-6);
 }
 
 TEST_F(ExtendedPlantFile, EffectsThatThePlantHasKeysForLoad) {
@@ -119,7 +123,7 @@ TEST_F(ExtendedPlantFile, EffectsThatThePlantHasKeysForLoad) {
       {{Key::kRippleCosine, 0.1}, {Key::kRippleSine, 0.2}, {Key::kRipplePerMetre, 222.7}});
   add("load_dependent_friction", {{Key::kLoadFriction, 0.1}});
   add("backlash", {{Key::kPlay, 1e-3}});
-  EXPECT_NEAR(reloaded().model.chain.play_m, 1e-3, 1e-6);
+  EXPECT_NEAR(reloaded().model.transmission.play_m, 1e-3, 1e-6);
 }
 
 // What the command must make is s sin q + c cos q: the emulated joint is pulled by the opposite.

@@ -10,7 +10,7 @@ NominalModel nominal_of(const HiddenAxis& axis) {
   m.viscous_N_s_per_m = axis.viscous_N_s_per_m;
   m.coulomb_N = axis.coulomb_N;
   m.metres_per_motor_rad = 1 / (axis.motor_turns_per_m * 6.283185307179586);
-  m.sprocket_radius_m = axis.sprocket_radius_m;
+  m.output_radius_m = axis.output_radius_m;
   m.metres_per_count = 1 / axis.counts_per_m;
   m.newton_per_duty_pct = axis.newton_per_duty_pct;
   m.force_limit_N = 69.1;

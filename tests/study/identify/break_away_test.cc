@@ -12,7 +12,7 @@ namespace {
 using core::Axis;
 
 // Levels of 0.1 % every 300 ms up to where J q'' = k (u - u_0) has passed 8 mm/s; below u_0 each
-// step stretches a chain by a few counts and then stands.
+// step stretches a transmission by a few counts and then stands.
 Recording ramp(double breaks_at_pct, double rad_per_s2_per_pct) {
   constexpr double kPerCount = 2 * std::numbers::pi / 4000;
   constexpr double kMetresPerRad = 1.43e-3;

@@ -1,5 +1,5 @@
-// The chain's elastic error of the emulated machine, told by encoder and camera alone, against the
-// emulator's truth.
+// The transmission's elastic error of the emulated machine, told by encoder and camera alone,
+// against the emulator's truth.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -78,7 +78,7 @@ TEST(CameraStretch, TellsTheElasticErrorThatTheTruthHas) {
     ASSERT_EQ(found.trouble, "") << core::name_of(axis);
     EXPECT_GT(found.frames, 300U);
     EXPECT_NEAR(found.delay_s.value, 0.08, 2e-3) << core::name_of(axis);
-    // What swings on the chain is in the truth and not in the model.
+    // What swings on the transmission is in the truth and not in the model.
     const double ratio = found.rms_m / watched.true_rms_m;
     EXPECT_GT(ratio, 0.65) << core::name_of(axis);
     EXPECT_LT(ratio, 1.2) << core::name_of(axis);

@@ -1,4 +1,5 @@
-// The stretch of a chain from encoder and camera, on motions whose stretch has a closed form.
+// The stretch of a transmission from encoder and camera, on motions whose stretch has a closed
+// form.
 #include "study/identify/elastic_error.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// (4.9) on a machine with an elastic chain: which inertia it sees is a matter of the filter.
+// (4.9) on a machine with an elastic transmission: which inertia it sees is a matter of the filter.
 #include "study/identify/ordinary_least_squares.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,8 @@
 namespace towbench::study::identify {
 namespace {
 
-// Y of Table 7.4 with its chain's mode at 9 Hz and friction that does not rise towards standstill.
+// Y of Table 7.4 with its transmission's mode at 9 Hz and friction that does not rise towards
+// standstill.
 emulator::AxisParameters nominal_y() {
   emulator::AxisParameters axis;
   axis.friction.breakaway_Nm = axis.coulomb_friction_Nm;
@@ -27,8 +28,8 @@ double inertia_found(double cutoff_Hz) {
   return fit.inertia_kg_m2 / truth.inertia_kg_m2;
 }
 
-TEST(OrdinaryLeastSquares, SeesTheWholeInertiaOnceTheChainsSwingIsFilteredOut) {
-  ASSERT_NEAR(nominal_y().chain.resonance_Hz, 9, 1e-9);
+TEST(OrdinaryLeastSquares, SeesTheWholeInertiaOnceTheTransmissionsSwingIsFilteredOut) {
+  ASSERT_NEAR(nominal_y().elasticity.resonance_Hz, 9, 1e-9);
   EXPECT_NEAR(inertia_found(4), 1, 0.15);
 }
 

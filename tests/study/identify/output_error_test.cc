@@ -13,16 +13,17 @@ namespace {
 
 using core::Axis;
 
-// Y of the nominal plant with a slow chain, whose swing the rotor's share in the inertia shows in.
-emulator::AxisParameters slow_chain() {
+// Y of the nominal plant with a slow transmission, whose swing the rotor's share in the inertia
+// shows in.
+emulator::AxisParameters slow_transmission() {
   emulator::AxisParameters axis;
   axis.inertia_kg_m2 = 1.8e-5;
   axis.rotor_inertia_kg_m2 = 3.6e-6;
   axis.viscous_friction_Nm_s_per_rad = 8e-6;
   axis.coulomb_friction_Nm = 2.6e-3;
   axis.friction.breakaway_Nm = 4.3e-3;
-  axis.chain.resonance_Hz = 5.6;
-  axis.chain.damping_ratio = 0.08;
+  axis.elasticity.resonance_Hz = 5.6;
+  axis.elasticity.damping_ratio = 0.08;
   axis.hard_ends.fitted = false;
   return axis;
 }
@@ -30,7 +31,7 @@ emulator::AxisParameters slow_chain() {
 // K_T a thousandth too high makes every torque so, the rotor's data sheet excepted.
 TEST(OutputError, TakesTheRotorInUnitsOfTheTorques) {
   constexpr double kTooHigh = 1.001;
-  const auto truth = slow_chain();
+  const auto truth = slow_transmission();
   const auto data = simulated_pulses(truth);
   TwoMassStart start{.axis = truth, .path = {}};
   start.axis.torque_constant_Nm_per_A *= kTooHigh;

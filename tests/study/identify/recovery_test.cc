@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "study/procedures/chain.h"
 #include "study/procedures/identified_plant.h"
+#include "study/procedures/sequence.h"
 #include "study/results/identification_set.h"
 
 namespace towbench::study::procedures {
@@ -43,23 +43,23 @@ std::filesystem::path short_settings() {
   return folder;
 }
 
-ChainResult identified(const harness::RigFixture& rig, core::Axis axis, std::uint64_t seed,
-                       std::vector<std::string> only) {
+SequenceResult identified(const harness::RigFixture& rig, core::Axis axis, std::uint64_t seed,
+                          std::vector<std::string> only) {
   const Machine machine(rig, tuned_controller(), seed);
   const auto folder = short_settings();
-  const auto result = run_chain(machine, identification_procedures(),
-                                {.only = std::move(only),
-                                 .axes = {axis},
-                                 .settings = folder,
-                                 .out = {},
-                                 .fingerprint = {},
-                                 .resume = false,
-                                 .progress = {}});
+  const auto result = run_sequence(machine, identification_procedures(),
+                                   {.only = std::move(only),
+                                    .axes = {axis},
+                                    .settings = folder,
+                                    .out = {},
+                                    .fingerprint = {},
+                                    .resume = false,
+                                    .progress = {}});
   std::filesystem::remove_all(folder);
   return result;
 }
 
-void expect_recovered(const harness::RigFixture& rig, const ChainResult& result) {
+void expect_recovered(const harness::RigFixture& rig, const SequenceResult& result) {
   for (const auto& step : result.steps) {
     EXPECT_EQ(step.outcome.status, ProcedureOutcome::Status::kDone)
         << step.id << ": " << step.outcome.reason;
@@ -84,12 +84,12 @@ void PrintTo(const Case& tested, std::ostream* out) {
        << tested.seed;
 }
 
-class WholeChain : public testing::TestWithParam<Case> {};
+class WholeTransmission : public testing::TestWithParam<Case> {};
 
 // Preliminary experiments, break-away, maps, pulses, tuning, switches, validation. Of the drawn
-// machines inertia, friction, drive constants and chain are up to 40 % off: the controller believes
-// another machine.
-TEST_P(WholeChain, RecoversTheMachine) {
+// machines inertia, friction, drive constants and transmission are up to 40 % off: the controller
+// believes another machine.
+TEST_P(WholeTransmission, RecoversTheMachine) {
   const auto& [machine, axis, seed] = GetParam();
   const auto rig = drawn_rig(machine);
   expect_recovered(rig, identified(rig, axis, seed, {}));
@@ -107,7 +107,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(NominalAndTwoDrawn, WholeChain, testing::ValuesIn(cases()),
+INSTANTIATE_TEST_SUITE_P(NominalAndTwoDrawn, WholeTransmission, testing::ValuesIn(cases()),
                          [](const auto& tested) {
                            return std::string(core::name_of(tested.param.axis)) +
                                   std::to_string(tested.param.machine) + "_seed" +

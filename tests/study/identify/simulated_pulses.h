@@ -16,7 +16,7 @@ inline Recording simulated_pulses(const emulator::AxisParameters& axis) {
   data.period_s = 1e-3;
   data.rad_per_count[core::Axis::kY] = 2 * std::numbers::pi / 4000;
   data.metres_per_count[core::Axis::kY] =
-      data.rad_per_count[core::Axis::kY] * axis.sprocket_radius_m / axis.gear_ratio;
+      data.rad_per_count[core::Axis::kY] * axis.output_radius_m / axis.gear_ratio;
   auto& columns = data.axes[core::Axis::kY];
   for (std::size_t k = 0; k < 8000; ++k) {
     data.time_s.push_back(1e-3 * static_cast<double>(k));

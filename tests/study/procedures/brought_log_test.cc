@@ -23,7 +23,7 @@ using core::Axis;
 using testing::HasSubstr;
 
 Nameplate nameplate() {
-  return {.exists = true, .gear_ratio = 35.0, .sprocket_radius_m = 0.05, .counts_per_turn = 4000};
+  return {.exists = true, .gear_ratio = 35.0, .output_radius_m = 0.05, .counts_per_turn = 4000};
 }
 
 class BroughtLogTest : public testing::Test {

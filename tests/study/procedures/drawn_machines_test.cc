@@ -1,5 +1,5 @@
-// Single experiments on machines whose inertia, friction, drive constants and chain are up to 40 %
-// off what the controller believes.
+// Single experiments on machines whose inertia, friction, drive constants and transmission are up
+// to 40 % off what the controller believes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,8 +55,8 @@ Estimates model_of(const harness::RigFixture& rig, Axis axis) {
   };
   add("inertia_kg_m2", plant.inertia_kg_m2);
   add("viscous_friction_Nm_s_per_rad", plant.viscous_friction_Nm_s_per_rad);
-  add("chain_resonance_Hz", plant.chain.resonance_Hz);
-  add("chain_damping_ratio", plant.chain.damping_ratio);
+  add("transmission_resonance_Hz", plant.elasticity.resonance_Hz);
+  add("transmission_damping_ratio", plant.elasticity.damping_ratio);
   add("friction_common_Nm", plant.coulomb_friction_Nm);
   add("friction_carriage_share", friction.carriage_share);
   add("stribeck_speed_rad_per_s", friction.stribeck_speed_rad_per_s);
@@ -66,8 +66,8 @@ Estimates model_of(const harness::RigFixture& rig, Axis axis) {
 
 class SwitchesOfDrawnMachines : public testing::TestWithParam<std::tuple<std::uint64_t, Axis>> {};
 
-// The controller's own homing, which takes off what a nominal chain would stretch, is 110 to 135
-// counts off on these.
+// The controller's own homing, which takes off what a nominal transmission would stretch, is 110 to
+// 135 counts off on these.
 TEST_P(SwitchesOfDrawnMachines, AreFoundWithinTenCounts) {
   const auto [number, axis] = GetParam();
   const auto bench = drawn(number);
@@ -109,7 +109,7 @@ TEST(SafeRange, TellsHowWellAnEdgeIsKnownThatMeetsTheCarriageInASlip) {
   EXPECT_TRUE(judged[0].covered && judged[0].narrow) << judged[0].error_pct << " %";
 }
 
-TEST(SafeRange, TellsAWideIntervalWhereTheChainIsOnlyBelieved) {
+TEST(SafeRange, TellsAWideIntervalWhereTheTransmissionIsOnlyBelieved) {
   const auto bench = drawn(2);
   const Machine machine(bench.rig, bench.controller, 1);
   const auto outcome = safe_range()->run(
@@ -152,9 +152,9 @@ TEST(Tuning, GoesOnWhereAnAmplitudeDoesNotSettleOrALoopIsTooSoft) {
   }
 }
 
-// Their chains are stiffer than believed: at 0.3 m/s the controller's guard took a motor that was
-// held by the swing for one whose encoder is frozen, fault 310.
-TEST(TorqueSpeedMap, IsFoundWhereTheBelievedChainWouldTripTheGuard) {
+// Their transmissions are stiffer than believed: at 0.3 m/s the controller's guard took a motor
+// that was held by the swing for one whose encoder is frozen, fault 310.
+TEST(TorqueSpeedMap, IsFoundWhereTheBelievedTransmissionWouldTripTheGuard) {
   for (const std::uint64_t number : {7U, 8U}) {
     const auto bench = drawn(number);
     const Machine machine(bench.rig, bench.controller, 1);
@@ -201,7 +201,7 @@ TEST(Tuning, PolesPlacedOnADrawnMachinesModelDriveIt) {
 Estimates before_pulses(const harness::RigFixture& rig, Axis axis, std::vector<double> places_m) {
   const auto& plant = rig.parameters.axes[axis].plant;
   auto known = drive_of(rig, axis);
-  known.push_back(within("swing_Hz", axis, 0.992 * plant.chain.resonance_Hz, 1e-2));
+  known.push_back(within("swing_Hz", axis, 0.992 * plant.elasticity.resonance_Hz, 1e-2));
   known.push_back(within("mechanical_time_constant_s", axis,
                          plant.inertia_kg_m2 / plant.viscous_friction_Nm_s_per_rad, 1e-2));
   known.push_back(
@@ -242,11 +242,11 @@ TEST_P(PulsesOfDrawnMachines, ShowTheTwoMassModel) {
   }
 }
 
-// y6: a chain so slow that the motor's swing took it past the voltage limit, where the supply's
-// sag, which no model here knows, left 8 counts. y7: from the believed inertia the search ended
-// beside the swing, with 26 counts. y9: friction's bend was found 3 mm beside where it is, which
-// left 2.1 counts. x8: friction is the same all along, and a part of it taken for the place's sent
-// the search to a wrong Stribeck speed.
+// y6: a transmission so slow that the motor's swing took it past the voltage limit, where the
+// supply's sag, which no model here knows, left 8 counts. y7: from the believed inertia the search
+// ended beside the swing, with 26 counts. y9: friction's bend was found 3 mm beside where it is,
+// which left 2.1 counts. x8: friction is the same all along, and a part of it taken for the place's
+// sent the search to a wrong Stribeck speed.
 INSTANTIATE_TEST_SUITE_P(Each, PulsesOfDrawnMachines,
                          testing::Values(Pulsed{6, Axis::kY, {0.35, 1.976, 3.3}},
                                          Pulsed{7, Axis::kY, {0.35, 1.976, 3.3}},

@@ -51,7 +51,7 @@ Estimates as_if_found(const harness::RigFixture& rig) {
     add("amplifier_gain_A_per_V", plant.amplifier_gain_A_per_V);
     add("inertia_kg_m2", plant.inertia_kg_m2);
     add("viscous_friction_Nm_s_per_rad", plant.viscous_friction_Nm_s_per_rad);
-    add("chain_resonance_Hz", plant.chain.resonance_Hz);
+    add("transmission_resonance_Hz", plant.elasticity.resonance_Hz);
     add("coulomb_friction_Nm", plant.coulomb_friction_Nm);
     add("friction_common_Nm", plant.coulomb_friction_Nm);
     add("friction_carriage_share", plant.friction.carriage_share);

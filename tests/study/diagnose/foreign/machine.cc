@@ -113,7 +113,7 @@ study::diagnose::NominalModel nominal_model(const Machine& machine) {
   model.viscous_N_s_per_m = machine.viscous_N_s_per_m;
   model.coulomb_N = machine.coulomb_N;
   model.metres_per_motor_rad = machine.metres_per_motor_rad;
-  model.sprocket_radius_m = machine.sprocket_radius_m;
+  model.output_radius_m = machine.sprocket_radius_m;
   model.metres_per_count = machine.metres_per_count;
   model.newton_per_duty_pct = machine.input == "duty" ? machine.newton_per_unit : 0;
   model.newton_per_volt = machine.input == "volt" ? machine.newton_per_unit : 0;
@@ -122,10 +122,11 @@ study::diagnose::NominalModel nominal_model(const Machine& machine) {
   model.rotary = machine.kind == "joint";
   if (machine.chain_Hz > 0) {
     const double pulsation = kTurn * machine.chain_Hz;
-    model.chain.motor_kg = machine.motor_share * machine.mass_kg;
-    model.chain.stiffness_N_per_m = machine.reduced_kg() * pulsation * pulsation;
-    model.chain.damping_N_s_per_m = 2 * machine.chain_damping * machine.reduced_kg() * pulsation;
-    model.chain.load_share = machine.load_friction;
+    model.transmission.motor_kg = machine.motor_share * machine.mass_kg;
+    model.transmission.stiffness_N_per_m = machine.reduced_kg() * pulsation * pulsation;
+    model.transmission.damping_N_s_per_m =
+        2 * machine.chain_damping * machine.reduced_kg() * pulsation;
+    model.transmission.load_share = machine.load_friction;
   }
   return model;
 }

@@ -64,7 +64,7 @@ std::string plant_of(const Machine& m) {
       m.chain_Hz, m.motor_share, m.mass_kg, m.viscous_N_s_per_m, m.coulomb_N, m.limit_N() / 10,
       gear, radius, 1 / m.metres_per_count);
   if (m.chain_Hz > 0) {
-    text += fmt::format("[axis.y.chain]\nresonance_Hz = {:.9g}\ndamping_ratio = {:.6g}\n",
+    text += fmt::format("[axis.y.elasticity]\nresonance_Hz = {:.9g}\ndamping_ratio = {:.6g}\n",
                         m.chain_Hz, m.chain_damping);
   }
   return text;

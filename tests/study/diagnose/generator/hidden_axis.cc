@@ -148,12 +148,13 @@ class Body {
     const double damper = 2 * damping * load * kTurn * frequency;
     const double stretch = s_.x_m - load_m_;
     const double past = std::abs(stretch) <= gap ? 0 : stretch - std::copysign(gap, stretch);
-    const double chain = past == 0 ? 0 : stiffness * past + damper * (s_.v_m_per_s - load_v_);
+    const double transmission =
+        past == 0 ? 0 : stiffness * past + damper * (s_.v_m_per_s - load_v_);
     const double vm = s_.v_m_per_s;
     const double vl = load_v_;
-    s_.v_m_per_s = slide(vm, push - chain, motor, 0.35 * axis_.coulomb_N + hidden,
+    s_.v_m_per_s = slide(vm, push - transmission, motor, 0.35 * axis_.coulomb_N + hidden,
                          0.35 * axis_.viscous_N_s_per_m);
-    load_v_ = slide(vl, chain, load, 0.65 * axis_.coulomb_N, 0.65 * axis_.viscous_N_s_per_m);
+    load_v_ = slide(vl, transmission, load, 0.65 * axis_.coulomb_N, 0.65 * axis_.viscous_N_s_per_m);
     s_.x_m += 0.5 * kStep_s * (vm + s_.v_m_per_s);
     load_m_ += 0.5 * kStep_s * (vl + load_v_);
   }

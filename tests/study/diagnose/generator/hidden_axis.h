@@ -19,7 +19,7 @@ struct HiddenAxis {
   double newton_per_duty_pct = 0.6911;
   double counts_per_m = 445345.0;
   double motor_turns_per_m = 111.336;
-  double sprocket_radius_m = 0.050;
+  double output_radius_m = 0.050;
   double duration_s = 30;
   double period_s = 1e-3;
   double duty_step_pct = 0.1;

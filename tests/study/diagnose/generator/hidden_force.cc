@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kForceTurn = 2 * std::numbers::pi;
 constexpr double kMotorTurnsPerMetre = 111.336;
-constexpr double kSprocket_m = 0.05;
+constexpr double kWheel_m = 0.05;
 constexpr double kDuration_s = 30;
 
 constexpr auto kHiddenEffects = std::to_array<HiddenEffectRow>({
@@ -88,14 +88,14 @@ double HiddenForce::force_N(const BodyState& s) const {
     return size_ * 0.35 * std::cos(kForceTurn * (kMotorTurnsPerMetre * s.x_m + phase_));
   }
   if (is("sprocket_eccentricity")) {
-    return -size_ * 0.08 * s.drive_N * std::cos(s.x_m / kSprocket_m + kForceTurn * phase_);
+    return -size_ * 0.08 * s.drive_N * std::cos(s.x_m / kWheel_m + kForceTurn * phase_);
   }
   if (is("periodic_force"))
     return size_ * 0.3 * std::sin(kForceTurn * ((1.3 + 4 * phase_) * s.t_s));
   if (is("chain_polygon")) {
-    // x is the sprocket's; the carriage moves x + e sin(k x), so its mass feels e (a k cos - v^2
+    // x is the wheel's; the carriage moves x + e sin(k x), so its mass feels e (a k cos - v^2
     // k^2 sin).
-    const double k = 19 / kSprocket_m;
+    const double k = 19 / kWheel_m;
     const double angle = k * s.x_m + kForceTurn * phase_;
     const double e = size_ * 6e-5;
     return -8.387 * e *

@@ -6,11 +6,11 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "study/identify/tow/chain_swing.h"
 #include "study/identify/tow/curved_tow.h"
 #include "study/identify/tow/drive_scale.h"
 #include "study/identify/tow/sinusoidal_tow.h"
 #include "study/identify/tow/spectral_line.h"
+#include "study/identify/tow/transmission_swing.h"
 #include "study/identify/tow/yaw_drag.h"
 
 namespace towbench::study::identify {
@@ -68,10 +68,11 @@ TEST(YawDrag, TellsDragAlongAndAcrossTheBodyApart) {
   EXPECT_FALSE(yaw_drag(std::span(points).first(1))) << "one angle along the axis says nothing";
 }
 
-// The carriage on a chain of its own, integrated by Runge and Kutta: what the force sensor below it
-// feels while a motor goes round a circle or to and fro. Friction turns round with the carriage.
+// The carriage on a transmission of its own, integrated by Runge and Kutta: what the force sensor
+// below it feels while a motor goes round a circle or to and fro. Friction turns round with the
+// carriage.
 struct Towed {
-  double chain_rad_per_s = 25.9;
+  double transmission_rad_per_s = 25.9;
   double mass_kg = 6.6;
   double friction_N = 1.7;
   double load_kg = 0.4;
@@ -79,17 +80,17 @@ struct Towed {
   double drag = 0;
 };
 
-class ChainedCarriage {
+class TransmissionedCarriage {
  public:
-  explicit ChainedCarriage(const Towed& towed) : t_(towed) {}
+  explicit TransmissionedCarriage(const Towed& towed) : t_(towed) {}
 
   // `motor`: place and speed; `across`: the other axis's speed, for |v|. Returns the force.
   template <typename Motor>
   double step(double time_s, const Motor& motor, double across) {
     const auto rates = [&](double time, const std::array<double, 2>& s) {
       const auto [place, speed] = motor(time);
-      const double k = t_.mass_kg * t_.chain_rad_per_s * t_.chain_rad_per_s;
-      const double c = 0.05 * t_.mass_kg * t_.chain_rad_per_s;
+      const double k = t_.mass_kg * t_.transmission_rad_per_s * t_.transmission_rad_per_s;
+      const double c = 0.05 * t_.mass_kg * t_.transmission_rad_per_s;
       const double force = k * (place - s[0]) + c * (speed - s[1]) -
                            t_.friction_N * std::tanh(s[1] / 1e-3) -
                            t_.drag * std::hypot(s[1], across) * s[1];
@@ -138,8 +139,8 @@ Recording circle(const Towed& y, const Towed& x, double seconds, std::uint64_t s
   constexpr double kRadius = 0.2;
   core::Random random(seed);
   auto run = empty_recording();
-  ChainedCarriage along(y);
-  ChainedCarriage across(x);
+  TransmissionedCarriage along(y);
+  TransmissionedCarriage across(x);
   const auto motor_y = [](double t) {
     return std::pair{-kRadius * (std::cos(kRate * t) - 1), kRadius * kRate * std::sin(kRate * t)};
   };
@@ -161,7 +162,7 @@ Recording circle(const Towed& y, const Towed& x, double seconds, std::uint64_t s
   return run;
 }
 
-constexpr Towed kStiff{.chain_rad_per_s = 111, .mass_kg = 0.95, .friction_N = 1.2};
+constexpr Towed kStiff{.transmission_rad_per_s = 111, .mass_kg = 0.95, .friction_N = 1.2};
 
 Towed in_water(Towed dry) {
   dry.added_kg = 0.5;
@@ -169,18 +170,18 @@ Towed in_water(Towed dry) {
   return dry;
 }
 
-core::PerPlanarAxis<CarriageChain> chains(double y_rad_per_s, double x_rad_per_s) {
-  core::PerPlanarAxis<CarriageChain> chain;
-  chain[Axis::kY] = {.rate_rad_per_s = y_rad_per_s, .mass_kg = 6.6};
-  chain[Axis::kX] = {.rate_rad_per_s = x_rad_per_s, .mass_kg = 0.95};
-  return chain;
+core::PerPlanarAxis<CarriageTransmission> transmissions(double y_rad_per_s, double x_rad_per_s) {
+  core::PerPlanarAxis<CarriageTransmission> transmission;
+  transmission[Axis::kY] = {.rate_rad_per_s = y_rad_per_s, .mass_kg = 6.6};
+  transmission[Axis::kX] = {.rate_rad_per_s = x_rad_per_s, .mass_kg = 0.95};
+  return transmission;
 }
 
 TEST(CurvedForce, KnowsThatTheCarriageGoesFurtherThanItsMotor) {
   const auto out = circle({}, kStiff, 38.0, 1);
   const auto in = circle(in_water({}), in_water(kStiff), 38.0, 2);
-  const auto chain = chains(25.9, 111);
-  const auto drag = curved_force(in, out, chain);
+  const auto transmission = transmissions(25.9, 111);
+  const auto drag = curved_force(in, out, transmission);
   ASSERT_TRUE(drag);
   EXPECT_EQ(drag->turns, 8U);
   EXPECT_NEAR(drag->quadratic_drag_N_s2_per_m2.value, 8.78, 0.002 * 8.78);
@@ -190,18 +191,19 @@ TEST(CurvedForce, KnowsThatTheCarriageGoesFurtherThanItsMotor) {
   }
   EXPECT_NEAR(drag->added_mass_kg.value, 0.5, 0.01);
   // A motor taken for the carriage: the drag of Y comes out too high.
-  const auto rigid = chains(1e4, 1e4);
+  const auto rigid = transmissions(1e4, 1e4);
   const auto blind = curved_force(in, out, rigid);
   ASSERT_TRUE(blind);
   EXPECT_GT(blind->along_axis_N_s2_per_m2[Axis::kY].value, 1.004 * 8.78);
-  EXPECT_FALSE(curved_force(in, circle({}, kStiff, 9.0, 3), chain)) << "one turn is no repeat";
+  EXPECT_FALSE(curved_force(in, circle({}, kStiff, 9.0, 3), transmission))
+      << "one turn is no repeat";
 }
 
 Recording swing(const Towed& towed, double frequency_Hz, std::uint64_t seed) {
   const double rate = kTurn * frequency_Hz;
   core::Random random(seed);
   auto run = empty_recording();
-  ChainedCarriage carriage(towed);
+  TransmissionedCarriage carriage(towed);
   const auto motor = [rate](double t) {
     return std::pair{-0.15 * (std::cos(rate * t) - 1), 0.15 * rate * std::sin(rate * t)};
   };
@@ -216,11 +218,11 @@ Recording swing(const Towed& towed, double frequency_Hz, std::uint64_t seed) {
   return run;
 }
 
-TEST(SinusoidalForce, FindsDragAndAddedMassBehindAChain) {
-  const CarriageChain chain{.rate_rad_per_s = 25.9, .mass_kg = 6.6};
+TEST(SinusoidalForce, FindsDragAndAddedMassBehindATransmission) {
+  const CarriageTransmission transmission{.rate_rad_per_s = 25.9, .mass_kg = 6.6};
   const auto in = swing(in_water({}), 0.46, 4);
   const auto out = swing({}, 0.46, 5);
-  const auto found = sinusoidal_force(in, out, Axis::kY, chain, 2);
+  const auto found = sinusoidal_force(in, out, Axis::kY, transmission, 2);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->added_mass_kg.value, 0.5, 0.005);
   EXPECT_NEAR(found->quadratic_drag_N_s2_per_m2.value, 8.78, 0.004 * 8.78);
@@ -231,7 +233,7 @@ TEST(SinusoidalForce, FindsDragAndAddedMassBehindAChain) {
 }
 
 // A weight sets in while the motor gives way and comes back.
-TEST(ChainSwing, IsThatOfAHeldMotorThoughTheMotorGivesWay) {
+TEST(TransmissionSwing, IsThatOfAHeldMotorThoughTheMotorGivesWay) {
   core::Random random(6);
   auto run = empty_recording();
   double place = 0;
@@ -255,12 +257,12 @@ TEST(ChainSwing, IsThatOfAHeldMotorThoughTheMotorGivesWay) {
     run.time_s.push_back(now);
     add_row(run, Axis::kY, motor(now), 0, -16.0 - 0.4 * acceleration + 0.02 * random.gaussian());
   }
-  const auto found = chain_swing(run, Axis::kY, 0.03, 2.0);
+  const auto found = transmission_swing(run, Axis::kY, 0.03, 2.0);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->rate_rad_per_s, kRate, 0.1);
   EXPECT_NEAR(found->rate_rad_per_s, kRate, 4 * found->deviation);
   EXPECT_LT(found->deviation, 0.1);
-  EXPECT_FALSE(chain_swing(run, Axis::kY, 1.9, 2.5)) << "too short";
+  EXPECT_FALSE(transmission_swing(run, Axis::kY, 1.9, 2.5)) << "too short";
 }
 
 TEST(YawDrag, KnowsThatAllAnglesShareTheRunsOutOfTheWater) {

@@ -68,19 +68,19 @@ INSTANTIATE_TEST_SUITE_P(AllOnThreeMachines, TowExperiment,
                          });
 
 // The motor held, the carriage swings at the resonance times the root of the rotor's share of the
-// inertia. Machine 4 is light and its chain soft: at 0.1 m/s the weight turned it round.
-TEST(WeighedDrive, TellsTheChainOfALightCarriageThatSwingsFar) {
+// inertia. Machine 4 is light and its transmission soft: at 0.1 m/s the weight turned it round.
+TEST(WeighedDrive, TellsTheTransmissionOfALightCarriageThatSwingsFar) {
   const auto rig = machine(4);
   const auto& plant = rig.parameters.axes[core::Axis::kY].plant;
-  const double held_rad_per_s = 2 * std::numbers::pi * plant.chain.resonance_Hz *
+  const double held_rad_per_s = 2 * std::numbers::pi * plant.elasticity.resonance_Hz *
                                 std::sqrt(plant.rotor_inertia_kg_m2 / plant.inertia_kg_m2);
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const TowLoads loads(rig, controller(), seed, "fixtures/rigs");
     const auto weighed = procedures::weigh_drive(loads.with({}), core::Axis::kY, {});
     ASSERT_EQ(weighed.trouble, "");
-    EXPECT_NEAR(weighed.chain.rate_rad_per_s / held_rad_per_s, 1.0, 0.03);
-    EXPECT_GT(weighed.chain.deviation, 0.005);
-    EXPECT_LT(weighed.chain.deviation, 0.03);
+    EXPECT_NEAR(weighed.transmission.rate_rad_per_s / held_rad_per_s, 1.0, 0.03);
+    EXPECT_GT(weighed.transmission.deviation, 0.005);
+    EXPECT_LT(weighed.transmission.deviation, 0.03);
   }
 }
 

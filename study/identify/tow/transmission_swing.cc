@@ -1,4 +1,4 @@
-#include "study/identify/tow/chain_swing.h"
+#include "study/identify/tow/transmission_swing.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -108,8 +108,8 @@ double coarse_rate(const Window& window) {
 
 }  // namespace
 
-std::optional<ChainSwing> chain_swing(const Recording& run, core::Axis axis, double from_s,
-                                      double to_s) {
+std::optional<TransmissionSwing> transmission_swing(const Recording& run, core::Axis axis,
+                                                    double from_s, double to_s) {
   const auto window = window_of(run, axis, from_s, to_s);
   if (!window) {
     return std::nullopt;
@@ -138,7 +138,7 @@ std::optional<ChainSwing> chain_swing(const Recording& run, core::Axis axis, dou
   }
   const Eigen::Matrix2d covariance =
       variance * inverse(cost.jacobian().transpose() * cost.jacobian());
-  return ChainSwing{p(0), std::sqrt(covariance(0, 0)), p(1)};
+  return TransmissionSwing{p(0), std::sqrt(covariance(0, 0)), p(1)};
 }
 
 }  // namespace towbench::study::identify

@@ -1,5 +1,5 @@
-// The swing of the carriage on its chain, from what the force sensor feels after a load was changed
-// at once (a weight over a pulley) during a steady tow.
+// The swing of the carriage on its transmission, from what the force sensor feels after a load was
+// changed at once (a weight over a pulley) during a steady tow.
 //
 // The load hangs below the carriage, x, so the sensor feels -m x'' beside the new load; and
 //
@@ -16,7 +16,7 @@
 
 namespace towbench::study::identify {
 
-struct ChainSwing {
+struct TransmissionSwing {
   double rate_rad_per_s = 0;  // w
   double deviation = 0;       // standard deviation of `rate_rad_per_s`
   double damping_per_s = 0;   // d
@@ -25,7 +25,8 @@ struct ChainSwing {
 // Where the load has changed and the carriage no longer reverses, until little of the swing is
 // left. Empty when the times are not in the recording, there is no force sensor, or no swing is
 // seen.
-[[nodiscard]] std::optional<ChainSwing> chain_swing(const Recording& run, core::Axis axis,
-                                                    double from_s, double to_s);
+[[nodiscard]] std::optional<TransmissionSwing> transmission_swing(const Recording& run,
+                                                                  core::Axis axis, double from_s,
+                                                                  double to_s);
 
 }  // namespace towbench::study::identify

@@ -1,4 +1,4 @@
-#include "study/procedures/chain.h"
+#include "study/procedures/sequence.h"
 
 #include <algorithm>
 #include <chrono>
@@ -13,12 +13,13 @@
 namespace towbench::study::procedures {
 namespace {
 
-std::filesystem::path kept_file(const ChainOptions& options, const Procedure& procedure,
+std::filesystem::path kept_file(const SequenceOptions& options, const Procedure& procedure,
                                 core::Axis axis) {
   return options.out / "done" / fmt::format("{}-{}.json", core::name_of(axis), procedure.id());
 }
 
-std::optional<ProcedureOutcome> kept(const ChainOptions& options, const std::filesystem::path& file,
+std::optional<ProcedureOutcome> kept(const SequenceOptions& options,
+                                     const std::filesystem::path& file,
                                      const std::string& fingerprint) {
   if (!options.resume || options.out.empty()) {
     return std::nullopt;
@@ -31,9 +32,9 @@ std::optional<ProcedureOutcome> kept(const ChainOptions& options, const std::fil
   }
 }
 
-ChainStep run_one(const Machine& machine, const Procedure& procedure, core::Axis axis,
-                  const ChainOptions& options, const identify::Estimates& known) {
-  ChainStep step{.id = std::string(procedure.id()), .title = std::string(procedure.title())};
+SequenceStep run_one(const Machine& machine, const Procedure& procedure, core::Axis axis,
+                     const SequenceOptions& options, const identify::Estimates& known) {
+  SequenceStep step{.id = std::string(procedure.id()), .title = std::string(procedure.title())};
   step.axis = axis;
   const auto settings = options.settings / (step.id + ".toml");
   // What it was found with: this program, machine, settings, and what was known before.
@@ -75,10 +76,10 @@ ChainStep run_one(const Machine& machine, const Procedure& procedure, core::Axis
 
 }  // namespace
 
-ChainResult run_chain(const Machine& machine,
-                      const std::vector<std::unique_ptr<Procedure>>& procedures,
-                      const ChainOptions& options) {
-  ChainResult result;
+SequenceResult run_sequence(const Machine& machine,
+                            const std::vector<std::unique_ptr<Procedure>>& procedures,
+                            const SequenceOptions& options) {
+  SequenceResult result;
   for (const auto& procedure : procedures) {
     const auto& only = options.only;
     if (!only.empty() && std::find(only.begin(), only.end(), procedure->id()) == only.end()) {

@@ -1,14 +1,14 @@
-#include "emulator/plant/sprocket.h"
+#include "emulator/plant/wheel.h"
 
 #include <numbers>
 
 namespace towbench::emulator {
 
-Sprocket::Sprocket(const AxisParameters& axis) noexcept
-    : radius_m_(axis.sprocket_radius_m),
-      teeth_(axis.disturbances.sprocket.teeth),
-      eccentricity_m_(axis.disturbances.sprocket.eccentricity_m),
-      phase_turns_(axis.disturbances.sprocket.eccentricity_phase_deg / 360.0),
+Wheel::Wheel(const AxisParameters& axis) noexcept
+    : radius_m_(axis.output_radius_m),
+      teeth_(axis.disturbances.wheel.teeth),
+      eccentricity_m_(axis.disturbances.wheel.eccentricity_m),
+      phase_turns_(axis.disturbances.wheel.eccentricity_phase_deg / 360.0),
       sine_of_phase_(core::sine_cosine_of_turns(phase_turns_).sine),
       turns_per_rad_(1.0 / (2.0 * std::numbers::pi * axis.gear_ratio)),
       per_gear_(1.0 / axis.gear_ratio) {

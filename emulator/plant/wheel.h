@@ -1,4 +1,4 @@
-// How much more chain a real sprocket pays out than a true circle of radius R, at motor angle
+// How much more transmission a real wheel pays out than a true circle of radius R, at motor angle
 // theta = n phi:
 //
 //   delta(theta) = e (sin(phi + phi_0) - sin(phi_0))                    eccentric by e
@@ -6,9 +6,9 @@
 //                                                                       polygon of N teeth
 //   R_p = R (pi/N) / sin(pi/N): N chords are as long as a circle of radius R
 //
-// The chain's stretch is r theta + delta(theta) - x, and by virtual work its force acts on the
-// motor with lever r + delta'(theta): speed and torque ripple are one law. Chordal action is
-// textbook kinematics of chain drives.
+// The transmission's stretch is r theta + delta(theta) - x, and by virtual work its force acts on
+// the motor with lever r + delta'(theta): speed and torque ripple are one law. Chordal action is
+// textbook kinematics of transmission drives.
 #pragma once
 
 #include "emulator/plant/axis_parameters.h"
@@ -16,9 +16,9 @@
 
 namespace towbench::emulator {
 
-class Sprocket {
+class Wheel {
  public:
-  explicit Sprocket(const AxisParameters& axis) noexcept;
+  explicit Wheel(const AxisParameters& axis) noexcept;
 
   struct Excess {
     double offset_m = 0;         // delta
@@ -69,7 +69,7 @@ class Sprocket {
   double eccentricity_m_;
   double phase_turns_;
   double sine_of_phase_;
-  double turns_per_rad_;  // of the sprocket, a radian of motor
+  double turns_per_rad_;  // of the wheel, a radian of motor
   double per_gear_;       // 1/n
 };
 

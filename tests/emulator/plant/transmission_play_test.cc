@@ -1,5 +1,5 @@
-// Gear backlash, chain slack and pre-tension: how far the motor turns for what force, and that a
-// gap takes no energy.
+// Gear backlash, transmission slack and pre-tension: how far the motor turns for what force, and
+// that a gap takes no energy.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,7 +18,7 @@ AxisParameters held_carriage() {
   AxisParameters axis;
   axis.friction.carriage_share = 1.0;
   axis.friction.breakaway_Nm = 0.2;
-  axis.chain.damping_ratio = 0.5;
+  axis.elasticity.damping_ratio = 0.5;
   return axis;
 }
 
@@ -26,66 +26,66 @@ double stiffness_N_per_m(const AxisParameters& axis) {
   const double r = radius_of(axis);
   const double motor_kg = axis.rotor_inertia_kg_m2 / (r * r);
   const double carriage_kg = (axis.inertia_kg_m2 - axis.rotor_inertia_kg_m2) / (r * r);
-  return std::pow(2 * std::numbers::pi * axis.chain.resonance_Hz, 2) * motor_kg * carriage_kg /
+  return std::pow(2 * std::numbers::pi * axis.elasticity.resonance_Hz, 2) * motor_kg * carriage_kg /
          (motor_kg + carriage_kg);
 }
 
-// Chain paid out when the motor pulls with this force and has come to rest.
+// Transmission paid out when the motor pulls with this force and has come to rest.
 double stretch_under_m(const AxisParameters& axis, double force_N) {
   EXPECT_EQ(emulator::inconsistency(axis), nullptr);
   Bench bench(axis, 1.0);
   bench.ask_current(axis, force_N * radius_of(axis) / axis.torque_constant_Nm_per_A);
   bench.run(60.0);
   EXPECT_NEAR(bench.plant.state().motor_speed_rad_per_s, 0.0, 1e-9);
-  EXPECT_NEAR(bench.plant.forces().chain_force_N, force_N, 1e-6);
+  EXPECT_NEAR(bench.plant.forces().transmission_force_N, force_N, 1e-6);
   EXPECT_TRUE(bench.plant.forces().carriage_sticks);
   return radius_of(axis) * bench.plant.state().motor_angle_rad - bench.plant.state().carriage_m;
 }
 
-TEST(ChainPlay, BacklashIsLostMotionOfItsAngleAtTheOutput) {
+TEST(TransmissionPlay, BacklashIsLostMotionOfItsAngleAtTheOutput) {
   AxisParameters axis = held_carriage();
   axis.gear.backlash_deg = 0.35;
   const double spring_m = 2.0 / stiffness_N_per_m(axis);
   const double lost_m = stretch_under_m(axis, 2.0) - stretch_under_m(axis, -2.0) - 2 * spring_m;
-  EXPECT_NEAR(lost_m, 0.35 * std::numbers::pi / 180 * axis.sprocket_radius_m, 1e-8);
+  EXPECT_NEAR(lost_m, 0.35 * std::numbers::pi / 180 * axis.output_radius_m, 1e-8);
   EXPECT_NEAR(lost_m, 0.31e-3, 0.01e-3);  // docs/reference/constants.md
 }
 
-TEST(ChainPlay, ASlackChainHangsOnOneStrandOfHalfTheStiffness) {
+TEST(TransmissionPlay, ASlackTransmissionHangsOnOneStrandOfHalfTheStiffness) {
   AxisParameters axis = held_carriage();
-  axis.chain.slack_m = 2e-3;
+  axis.elasticity.slack_m = 2e-3;
   const double expected_m = 1e-3 + 3.0 / (0.5 * stiffness_N_per_m(axis));
   EXPECT_NEAR(stretch_under_m(axis, 3.0), expected_m, 1e-8);
   EXPECT_NEAR(stretch_under_m(axis, -3.0), -expected_m, 1e-8);
 }
 
-TEST(ChainPlay, APretensionedChainSoftensWhenAStrandHasGoneSlack) {
+TEST(TransmissionPlay, APretensionedTransmissionSoftensWhenAStrandHasGoneSlack) {
   AxisParameters axis = held_carriage();
-  axis.chain.pretension_N = 2.0;
+  axis.elasticity.pretension_N = 2.0;
   const double k = stiffness_N_per_m(axis);
   EXPECT_NEAR(stretch_under_m(axis, 3.0), 3.0 / k, 1e-8);  // below twice the pre-tension
   EXPECT_NEAR(stretch_under_m(axis, 6.0), 4.0 / k + 2.0 / (0.5 * k), 1e-8);
   EXPECT_NEAR(stretch_under_m(axis, -6.0), -(4.0 / k + 2.0 / (0.5 * k)), 1e-8);
 }
 
-TEST(ChainPlay, BacklashAndSlackAddUpToOneGap) {
+TEST(TransmissionPlay, BacklashAndSlackAddUpToOneGap) {
   AxisParameters axis = held_carriage();
   axis.gear.backlash_deg = 0.35;
-  axis.chain.slack_m = 1e-3;
-  const double gap_m = 1e-3 + 0.35 * std::numbers::pi / 180 * axis.sprocket_radius_m;
+  axis.elasticity.slack_m = 1e-3;
+  const double gap_m = 1e-3 + 0.35 * std::numbers::pi / 180 * axis.output_radius_m;
   EXPECT_NEAR(stretch_under_m(axis, 1.0), 0.5 * gap_m + 2.0 / stiffness_N_per_m(axis), 1e-8);
 }
 
 // Kinetic and elastic, of an axis without any loss that rattles in its gap.
-TEST(ChainPlay, AGapWithoutLossesKeepsItsEnergyThroughEveryContact) {
+TEST(TransmissionPlay, AGapWithoutLossesKeepsItsEnergyThroughEveryContact) {
   AxisParameters axis = linear_axis();
   axis.viscous_friction_Nm_s_per_rad = 0;
-  axis.chain.damping_ratio = 0;
+  axis.elasticity.damping_ratio = 0;
   axis.gear.backlash_deg = 0.35;
-  axis.chain.pretension_N = 3.0;
+  axis.elasticity.pretension_N = 3.0;
   const double r = radius_of(axis);
   const double k = stiffness_N_per_m(axis);
-  const double gap_m = 0.5 * 0.35 * std::numbers::pi / 180 * axis.sprocket_radius_m;
+  const double gap_m = 0.5 * 0.35 * std::numbers::pi / 180 * axis.output_radius_m;
   const double mass = (axis.inertia_kg_m2 - axis.rotor_inertia_kg_m2) / (r * r);
   Bench bench(axis, 0);
   bench.input = {.carriage_force_N = 20.0};
@@ -95,7 +95,7 @@ TEST(ChainPlay, AGapWithoutLossesKeepsItsEnergyThroughEveryContact) {
   const auto energy_J = [&] {
     const auto s = bench.plant.state();
     const double pull_m = std::max(std::abs(r * s.motor_angle_rad - s.carriage_m) - gap_m, 0.0);
-    const double both_m = std::min(pull_m, 2 * axis.chain.pretension_N / k);
+    const double both_m = std::min(pull_m, 2 * axis.elasticity.pretension_N / k);
     const double past_m = pull_m - both_m;  // on one strand
     return 0.5 * axis.rotor_inertia_kg_m2 * std::pow(s.motor_speed_rad_per_s, 2) +
            0.5 * mass * std::pow(s.carriage_speed_m_per_s, 2) + 0.5 * k * both_m * both_m +
@@ -111,11 +111,11 @@ TEST(ChainPlay, AGapWithoutLossesKeepsItsEnergyThroughEveryContact) {
   EXPECT_GT(events, 100U);
 }
 
-TEST(ChainPlay, AContactPushesAndNeverPulls) {
+TEST(TransmissionPlay, AContactPushesAndNeverPulls) {
   AxisParameters axis = nominal_y();
   axis.gear.backlash_deg = 0.35;
-  axis.chain.damping_ratio = 0.5;
-  const double gap_m = 0.5 * 0.35 * std::numbers::pi / 180 * axis.sprocket_radius_m;
+  axis.elasticity.damping_ratio = 0.5;
+  const double gap_m = 0.5 * 0.35 * std::numbers::pi / 180 * axis.output_radius_m;
   Bench bench(axis, 2.0);
   int open = 0;
   for (int k = 0; k < 100000; ++k) {
@@ -123,7 +123,7 @@ TEST(ChainPlay, AContactPushesAndNeverPulls) {
     bench.tick();
     const auto s = bench.plant.state();
     const double stretch_m = radius_of(axis) * s.motor_angle_rad - s.carriage_m;
-    const double force_N = bench.plant.forces().chain_force_N;
+    const double force_N = bench.plant.forces().transmission_force_N;
     if (std::abs(stretch_m) < gap_m) {
       ++open;
       ASSERT_EQ(force_N, 0.0);

@@ -1,5 +1,6 @@
-// The whole chain, unattended: every procedure on every axis, each with what those before it found.
-// What is done stands in the folder, so that an interrupted chain continues where it stopped.
+// The whole sequence, unattended: every procedure on every axis, each with what those before it
+// found. What is done stands in the folder, so that an interrupted sequence continues where it
+// stopped.
 #pragma once
 
 #include <atomic>
@@ -13,7 +14,7 @@
 
 namespace towbench::study::procedures {
 
-struct ChainOptions {
+struct SequenceOptions {
   std::vector<std::string> only;  // ids; empty: all
   std::vector<core::Axis> axes{core::Axis::kY, core::Axis::kX};
   std::filesystem::path settings;  // folder of <id>.toml; a file that is absent means defaults
@@ -25,7 +26,7 @@ struct ChainOptions {
   const std::atomic<bool>* stop = nullptr;  // set from outside: nothing more is begun
 };
 
-struct ChainStep {
+struct SequenceStep {
   std::string id;
   std::string title;
   core::Axis axis = core::Axis::kY;
@@ -34,15 +35,15 @@ struct ChainStep {
   double wall_s = 0;
 };
 
-struct ChainResult {
-  std::vector<ChainStep> steps;
+struct SequenceResult {
+  std::vector<SequenceStep> steps;
   identify::Estimates estimates;  // of all that was done, in order
 };
 
 // Throws FixtureError for settings that cannot be used and std::runtime_error for a folder that
 // cannot be written.
-[[nodiscard]] ChainResult run_chain(const Machine& machine,
-                                    const std::vector<std::unique_ptr<Procedure>>& procedures,
-                                    const ChainOptions& options);
+[[nodiscard]] SequenceResult run_sequence(const Machine& machine,
+                                          const std::vector<std::unique_ptr<Procedure>>& procedures,
+                                          const SequenceOptions& options);
 
 }  // namespace towbench::study::procedures
