@@ -10,8 +10,8 @@ using protocol::InputLine;
 
 namespace {
 
-[[nodiscard]] Axis other_of_plane(Axis axis) noexcept {
-  return core::kPlanarAxes[axis == core::kPlanarAxes[0] ? 1 : 0];
+[[nodiscard]] bool carries(const RigAxes& axes, Axis below, Axis above) noexcept {
+  return axis_of(axes[above].carried_by) == below;
 }
 
 // Oldest first; changes of the same nanosecond keep their order. A handful at most.
@@ -107,11 +107,19 @@ void Rig::remove_drive() noexcept {
 }
 
 double Rig::cross_axis_force_N(Axis which) const noexcept {
-  const double ratio = parameters_.axes[which].cross_axis_force_ratio;
-  const RigAxis* neighbour = axis(other_of_plane(which));
-  return ratio == 0.0 || neighbour == nullptr
-             ? 0.0
-             : ratio * neighbour->plant().forces().transmission_force_N;
+  const RigAxes& nested = parameters_.axes;
+  const double ratio = nested[which].cross_axis_force_ratio;
+  if (ratio == 0.0) {
+    return 0.0;
+  }
+  double force_N = 0.0;
+  for (const Axis other : axes()) {
+    const RigAxis* neighbour = axis(other);
+    if (neighbour != nullptr && (carries(nested, other, which) || carries(nested, which, other))) {
+      force_N += neighbour->plant().forces().transmission_force_N;
+    }
+  }
+  return ratio * force_N;
 }
 
 void Rig::step() noexcept {
@@ -120,7 +128,7 @@ void Rig::step() noexcept {
                             (machine_lines_ & protocol::mask_of(InputLine::kKillSwitch)) != 0;
   const bool may_drive = supply_.ready() && !hardware_cut;
   core::PerAxis<double> cross_N{};
-  for (const Axis which : core::kPlanarAxes) {
+  for (const Axis which : axes()) {
     cross_N[which] = cross_axis_force_N(which);
   }
   if (water_) {

@@ -96,6 +96,52 @@ const char* inconsistency(const RigAxisParameters& axis) noexcept {
   return nullptr;
 }
 
+[[nodiscard]] bool rides_on_itself(const RigAxes& axes, core::Axis which) noexcept {
+  auto below = axis_of(axes[which].carried_by);
+  for (std::size_t steps = 0; below && *below != which && steps < core::kMostAxes; ++steps) {
+    below = axis_of(axes[*below].carried_by);
+  }
+  return below == which;
+}
+
+// What a sliding axis carries of sliding axes, each with what it carries itself.
+[[nodiscard]] double carried_kg(const RigAxes& axes, core::Axis which) noexcept {
+  double carried = 0.0;
+  for (const core::Axis other : core::kAllAxes) {
+    if (axes[other].exists && !axes[other].load_turns && axis_of(axes[other].carried_by) == which) {
+      carried += carriage_mass_kg(axes[other].plant);
+    }
+  }
+  return carried;
+}
+
+[[nodiscard]] const char* inconsistent_nesting(const RigAxes& axes) noexcept {
+  for (const core::Axis which : core::kAllAxes) {
+    const RigAxisParameters& axis = axes[which];
+    if (!axis.exists) {
+      continue;
+    }
+    const auto carrier = axis_of(axis.carried_by);
+    if (carrier && !axes[*carrier].exists) {
+      return "carried_by names an axis that the machine does not have";
+    }
+    if (rides_on_itself(axes, which)) {
+      return "carried_by: an axis rides on itself";
+    }
+    if (!axis.load_turns && carried_kg(axes, which) > carriage_mass_kg(axis.plant)) {
+      return "carried_by: an axis moves less than what it carries";
+    }
+    const bool is_nested =
+        carrier || std::any_of(axes.begin(), axes.end(), [&](const RigAxisParameters& other) {
+          return other.exists && axis_of(other.carried_by) == which;
+        });
+    if (axis.cross_axis_force_ratio != 0.0 && !is_nested) {
+      return "cross_axis_force_ratio is of an axis that is carried or carries another";
+    }
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 RigParameters::RigParameters() noexcept {
@@ -105,6 +151,7 @@ RigParameters::RigParameters() noexcept {
   x.plant = nominal_x_plant();
   x.plant.hard_ends.max_m = kXTravel_counts * metres_per_count(x);
   place_halls(x, kXHallMin_counts, kXHallMax_counts);
+  x.carried_by = Carrier::kY;
   for (const core::Axis further : core::kFurtherAxes) {
     axes[further].exists = false;
   }
@@ -128,10 +175,8 @@ const char* inconsistency(const RigParameters& rig) noexcept {
       return found;
     }
   }
-  for (const core::Axis which : core::kFurtherAxes) {
-    if (rig.axes[which].exists && rig.axes[which].cross_axis_force_ratio != 0.0) {
-      return "cross_axis_force_ratio is of axes y and x";
-    }
+  if (const char* found = inconsistent_nesting(rig.axes)) {
+    return found;
   }
   for (const core::Axis which : core::kPlanarAxes) {
     const RigAxisParameters& axis = rig.axes[which];

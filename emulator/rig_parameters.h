@@ -2,17 +2,20 @@
 // supply, one kill chain. SI inside; every default has its source in docs/reference/constants.md or
 // says "assumed".
 //
-// In the tow tank X rides on Y: the carriage of Y carries the X platform, motor and load, so Y's
-// inertia and friction include them (Table 7.4 was identified that way). X's platform moves along X
-// only, and the axes are orthogonal, so X's mass loads Y but X's motion does not push Y (MACS-A-6);
-// what residual push there is, is `cross_axis_force_ratio`, zero by default. In symbols: the
+// An axis may ride on another (`carried_by`): the inertia and friction of the carrier include what
+// it carries. In the tow tank X rides on Y (Table 7.4 was identified that way). X's platform moves
+// along X only, and the axes are orthogonal, so X's mass loads Y but X's motion does not push Y
+// (MACS-A-6); what residual push there is, is `cross_axis_force_ratio`, zero by default. So the
 // kinetic energy 1/2 (M_carriage + M_platform) y'^2 + 1/2 M_platform x'^2 has no product x' y' and
 // depends on no position, so neither Coriolis nor position terms arise. The water is what couples
 // the two: a body moves through it with both velocities (water/water.h).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string_view>
 
 #include "core/axis.h"
 #include "core/parameter.h"
@@ -41,6 +44,20 @@ struct CommandPathParameters {
   }
 };
 
+// The axis that another one rides on.
+enum class Carrier : std::uint8_t { kNone, kY, kX, kZ, kA, kB, kC };
+
+[[nodiscard]] constexpr std::array<std::string_view, 1 + core::kMostAxes> names_of(
+    Carrier /*type*/) noexcept {
+  return {"none", "y", "x", "z", "a", "b", "c"};
+}
+
+[[nodiscard]] constexpr std::optional<core::Axis> axis_of(Carrier carrier) noexcept {
+  return carrier == Carrier::kNone
+             ? std::nullopt
+             : std::optional(core::kAllAxes[static_cast<std::size_t>(carrier) - 1]);
+}
+
 struct RigAxisParameters {
   bool exists = true;
   AxisParameters plant;
@@ -50,6 +67,7 @@ struct RigAxisParameters {
   HallParameters hall_max;
   CurrentMonitorParameters current_monitor;
   double start_m = 0.0;  // carriage at rest there at time 0, transmission relaxed
+  Carrier carried_by = Carrier::kNone;
   double cross_axis_force_ratio = 0.0;
   bool load_turns = false;  // read rad for m; no key: the plant's transmission says so
 
@@ -62,8 +80,11 @@ struct RigAxisParameters {
             "counts a motor turn, 4 x the encoder's lines");
     v.value("start_m", start_m, core::between(-1e4, 1e4),
             "carriage position at the start of the run");
-    v.value("cross_axis_force_ratio", cross_axis_force_ratio, core::between(-1.0, 1.0),
-            "share of the other axis's transmission force that pushes along this one");
+    v.value("carried_by", carried_by, core::any_finite(),
+            "axis that this one rides on, whose inertia includes what it carries");
+    v.value(
+        "cross_axis_force_ratio", cross_axis_force_ratio, core::between(-1.0, 1.0),
+        "share of the transmission force of carrier and carried axes that pushes along this one");
     v.group("encoder", encoder, "incremental encoder on the motor shaft");
     v.group("hall_min", hall_min, "end-stop sensor at the min end");
     v.group("hall_max", hall_max, "end-stop sensor at the max end");
@@ -115,7 +136,7 @@ struct RigAxes : core::PerAxis<RigAxisParameters> {
   template <typename Visitor>
   void visit(Visitor& v) {
     v.group("y", (*this)[core::Axis::kY], "along the tank");
-    v.group("x", (*this)[core::Axis::kX], "across the tank, on Y's carriage");
+    v.group("x", (*this)[core::Axis::kX], "across the tank");
     for (const core::Axis axis : core::kFurtherAxes) {
       if ((*this)[axis].exists) {
         v.group(core::name_of(axis), (*this)[axis], "an axis of its own");

@@ -47,7 +47,7 @@ struct towbench_plant_output {
 };
 
 struct towbench_plant_axis {
-  const char* name; /* "y", "x" */
+  const char* name; /* "y", "x", "z", "a", "b" or "c" */
   double start_m;   /* where the load rests at time 0 */
 };
 

@@ -9,6 +9,7 @@
 #include "harness/experiment/reference_table.h"
 #include "harness/experiment/reference_text.h"
 #include "harness/experiment/requirement_text.h"
+#include "harness/experiment/start_text.h"
 #include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/canonical_hash.h"
 #include "harness/metrics/metric.h"
@@ -172,28 +173,6 @@ Experiment read_script(TableReader& reader) {
   return experiment;
 }
 
-// Where the carriage stands at the start: of the experiment, not of the machine.
-void place_carriage(TableReader& reader, RigFixture& rig) {
-  auto start = reader.subtable("start");
-  if (!start) {
-    return;
-  }
-  for (const auto which : core::kAllAxes) {
-    auto& axis = rig.parameters.axes[which];
-    const auto key = std::string(core::name_of(which)) + "_m";
-    if (start->has(key) && !axis.exists) {
-      throw FixtureError(start->place_of(key), "the place of an axis that the rig lacks",
-                         "places of the rig's axes");
-    }
-    start->value(key, axis.start_m,
-                 core::between(axis.plant.hard_ends.min_m, axis.plant.hard_ends.max_m),
-                 "carriage position at time 0, between the hard ends");
-  }
-  start->finish();
-  rig.hash = canonical_hash(rig.parameters);
-  rig.parameters.fixture_hash = rig.hash;
-}
-
 void check_axes_agree(const ExperimentFixture& fixture) {
   for (const auto further : core::kFurtherAxes) {
     if (fixture.rig.parameters.axes[further].exists) {
@@ -312,7 +291,7 @@ ExperimentFixture load_experiment(const std::filesystem::path& path) {
   reader.text("controller", controller, "path of the controller file");
   fixture.rig_file = file.resolve(rig, reader.place_of("rig"));
   fixture.rig = load_rig(fixture.rig_file, fixture.sources);
-  place_carriage(reader, fixture.rig);
+  read_start(reader, fixture.rig);
   check_pushes(fixture);
   if (reader.has("wiring")) {
     std::string wiring;
@@ -329,6 +308,7 @@ ExperimentFixture load_experiment(const std::filesystem::path& path) {
   } else {
     read_reference_tables(reader, fixture.experiment.reference, fixture.sources);
     check_axes_move(fixture);
+    check_units(reader, fixture.experiment.reference, fixture.rig.parameters.axes);
     check_tables_fit(fixture);
   }
   CanonicalHash hash;

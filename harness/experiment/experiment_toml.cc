@@ -8,6 +8,7 @@
 #include "harness/experiment/event_text.h"
 #include "harness/experiment/reference_text.h"
 #include "harness/experiment/requirement_text.h"
+#include "harness/experiment/start_text.h"
 #include "harness/fault_plan/fault_text.h"
 #include "harness/fixtures/toml_number.h"
 #include "harness/fixtures/toml_string.h"
@@ -43,16 +44,6 @@ std::string budget_toml(const Budget& budget) {
   text += budget.min ? "min = " + toml_number(*budget.min) + '\n' : "";
   text += budget.max ? "max = " + toml_number(*budget.max) + '\n' : "";
   return text + (budget.source.empty() ? "" : "source = " + toml_string(budget.source) + '\n');
-}
-
-std::string start_toml(const emulator::RigParameters& rig) {
-  std::string text = "\n[start]\n";
-  for (const auto axis : core::kAllAxes) {
-    if (rig.axes[axis].exists) {
-      text += fmt::format("{}_m = {}\n", core::name_of(axis), toml_number(rig.axes[axis].start_m));
-    }
-  }
-  return text;
 }
 
 template <typename Parts, typename Write>

@@ -46,6 +46,7 @@ struct ReferenceMotion {
   double acceleration_m_per_s2 = 0;  // the largest
   double period_s = 0;               // of kSine and kCircle, of each step, of kHold
   double turns = 1;
+  bool in_radians = false;                        // of an axis that turns: read rad for m
   std::string file{};                             // of kTable, as the experiment names it
   std::shared_ptr<const ReferenceTable> table{};  // null until it has been read
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "harness/experiment/reference_table.h"
+#include "harness/files/turning_key.h"
 #include "harness/fixtures/toml_number.h"
 #include "harness/fixtures/toml_string.h"
 
@@ -56,6 +57,13 @@ const std::array<Key, 10>& keys() {
   return kKeys;
 }
 
+bool is_in_radians(const TableReader& reader) {
+  return std::any_of(keys().begin(), keys().end(), [&](const Key& key) {
+    const auto turning = turning_key(key.name);
+    return turning != key.name && reader.has(turning);
+  });
+}
+
 ReferenceMotion read_motion(TableReader& reader) {
   ReferenceMotion motion;
   std::size_t kind = 0;
@@ -73,6 +81,9 @@ ReferenceMotion read_motion(TableReader& reader) {
   }
   if (!of_both) {
     reader.require("axis");
+  }
+  if (motion.in_radians = is_in_radians(reader); motion.in_radians) {
+    reader.read_turning();
   }
   for (const Key& key : keys()) {
     if ((key.kinds & bit(motion.kind)) != 0) {
@@ -138,6 +149,26 @@ std::vector<ReferenceMotion> read_reference(TableReader& experiment) {
   return motions;
 }
 
+void check_units(TableReader& experiment, const std::vector<ReferenceMotion>& motions,
+                 const emulator::RigAxes& axes) {
+  const auto readers = experiment.tables("reference");
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const auto& motion = motions[i];
+    const bool turning = axes[motion.axis].load_turns;
+    for (const Key& key : keys()) {
+      const auto in_rad = turning_key(key.name);
+      const auto given = motion.in_radians ? in_rad : std::string(key.name);
+      if (in_rad != key.name && readers[i].has(given) && motion.in_radians != turning) {
+        throw FixtureError(
+            readers[i].place_of(given),
+            fmt::format("{} of an axis that {}", motion.in_radians ? "an angle" : "a way",
+                        turning ? "turns" : "moves in a line"),
+            turning ? in_rad : std::string(key.name));
+      }
+    }
+  }
+}
+
 void read_reference_tables(TableReader& experiment, std::vector<ReferenceMotion>& motions,
                            SourceFiles& sources) {
   const auto readers = experiment.tables("reference");
@@ -164,7 +195,8 @@ std::string to_toml(const ReferenceMotion& motion) {
   }
   for (const Key& key : keys()) {
     if ((key.kinds & bit(motion.kind)) != 0) {
-      text += fmt::format("{} = {}\n", key.name, toml_number(motion.*key.field));
+      const auto name = motion.in_radians ? turning_key(key.name) : std::string(key.name);
+      text += fmt::format("{} = {}\n", name, toml_number(motion.*key.field));
     }
   }
   return text;

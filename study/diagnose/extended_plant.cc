@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "harness/files/turning_key.h"
+
 namespace towbench::study::diagnose {
 namespace {
 
@@ -127,8 +129,8 @@ class Writer {
     if (name == "cable_spring" && p[Key::kCable] >= 0) {
       table("disturbances")
           .insert_or_assign("cable",
-                            toml::table{{"stiffness_N_per_m", p[Key::kCable]},
-                                        {"reference_m", c.stroke_min_m + 0.5 * c.stroke_m}});
+                            toml::table{{spelt("stiffness_N_per_m"), p[Key::kCable]},
+                                        {spelt("reference_m"), c.stroke_min_m + 0.5 * c.stroke_m}});
       return true;
     }
     if (name == "gravity") {
@@ -204,6 +206,10 @@ class Writer {
     return true;
   }
 
+  [[nodiscard]] std::string spelt(std::string_view key) const {
+    return d_.context.stated.rotary ? harness::turning_key(key) : std::string(key);
+  }
+
   // The force that pushes, as a torque at the motor; its mean is the bias.
   bool position_force(Key first) {
     toml::array at;
@@ -213,7 +219,8 @@ class Writer {
       torque.push_back(-force_N * r_);
     }
     table("disturbances")
-        .insert_or_assign("position_force", toml::table{{"position_m", at}, {"torque_Nm", torque}});
+        .insert_or_assign("position_force",
+                          toml::table{{spelt("position_m"), at}, {"torque_Nm", torque}});
     return true;
   }
   // Knots of sum_k beta_k cos(k pi x), force that the command must make in addition.
@@ -251,7 +258,8 @@ class Writer {
     coulomb_ = std::max(0.0, coulomb_ + least);
     set_coulomb(coulomb_);
     table("friction")
-        .insert_or_assign("position", toml::table{{"position_m", at}, {"friction_Nm", friction}});
+        .insert_or_assign("position",
+                          toml::table{{spelt("position_m"), at}, {"friction_Nm", friction}});
     return true;
   }
 

@@ -1,4 +1,6 @@
 // Axes beyond y and x: each is an axis of its own, with lines of its own.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "emulator/rig.h"
@@ -16,6 +18,17 @@ RigParameters six_alike() {
     rig.axes[which] = rig.axes[Axis::kY];
   }
   rig.supply.over_current_A = 100.0;
+  return rig;
+}
+
+// z on x on y, each as heavy as what it carries and more.
+RigParameters nested() {
+  RigParameters rig = six_alike();
+  for (const Axis which : {Axis::kA, Axis::kB, Axis::kC}) {
+    rig.axes[which].exists = false;
+  }
+  rig.axes[Axis::kX].carried_by = Carrier::kY;
+  rig.axes[Axis::kZ].carried_by = Carrier::kX;
   return rig;
 }
 
@@ -139,10 +152,36 @@ TEST(FurtherAxes, ShareTheSupply) {
   EXPECT_EQ(rig.lines(), 0U);
 }
 
-TEST(FurtherAxes, DoNotPushEachOther) {
-  RigParameters parameters = six_alike();
+// z rides on x, which rides on y: z's transmission pushes x by the share that x states, and not y.
+TEST(FurtherAxes, PushTheirCarrierByTheShareThatItStates) {
+  RigParameters parameters = nested();
+  parameters.axes[Axis::kX].cross_axis_force_ratio = 0.25;
+  Rig rig(parameters, 1);
+  drive(rig, Axis::kZ, 150);
+  run(rig, 200);
+  const double z_N = rig.truth().axes[Axis::kZ].transmission_force_N;
+  rig.step();
+  ASSERT_GT(std::fabs(z_N), 0.05);
+  EXPECT_DOUBLE_EQ(rig.axis(Axis::kX)->plant().forces().external_force_N, 0.25 * z_N);
+  EXPECT_EQ(rig.axis(Axis::kY)->plant().forces().external_force_N, 0.0);
+}
+
+TEST(FurtherAxes, AreNestedAsAMachineCanBe) {
+  EXPECT_EQ(inconsistency(nested()), nullptr);
+  RigParameters parameters = nested();
+  parameters.axes[Axis::kY].carried_by = Carrier::kZ;
+  EXPECT_STREQ(inconsistency(parameters), "carried_by: an axis rides on itself");
+  parameters = nested();
+  parameters.axes[Axis::kX].exists = false;
+  EXPECT_STREQ(inconsistency(parameters),
+               "carried_by names an axis that the machine does not have");
+  parameters = nested();
+  parameters.axes[Axis::kZ].plant.inertia_kg_m2 = parameters.axes[Axis::kX].plant.inertia_kg_m2 * 2;
+  EXPECT_STREQ(inconsistency(parameters), "carried_by: an axis moves less than what it carries");
+  parameters = six_alike();
   parameters.axes[Axis::kZ].cross_axis_force_ratio = 0.1;
-  EXPECT_STREQ(inconsistency(parameters), "cross_axis_force_ratio is of axes y and x");
+  EXPECT_STREQ(inconsistency(parameters),
+               "cross_axis_force_ratio is of an axis that is carried or carries another");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // What it costs to hold a plant by positions and speeds at the ends of a step: the built-in axis
 // behind the interface of a foreign plant, beside the built-in axis itself.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -35,14 +36,18 @@ double duty_at(std::uint32_t tick) {
   return part == 1 ? 0.4 : part == 3 ? -0.45 : part == 4 ? 0.2 : 0.0;
 }
 
-void drive(emulator::Rig& rig, double duty, std::uint32_t tick) {
-  auto& y = *rig.axis(Axis::kY);
-  y.enable_line = true;
+void command(emulator::Rig& rig, Axis which, double duty, std::uint32_t tick) {
+  auto& axis = *rig.axis(which);
+  axis.enable_line = true;
   const auto ticks = static_cast<std::uint16_t>(std::fabs(duty) * 1000);
-  protocol::PwmDuty message{.axis = Axis::kY, .period_ticks = 1000, .sequence = tick};
+  protocol::PwmDuty message{.axis = which, .period_ticks = 1000, .sequence = tick};
   message.enable = true;
   (duty < 0 ? message.channel_b_ticks : message.channel_a_ticks) = ticks;
-  EXPECT_EQ(y.command.accept(message), core::ErrorCode::kNone);
+  EXPECT_EQ(axis.command.accept(message), core::ErrorCode::kNone);
+}
+
+void drive(emulator::Rig& rig, double duty, std::uint32_t tick) {
+  command(rig, Axis::kY, duty, tick);
   rig.step();
 }
 
@@ -136,6 +141,42 @@ TEST(WrappedAxis, GivesTheSameLogUnderAnExternalController) {
   ASSERT_EQ(first.exit_code, kExitPass) << complaints_of(first);
   ASSERT_EQ(second.exit_code, kExitPass) << complaints_of(second);
   EXPECT_EQ(contents_of(first.folder / "log.csv"), contents_of(second.folder / "log.csv"));
+}
+
+// Each axis gets its own input and gives its own output, whichever the machine has.
+TEST(WrappedAxis, OfThreeAxesMovesEachAsTheBuiltInOne) {
+  constexpr std::array kAxes{Axis::kY, Axis::kX, Axis::kC};
+  emulator::RigParameters own;
+  own.axes[Axis::kC] = own.axes[Axis::kX];
+  own.axes[Axis::kC].exists = true;
+  own.axes[Axis::kY].start_m = 0.5;
+  own.axes[Axis::kX].start_m = 0.2;
+  own.axes[Axis::kC].start_m = 0.3;
+  auto wrapped = own;
+  for (const auto which : kAxes) {
+    wrapped.axes[which].plant.hard_ends.fitted = false;
+  }
+  wrapped.foreign_plant = plant_source("built_in_plant", "");
+  emulator::Rig first(own, 1);
+  emulator::Rig second(wrapped, 1);
+  for (std::uint32_t tick = 0; tick < 9'000; ++tick) {
+    for (auto* rig : {&first, &second}) {
+      command(*rig, Axis::kY, duty_at(tick), tick);
+      command(*rig, Axis::kX, 0.5 * duty_at(tick + 500), tick);
+      command(*rig, Axis::kC, 0.3 * duty_at(tick + 1000), tick);
+      rig->step();
+    }
+  }
+  ASSERT_EQ(second.failure(), "");
+  for (const auto which : kAxes) {
+    const auto built_in = first.truth().axes[which];
+    const auto behind = second.truth().axes[which];
+    EXPECT_GT(built_in.edges_total, 1'000) << core::name_of(which);
+    EXPECT_EQ(behind.carriage_m, built_in.carriage_m) << core::name_of(which);
+    EXPECT_EQ(behind.count, built_in.count) << core::name_of(which);
+  }
+  EXPECT_NE(first.truth().axes[Axis::kX].carriage_m - 0.2,
+            first.truth().axes[Axis::kC].carriage_m - 0.3);
 }
 
 // Contact, depth and rebound by the bench's ends beside those inside the plant.
