@@ -64,7 +64,7 @@ struct RigAxisParameters {
             "carriage position at the start of the run");
     v.value("cross_axis_force_ratio", cross_axis_force_ratio, core::between(-1.0, 1.0),
             "share of the other axis's transmission force that pushes along this one");
-    v.group("encoder", encoder, "incremental encoder on the motor shaft");
+    v.group("encoder", encoder, "encoder on the motor's shaft or the load");
     v.group("hall_min", hall_min, "end-stop sensor at the min end");
     v.group("hall_max", hall_max, "end-stop sensor at the max end");
     v.group("current_monitor", current_monitor, "the amplifier's current monitor output");
@@ -151,6 +151,9 @@ struct RigParameters {
 };
 
 [[nodiscard]] bool has_further_axes(const RigParameters& rig) noexcept;
+
+// Whether any axis has an absolute encoder.
+[[nodiscard]] bool tells_counts(const RigParameters& rig) noexcept;
 
 // Carriage metres an encoder count, from gear and wheel (3.42).
 [[nodiscard]] double metres_per_count(const RigAxisParameters& axis) noexcept;
