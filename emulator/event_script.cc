@@ -57,6 +57,7 @@ namespace {
     case ScheduledEventKind::kDropLoad:
     case ScheduledEventKind::kSlipDisc:
     case ScheduledEventKind::kTurnDisc:
+    case ScheduledEventKind::kHoldAbsolute:
     case ScheduledEventKind::kSkipTooth:
       return fail_axis(rig, event);
     case ScheduledEventKind::kReset:

@@ -11,6 +11,9 @@ PlantExchange::PlantExchange(const RigParameters& rig, std::uint64_t seed,
                              std::span<const ScheduledEvent> events, PlantObserver& observer)
     : rig_(rig, seed),
       fixture_hash_(rig.fixture_hash),
+      capabilities_(protocol::kCapabilityEdges | protocol::kCapabilityDigest |
+                    protocol::kCapabilityReset |
+                    (tells_counts(rig) ? protocol::kCapabilityAbsolute : 0U)),
       script_(events),
       observer_(&observer),
       faults_(observer),
@@ -30,8 +33,7 @@ protocol::Hello PlantExchange::own_hello(const protocol::Hello& theirs) const no
           .axes_mask = rig_.axes_mask(),
           .tick_ns = static_cast<std::uint32_t>(core::kPlantTick_ns),
           .exchange_ns = theirs.exchange_ns,
-          .capabilities =
-              protocol::kCapabilityEdges | protocol::kCapabilityDigest | protocol::kCapabilityReset,
+          .capabilities = capabilities_,
           .fixture_hash = fixture_hash_};
 }
 
@@ -55,11 +57,15 @@ void PlantExchange::greet(const protocol::Hello& hello) noexcept {
   sends_edges_ = (hello.capabilities & protocol::kCapabilityEdges) != 0;
   sends_digest_ = !sends_edges_;
   takes_reset_ = (hello.capabilities & protocol::kCapabilityReset) != 0;
+  takes_absolute_ = (hello.capabilities & protocol::kCapabilityAbsolute) != 0;
   sink_->on(reply);
   if (greeted_) {
     sent_lines_ = rig_.lines();
     sink_->on(protocol::DigitalInputs{
         .lines = sent_lines_, .change_ns = now_ns(), .sequence = line_sequence_++});
+    for (const Axis which : rig_.axes()) {
+      send_absolute(which);
+    }
   }
 }
 
@@ -72,6 +78,7 @@ void PlantExchange::forget_controller() noexcept {
       axis->command.forget_sequence();
       outputs_[which]->edges.forget_sequence();
       outputs_[which]->digest.forget_sequence();
+      outputs_[which]->absolute_sequence = 0;
     }
   }
 }
@@ -208,14 +215,26 @@ void PlantExchange::send_samples() noexcept {
 }
 
 void PlantExchange::send_outputs() noexcept {
-  for (auto& output : outputs_) {
+  for (const Axis which : rig_.axes()) {
+    auto& output = outputs_[which];
     if (output && sends_edges_) {
       output->edges.finish(now_ns(), *sink_);
     } else if (output && sends_digest_) {
       sink_->on(output->digest.take(now_ns()));
     }
+    send_absolute(which);
   }
   send_lines();
+}
+
+void PlantExchange::send_absolute(Axis which) noexcept {
+  const RigAxis* axis = rig_.axis(which);
+  if (takes_absolute_ && axis != nullptr && axis->tells_count()) {
+    sink_->on(protocol::AbsoluteCount{.axis = which,
+                                      .time_ns = now_ns(),
+                                      .count = axis->told_count(),
+                                      .sequence = outputs_[which]->absolute_sequence++});
+  }
 }
 
 void PlantExchange::send_lines() noexcept {

@@ -3,9 +3,10 @@
 //
 // An exchange, at Advance{T + dt} (docs/decisions/0001-walls.md): step the rig from T to T + dt,
 // sending CurrentSample and ForceSample as they are taken, then EncoderEdges (or EncoderReport) of
-// each axis in the order of core/axis.h, then DigitalInputs of each change in the order of time,
-// then the operator's Reset, then Advanced. Whatever a controller sends that makes no sense is
-// counted, answered by a Fault, and changes nothing.
+// each axis in the order of core/axis.h, each with its AbsoluteCount behind it where it has one and
+// the controller wants it, then DigitalInputs of each change in the order of time, then the
+// operator's Reset, then Advanced. Whatever a controller sends that makes no sense is counted,
+// answered by a Fault, and changes nothing.
 #pragma once
 
 #include <cstdint>
@@ -58,6 +59,7 @@ class PlantExchange {
   struct AxisOutputs {
     EdgeStream edges;
     EncoderDigest digest;
+    std::uint32_t absolute_sequence = 0;
   };
 
   [[nodiscard]] protocol::Hello own_hello(const protocol::Hello& theirs) const noexcept;
@@ -70,6 +72,7 @@ class PlantExchange {
   void collect_lines() noexcept;
   void send_samples() noexcept;
   void send_outputs() noexcept;
+  void send_absolute(core::Axis which) noexcept;
   void send_lines() noexcept;
   void pass_reset(core::Nanoseconds time_ns) noexcept;
   void report(core::ErrorCode code, core::Axis axis, std::uint32_t detail) noexcept {
@@ -78,6 +81,7 @@ class PlantExchange {
 
   Rig rig_;
   std::uint64_t fixture_hash_;
+  std::uint32_t capabilities_;
   EventScript script_;
   PlantObserver* observer_;
   FaultReporter faults_;
@@ -98,6 +102,7 @@ class PlantExchange {
   bool sends_edges_ = false;
   bool sends_digest_ = false;
   bool takes_reset_ = false;
+  bool takes_absolute_ = false;
   bool finished_ = false;
 };
 

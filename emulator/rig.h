@@ -68,6 +68,10 @@ class RigAxis {
   TOWBENCH_REALTIME void fail(ScheduledEventKind kind, double value) noexcept;
   [[nodiscard]] const MovedAxis& plant() const noexcept { return plant_; }
   [[nodiscard]] const QuadratureEncoder& encoder() const noexcept { return encoder_; }
+  // Whether the encoder tells its count besides its edges, and what it tells at the end of the last
+  // step.
+  [[nodiscard]] bool tells_count() const noexcept { return tells_count_; }
+  [[nodiscard]] std::int32_t told_count() const noexcept;
   // Of the last step, as they arrive at the controller.
   [[nodiscard]] const StepEdges& edges() const noexcept { return edges_; }
   // Taken at the end of the last step, if one was due.
@@ -91,6 +95,8 @@ class RigAxis {
   [[nodiscard]] AxisTruth truth() const noexcept;
 
  private:
+  // What the encoder sees.
+  [[nodiscard]] double seen_rad() const noexcept;
   TOWBENCH_REALTIME void turn_shaft() noexcept;
   TOWBENCH_REALTIME void follow_load(const AxisState& before, const AxisState& after) noexcept;
 
@@ -111,7 +117,12 @@ class RigAxis {
   double resistance_ohm_;
   double torque_constant_Nm_per_A_;
   double motor_rad_per_m_;
-  bool sees_load_;  // the encoder
+  double counts_per_rad_;
+  bool sees_load_;    // the encoder
+  bool tells_count_;  // likewise
+  std::optional<std::int32_t> held_count_;
+  // Of an absolute encoder whose A and B are out of place, which its count is not.
+  std::optional<EncoderGrating> count_track_;
   double command_V_ = 0.0;
   double skipped_rad_ = 0.0;  // the shaft's angle above that by the transmission
   double acceleration_m_per_s2_ = 0.0;

@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include "emulator/rig.h"
 
 namespace towbench::emulator {
@@ -19,7 +21,17 @@ RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, const Seeds& seeds,
       resistance_ohm_(p.plant.winding.resistance_ohm),
       torque_constant_Nm_per_A_(p.plant.torque_constant_Nm_per_A),
       motor_rad_per_m_(p.plant.gear_ratio / p.plant.output_radius_m),
-      sees_load_(p.encoder.side == EncoderSide::kLoad) {
+      counts_per_rad_(static_cast<double>(p.encoder.counts_per_turn) / (2.0 * std::numbers::pi)),
+      sees_load_(p.encoder.side == EncoderSide::kLoad),
+      tells_count_(p.encoder.absolute) {
+  EncoderParameters track = p.encoder;
+  track.phase_deg = 90.0;
+  track.pulse_width_deg = 180.0;
+  const bool is_in_place =
+      track.phase_deg == p.encoder.phase_deg && track.pulse_width_deg == p.encoder.pulse_width_deg;
+  if (tells_count_ && !is_in_place) {
+    count_track_.emplace(track);
+  }
   if (p.current_monitor.fitted) {
     current_monitor_.emplace(p.current_monitor, axis, seeds.current_monitor);
   }
@@ -89,12 +101,26 @@ void RigAxis::fail(ScheduledEventKind kind, double value) noexcept {
     disc_.slip(static_cast<std::int64_t>(value), encoder_.count());
   } else if (kind == ScheduledEventKind::kTurnDisc) {
     disc_.turn(static_cast<std::int64_t>(value), encoder_.count());
+  } else if (kind == ScheduledEventKind::kHoldAbsolute) {
+    held_count_ = value != 0.0 ? std::optional(told_count()) : std::nullopt;
   } else if (kind == ScheduledEventKind::kSkipTooth) {
     skipped_rad_ += plant_.skip_tooth(value);
     state_ = plant_.state();
   } else {
     faults_.set(kind, value, state_, command_V_);
   }
+}
+
+double RigAxis::seen_rad() const noexcept {
+  return sees_load_ ? state_.carriage_m * motor_rad_per_m_ : state_.motor_angle_rad + skipped_rad_;
+}
+
+std::int32_t RigAxis::told_count() const noexcept {
+  const std::int64_t shaft =
+      count_track_ ? count_track_->count_at(seen_rad() * counts_per_rad_) : encoder_.count();
+  // A loose disc is off by what it slipped, however its lines are placed.
+  const std::int64_t slipped = disc_.count_at(encoder_.count()) - encoder_.count();
+  return held_count_.value_or(static_cast<std::int32_t>(shaft + slipped));
 }
 
 double RigAxis::output_power_W() const noexcept {
@@ -125,7 +151,8 @@ AxisTruth RigAxis::truth() const noexcept {
           .transmission_force_N = forces.transmission_force_N,
           .command_V = command_V_,
           .count = encoder_.count(),
-          .edges_total = encoder_.edges_total() + disc_.surplus_edges() + wiring_.surplus_edges()};
+          .edges_total = encoder_.edges_total() + disc_.surplus_edges() + wiring_.surplus_edges(),
+          .absolute_count = told_count()};
 }
 
 }  // namespace towbench::emulator

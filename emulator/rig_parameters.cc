@@ -60,6 +60,17 @@ void place_halls(RigAxisParameters& axis, double min_counts, double max_counts) 
   return slope_N_s_per_m * core::kPlantTick_s > kLargestShare * moved_kg;
 }
 
+// An absolute count has 32 bits: so many, with room for ends that give way and a disc that slips.
+constexpr double kFarthest_counts = 2e9;
+
+[[nodiscard]] bool outgrows_absolute_count(const RigAxisParameters& axis) noexcept {
+  const auto is_far = [&](double place_m) {
+    return std::fabs(place_m) > kFarthest_counts * metres_per_count(axis);
+  };
+  const HardEndParameters& ends = axis.plant.hard_ends;
+  return is_far(axis.start_m) || (ends.fitted && (is_far(ends.min_m) || is_far(ends.max_m)));
+}
+
 const char* inconsistency(const RigAxisParameters& axis) noexcept {
   if (!axis.exists) {
     return nullptr;
@@ -85,6 +96,10 @@ const char* inconsistency(const RigAxisParameters& axis) noexcept {
   const HardEndParameters& ends = axis.plant.hard_ends;
   if (ends.fitted && (axis.start_m < ends.min_m || axis.start_m > ends.max_m)) {
     return "start_m lies outside hard_ends";
+  }
+  if (encoder.absolute && outgrows_absolute_count(axis)) {
+    return "encoder.absolute: start_m and hard_ends must lie within 2e9 counts of 0: it tells 32 "
+           "bits";
   }
   if (axis.hall_min.fitted && axis.hall_max.fitted &&
       axis.hall_min.position_m >= axis.hall_max.position_m) {
@@ -160,6 +175,12 @@ RigParameters::RigParameters() noexcept {
 bool has_further_axes(const RigParameters& rig) noexcept {
   return std::any_of(core::kFurtherAxes.begin(), core::kFurtherAxes.end(),
                      [&](core::Axis which) { return rig.axes[which].exists; });
+}
+
+bool tells_counts(const RigParameters& rig) noexcept {
+  return std::any_of(rig.axes.begin(), rig.axes.end(), [](const RigAxisParameters& axis) {
+    return axis.exists && axis.encoder.absolute;
+  });
 }
 
 double metres_per_count(const RigAxisParameters& axis) noexcept {

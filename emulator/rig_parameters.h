@@ -85,7 +85,7 @@ struct RigAxisParameters {
     v.value(
         "cross_axis_force_ratio", cross_axis_force_ratio, core::between(-1.0, 1.0),
         "share of the transmission force of carrier and carried axes that pushes along this one");
-    v.group("encoder", encoder, "incremental encoder on the motor shaft");
+    v.group("encoder", encoder, "encoder on the motor's shaft or the load");
     v.group("hall_min", hall_min, "end-stop sensor at the min end");
     v.group("hall_max", hall_max, "end-stop sensor at the max end");
     v.group("current_monitor", current_monitor, "the amplifier's current monitor output");
@@ -172,6 +172,9 @@ struct RigParameters {
 };
 
 [[nodiscard]] bool has_further_axes(const RigParameters& rig) noexcept;
+
+// Whether any axis has an absolute encoder.
+[[nodiscard]] bool tells_counts(const RigParameters& rig) noexcept;
 
 // Carriage metres an encoder count, from gear and wheel (3.42).
 [[nodiscard]] double metres_per_count(const RigAxisParameters& axis) noexcept;

@@ -20,8 +20,9 @@ struct AxisTruth {
   double carriage_friction_N = 0;
   double transmission_force_N = 0;
   double command_V = 0;
-  std::int64_t count = 0;        // floor of the true angle in counts
-  std::int64_t edges_total = 0;  // A and B edges sent since the start
+  std::int64_t count = 0;           // floor of the true angle in counts
+  std::int64_t edges_total = 0;     // A and B edges sent since the start
+  std::int32_t absolute_count = 0;  // what an absolute encoder tells: no truth when it fails
 };
 
 struct TruthRow {

@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "protocol/id_of.h"
 #include "protocol/wire.h"
 #include "protocol/wire_fields.h"
 
@@ -94,39 +95,6 @@ std::size_t fields_size() noexcept {
 }
 
 template <typename Message>
-struct IdOf;
-template <>
-struct IdOf<Hello> : std::integral_constant<MessageId, MessageId::kHello> {};
-template <>
-struct IdOf<HelloReply> : std::integral_constant<MessageId, MessageId::kHelloReply> {};
-template <>
-struct IdOf<PwmDuty> : std::integral_constant<MessageId, MessageId::kPwmDuty> {};
-template <>
-struct IdOf<EncoderReport> : std::integral_constant<MessageId, MessageId::kEncoderReport> {};
-template <>
-struct IdOf<DigitalInputs> : std::integral_constant<MessageId, MessageId::kDigitalInputs> {};
-template <>
-struct IdOf<DigitalOutputs> : std::integral_constant<MessageId, MessageId::kDigitalOutputs> {};
-template <>
-struct IdOf<ForceSample> : std::integral_constant<MessageId, MessageId::kForceSample> {};
-template <>
-struct IdOf<CurrentSample> : std::integral_constant<MessageId, MessageId::kCurrentSample> {};
-template <>
-struct IdOf<Advance> : std::integral_constant<MessageId, MessageId::kAdvance> {};
-template <>
-struct IdOf<Advanced> : std::integral_constant<MessageId, MessageId::kAdvanced> {};
-template <>
-struct IdOf<Heartbeat> : std::integral_constant<MessageId, MessageId::kHeartbeat> {};
-template <>
-struct IdOf<Fault> : std::integral_constant<MessageId, MessageId::kFault> {};
-template <>
-struct IdOf<Bye> : std::integral_constant<MessageId, MessageId::kBye> {};
-template <>
-struct IdOf<Reference> : std::integral_constant<MessageId, MessageId::kReference> {};
-template <>
-struct IdOf<Reset> : std::integral_constant<MessageId, MessageId::kReset> {};
-
-template <typename Message>
 std::size_t payload_size() noexcept {
   return 1 + fields_size<Message>();
 }
@@ -184,6 +152,7 @@ std::size_t encoded_size(const Fault& /*m*/) noexcept { return payload_size<Faul
 std::size_t encoded_size(const Bye& /*m*/) noexcept { return payload_size<Bye>(); }
 std::size_t encoded_size(const Reference& /*m*/) noexcept { return payload_size<Reference>(); }
 std::size_t encoded_size(const Reset& /*m*/) noexcept { return payload_size<Reset>(); }
+std::size_t encoded_size(const AbsoluteCount& /*m*/) noexcept { return payload_size<AbsoluteCount>(); }
 
 std::size_t encode(const Hello& m, std::span<std::byte> into) noexcept { return encode_fixed(m, into); }
 std::size_t encode(const HelloReply& m, std::span<std::byte> into) noexcept { return encode_fixed(m, into); }
@@ -200,6 +169,7 @@ std::size_t encode(const Fault& m, std::span<std::byte> into) noexcept { return 
 std::size_t encode(const Bye& m, std::span<std::byte> into) noexcept { return encode_fixed(m, into); }
 std::size_t encode(const Reference& m, std::span<std::byte> into) noexcept { return encode_fixed(m, into); }
 std::size_t encode(const Reset& m, std::span<std::byte> into) noexcept { return encode_fixed(m, into); }
+std::size_t encode(const AbsoluteCount& m, std::span<std::byte> into) noexcept { return encode_fixed(m, into); }
 // clang-format on
 
 std::size_t encoded_size(const EncoderEdges& message) noexcept {
@@ -297,6 +267,8 @@ core::Status Decoder::decode(std::span<const std::byte> payload, MessageSink& si
       return decode_fixed<Reference>(payload, sink);
     case MessageId::kReset:
       return decode_fixed<Reset>(payload, sink);
+    case MessageId::kAbsoluteCount:
+      return decode_fixed<AbsoluteCount>(payload, sink);
   }
   return core::failure(core::ErrorCode::kMessageUnknown);
 }
@@ -336,6 +308,8 @@ bool is_plausible(std::byte id, std::size_t size) noexcept {
       return size == payload_size<Reference>();
     case MessageId::kReset:
       return size == payload_size<Reset>();
+    case MessageId::kAbsoluteCount:
+      return size == payload_size<AbsoluteCount>();
   }
   return false;
 }

@@ -34,6 +34,7 @@ enum class MessageId : std::uint8_t {
   kBye = 14,
   kReference = 15,
   kReset = 16,
+  kAbsoluteCount = 17,
 };
 
 inline constexpr std::size_t kEdgesHeaderSize = 25;
@@ -61,6 +62,7 @@ inline constexpr std::size_t kMaxHelloSize = 255;
 [[nodiscard]] std::size_t encoded_size(const Bye& message) noexcept;
 [[nodiscard]] std::size_t encoded_size(const Reference& message) noexcept;
 [[nodiscard]] std::size_t encoded_size(const Reset& message) noexcept;
+[[nodiscard]] std::size_t encoded_size(const AbsoluteCount& message) noexcept;
 
 // Writes the payload and returns its size; 0, and nothing written, when it does not fit.
 // Fields are written as they are: an illegal value is the sender's bug and the receiver's refusal.
@@ -86,6 +88,8 @@ TOWBENCH_REALTIME std::size_t encode(const Fault& message, std::span<std::byte> 
 TOWBENCH_REALTIME std::size_t encode(const Bye& message, std::span<std::byte> into) noexcept;
 TOWBENCH_REALTIME std::size_t encode(const Reference& message, std::span<std::byte> into) noexcept;
 TOWBENCH_REALTIME std::size_t encode(const Reset& message, std::span<std::byte> into) noexcept;
+TOWBENCH_REALTIME std::size_t encode(const AbsoluteCount& message,
+                                     std::span<std::byte> into) noexcept;
 
 // Whether a payload that starts with `id` can have `size` bytes. Lets a stream reader that lost its
 // place pass over nearly every false header without a checksum.

@@ -24,6 +24,7 @@ class EachMessage : public MessageSink {
   void on(const Bye& m) noexcept override { self().handle(m); }
   void on(const Reference& m) noexcept override { self().handle(m); }
   void on(const Reset& m) noexcept override { self().handle(m); }
+  void on(const AbsoluteCount& m) noexcept override { self().handle(m); }
 
  private:
   friend Derived;

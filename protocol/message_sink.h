@@ -36,6 +36,7 @@ class MessageSink {
   virtual void on(const Bye&) noexcept {}
   virtual void on(const Reference&) noexcept {}
   virtual void on(const Reset&) noexcept {}
+  virtual void on(const AbsoluteCount&) noexcept {}
 };
 
 }  // namespace towbench::protocol

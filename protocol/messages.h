@@ -25,6 +25,7 @@ inline constexpr std::uint32_t kCapabilityEdges = 1U << 0U;      // EncoderEdges
 inline constexpr std::uint32_t kCapabilityDigest = 1U << 1U;     // EncoderReport
 inline constexpr std::uint32_t kCapabilityReference = 1U << 2U;  // Reference: wanted, or given
 inline constexpr std::uint32_t kCapabilityReset = 1U << 3U;      // Reset: taken, or given
+inline constexpr std::uint32_t kCapabilityAbsolute = 1U << 4U;   // AbsoluteCount: wanted, or given
 
 // First message of each side. A mismatch is refused with both sides named (handshake.h).
 struct Hello {
@@ -208,6 +209,16 @@ struct Reference {
   float position_m = 0;
   float velocity_m_per_s = 0;
   float acceleration_m_per_s2 = 0;
+};
+
+// The whole count of an absolute encoder, for a controller that asks for it (kCapabilityAbsolute):
+// the floor of the true place in counts, 0 at the zero of the rig. Of a count beyond 32 bits the
+// low ones.
+struct AbsoluteCount {
+  core::Axis axis = core::kFirstAxis;
+  core::Nanoseconds time_ns = 0;  // when it was that count
+  std::int32_t count = 0;
+  std::uint32_t sequence = 0;  // + 1 for each message of this axis
 };
 
 // The operator asks a controller to leave its safe state, one that takes it (kCapabilityReset).

@@ -158,6 +158,14 @@ void wire_fields(Io& io, typename Io::template Field<Reset>& m) noexcept {
   io.checked(m.time_ns, legal::time);
 }
 
+template <typename Io>
+void wire_fields(Io& io, typename Io::template Field<AbsoluteCount>& m) noexcept {
+  io.checked(m.axis, legal::axis);
+  io.checked(m.time_ns, legal::time);
+  io.value(m.count);
+  io.value(m.sequence);
+}
+
 // What no single field shows.
 template <typename Message>
 [[nodiscard]] constexpr bool is_consistent(const Message& /*message*/) noexcept {

@@ -86,6 +86,12 @@ help_of() { # help_of PROGRAM VERB
       push @given, "`$1` $2, $3 .. $4" while $rest =~ /\{"(\w+)", ([^,{}]+), ([^,{}]+), ([^,{}]+)\}/g;
       printf "| %s | %s | %s |\n", $kind, $what, join("; ", @given);
     }' "$catalogue"
+  printf '\n## What an absolute encoder tells\n'
+  printf 'Its count crosses in a message of its own, so that what is wrong with its lines does not reach it.\n\n'
+  printf '| kinds | its count |\n| --- | --- |\n'
+  printf '| dead_a, dead_b, index_missing, extra_edges, missing_edges, illegal_transitions, swapped, inverted, noise_burst, phase | right |\n'
+  printf '| frozen | the same from then on: the electronics have died; right again where the fault ends |\n'
+  printf '| jump, slip | off by what the disc has moved |\n'
 } >"$out/faults.md"
 
 if $check; then

@@ -253,7 +253,8 @@ int tb_ended(const tb_bench* bench) {
 
 /* Bytes of a payload without edges; 0 for an unknown id. */
 static size_t shortest(uint8_t id) {
-  static const uint8_t sizes[] = {0, 25, 27, 13, 25, 39, 15, 15, 33, 14, 9, 9, 13, 15, 9, 22, 9};
+  static const uint8_t sizes[] = {0,  25, 27, 13, 25, 39, 15, 15, 33,
+                                  14, 9,  9,  13, 15, 9,  22, 9,  18};
   return id < sizeof sizes ? sizes[id] : 0;
 }
 
@@ -322,6 +323,8 @@ static int is_legal(const uint8_t* p) {
       return legal;
     case TB_CURRENT_SAMPLE:
       return p[1] < TB_AXES && load_time(p + 2) >= 0 && is_finite(p + 10);
+    case TB_ABSOLUTE_COUNT:
+      return p[1] < TB_AXES && load_time(p + 2) >= 0;
     case TB_FAULT:
       return is_known(load16(p + 1)) && load_time(p + 3) >= 0;
     case TB_REFERENCE_POINT:
@@ -375,6 +378,25 @@ static void take_reference(tb_bench* bench, const uint8_t* p) {
   reference->acceleration_m_per_s2 = load_float(p + 18);
 }
 
+static void take_absolute(tb_bench* bench, const uint8_t* p) {
+  tb_axis* axis = &bench->axis[p[1]];
+  const uint32_t sequence = load32(p + 14);
+  if (axis->has_absolute && sequence != axis->next_absolute_sequence) ++bench->counts.sequence_gaps;
+  axis->next_absolute_sequence = sequence + 1;
+  axis->absolute_ns = load_time(p + 2);
+  axis->absolute = (int32_t)load32(p + 10);
+  if (!axis->has_absolute) axis->absolute_at_start = axis->absolute;
+  axis->has_absolute = 1;
+}
+
+/* One that has told its count tells it in every turn. */
+static void miss_absolute(tb_bench* bench) {
+  for (int i = 0; i < TB_AXES; ++i) {
+    const tb_axis* axis = &bench->axis[i];
+    bench->counts.sequence_gaps += axis->has_absolute && axis->absolute_ns != bench->now_ns;
+  }
+}
+
 static int refused(uint32_t* count) {
   ++*count;
   return 0;
@@ -409,6 +431,7 @@ int tb_take(tb_bench* bench, const uint8_t* p, size_t size) {
       break;
     case TB_ADVANCED:
       bench->now_ns = load_time(p + 1);
+      miss_absolute(bench);
       break;
     case TB_RESET:
       bench->reset = 1;
@@ -422,6 +445,9 @@ int tb_take(tb_bench* bench, const uint8_t* p, size_t size) {
       break;
     case TB_REFERENCE_POINT:
       take_reference(bench, p);
+      break;
+    case TB_ABSOLUTE_COUNT:
+      take_absolute(bench, p);
       break;
     default:
       break;

@@ -25,7 +25,7 @@ enum { TB_VERSION = 1, TB_TICK_NS = 100000 };
 enum { TB_Y = 0, TB_X, TB_Z, TB_A, TB_B, TB_C, TB_AXES };
 /* Capabilities. Encoders as edges or, for a controller that cannot take so many bytes, as a digest.
  */
-enum { TB_EDGES = 1, TB_DIGEST = 2, TB_REFERENCE = 4, TB_RESETS = 8 };
+enum { TB_EDGES = 1, TB_DIGEST = 2, TB_REFERENCE = 4, TB_RESETS = 8, TB_ABSOLUTE = 16 };
 enum {
   TB_HALL_Y_MIN = 1,
   TB_HALL_Y_MAX = 2,
@@ -53,7 +53,8 @@ enum {
   TB_FAULT,
   TB_BYE,
   TB_REFERENCE_POINT,
-  TB_RESET
+  TB_RESET,
+  TB_ABSOLUTE_COUNT
 };
 
 /* The longest payload that is taken; a longer one is skipped and counted. A controller that asks
@@ -83,9 +84,14 @@ typedef struct {
   uint32_t illegal_transitions;
   tb_reference reference;
   float current_A;
+  /* What an absolute encoder tells, 0 at the machine's zero, and what it told first; without
+   * has_absolute it has told nothing. */
+  int32_t absolute, absolute_at_start;
+  int64_t absolute_ns; /* when it was that */
+  uint32_t next_absolute_sequence;
   uint32_t next_sequence; /* of the encoder's messages */
   uint32_t duty_sequence;
-  uint8_t levels, heard;
+  uint8_t levels, heard, has_absolute;
 } tb_axis;
 
 /* Private: what a packed CAN frame says is relative to the message before. */
@@ -104,7 +110,8 @@ typedef struct {
   size_t fault_size;
 } tb_can;
 
-/* What was met that is no message, and gaps in sequence numbers. */
+/* What was met that is no message, gaps in sequence numbers, and turns without an absolute count.
+ */
 typedef struct {
   uint32_t bad_checksum, too_long, truncated, unknown, bad_field, discarded_bytes, sequence_gaps;
 } tb_counts;

@@ -25,7 +25,7 @@ from typing import Any, Callable, Iterator, NamedTuple, Tuple
 
 VERSION = 1
 CONTROLLER, PLANT, OBSERVER = 0, 1, 2
-EDGES, DIGEST, REFERENCE, RESETS = 1, 2, 4, 8  # capabilities
+EDGES, DIGEST, REFERENCE, RESETS, ABSOLUTE = 1, 2, 4, 8, 16  # capabilities
 AXES = ("y", "x", "z", "a", "b", "c")
 HALL_Y_MIN, HALL_Y_MAX, HALL_X_MIN, HALL_X_MAX, KILL_SWITCH, READY_Y, READY_X = (1 << n for n in range(7))
 FURTHER_HALLS = sum(1 << n for n in range(7, 15))  # z min, z max, a min ... c max
@@ -69,7 +69,7 @@ def _finite(values: Fields) -> bool:
 
 
 HELLO, HELLO_REPLY, PWM_DUTY, ENCODER_EDGES, ENCODER_REPORT, DIGITAL_INPUTS, DIGITAL_OUTPUTS = range(1, 8)
-FORCE_SAMPLE, CURRENT_SAMPLE, ADVANCE, ADVANCED, HEARTBEAT, FAULT, BYE, REFERENCE_POINT, RESET = range(8, 17)
+FORCE_SAMPLE, CURRENT_SAMPLE, ADVANCE, ADVANCED, HEARTBEAT, FAULT, BYE, REFERENCE_POINT, RESET, ABSOLUTE_COUNT = range(8, 18)
 
 LAYOUTS: dict[int, Layout] = {
     HELLO: Layout("Hello", struct.Struct("<HBBIIIQ"), _hello),
@@ -101,6 +101,7 @@ LAYOUTS: dict[int, Layout] = {
         "Reference", struct.Struct("<Bq3f"), lambda m: m[0] < len(AXES) and m[1] >= 0 and _finite(m[2:])
     ),
     RESET: Layout("Reset", struct.Struct("<q"), lambda m: m[0] >= 0),
+    ABSOLUTE_COUNT: Layout("AbsoluteCount", struct.Struct("<BqiI"), lambda m: m[0] < len(AXES) and m[1] >= 0),
 }
 
 
@@ -205,7 +206,7 @@ def crc32c(data: bytes) -> int:
 
 @dataclass
 class Counts:
-    """What a reader met that was no message, and gaps in sequence numbers."""
+    """What a reader met that was no message, gaps in sequence numbers, and turns without an absolute count."""
 
     bad_checksum: int = 0
     too_long: int = 0
@@ -610,8 +611,12 @@ class Axis:
     illegal_transitions: int = 0
     reference: Reference = Reference()
     current_A: float | None = None
+    absolute: int | None = None  # what an absolute encoder tells, 0 at the machine's zero
+    absolute_at_start: int | None = None  # what it told first
     _levels: int | None = None
     _sequence: int | None = None
+    _absolute_sequence: int | None = None
+    _absolute_ns: int = 0
     _duty_sequence: int = 0
 
 
@@ -634,6 +639,7 @@ class Bench:
     axes: dict[str, Axis] = field(default_factory=dict)  # of those that were greeted with
     faults: list[Fields] = field(default_factory=list)  # number, time, detail: what the bench refused
     gives_reference: bool = False
+    gives_absolute: bool = False  # of one axis at least
     reset: bool = False  # in this turn the operator asked to leave the safe state
     _out: bytearray = field(default_factory=bytearray)
     _outputs_sequence: int = 0
@@ -653,21 +659,29 @@ class Bench:
         reference: bool = False,
         edges: bool = False,
         resets: bool = False,
+        absolute: tuple[str, ...] = (),
         version: int = VERSION,
     ) -> None:
-        """Agrees with the bench and hears the first inputs. BenchError says why it was refused."""
+        """Agrees with the bench and hears the first inputs. BenchError says why it was refused.
+
+        `absolute`: the axes of which it needs what an absolute encoder tells.
+        """
         self.exchange_ns, self.axes = exchange_ns, {name: Axis() for name in axes}
         mask = sum(1 << AXES.index(name) for name in axes)
         edges = edges and not isinstance(self.framing, CanFraming)
-        wanted = (EDGES if edges else DIGEST) | REFERENCE * reference | RESETS * resets
+        wanted = (EDGES if edges else DIGEST) | REFERENCE * reference | RESETS * resets | ABSOLUTE * bool(absolute)
         self.send(HELLO, version, CONTROLLER, mask, tick_ns, exchange_ns, wanted, 0)
         self._wait(HELLO_REPLY)
         assert self._reply is not None
         if self._reply[7] != 0:
             raise BenchError(f"refused with error {self._reply[7]}; the plant says {self._reply[:7]}")
         self.gives_reference = bool(self._reply[5] & REFERENCE)
+        self.gives_absolute = bool(self._reply[5] & ABSOLUTE)
         self.send(ADVANCE, 0)
         self._wait(ADVANCED)
+        for name in absolute:
+            if self.axes[name].absolute is None:
+                raise BenchError(f"the encoder of {name} is not absolute")
 
     def enable(self, *axes: str) -> None:
         """Of these axes the amplifier is on from now on, of the others off."""
@@ -738,15 +752,18 @@ class Bench:
             return 0
         if kind == ENCODER_REPORT:
             axis = self._axis(fields[0])
-            self._check_sequence(axis, fields[9])
+            axis._sequence = self._checked(axis._sequence, fields[9])
             axis.count += fields[3]
             axis.illegal_transitions += fields[8]
             if fields[7]:
                 axis.index_count = fields[6]
         elif kind == REFERENCE_POINT:
             self._axis(fields[0]).reference = Reference(*fields[2:])
+        elif kind == ABSOLUTE_COUNT:
+            self._take_absolute(self._axis(fields[0]), *fields[1:])
         elif kind == ADVANCED:
             self.now_ns = fields[0]
+            self._miss_absolute()
         elif kind == ENCODER_EDGES:
             self._count_edges(self._axis(fields[0]), fields, edges)
         elif kind == DIGITAL_INPUTS:
@@ -764,13 +781,24 @@ class Bench:
     def _axis(self, number: int) -> Axis:
         return self.axes.setdefault(AXES[number], Axis())
 
-    def _check_sequence(self, axis: Axis, sequence: int) -> None:
-        if axis._sequence is not None and sequence != axis._sequence + 1 & 0xFFFFFFFF:
+    def _checked(self, before: int | None, sequence: int) -> int:
+        if before is not None and sequence != before + 1 & 0xFFFFFFFF:
             self.counts.sequence_gaps += 1
-        axis._sequence = sequence
+        return sequence
+
+    def _take_absolute(self, axis: Axis, time_ns: int, count: int, sequence: int) -> None:
+        axis._absolute_sequence = self._checked(axis._absolute_sequence, sequence)
+        axis.absolute, axis._absolute_ns = count, time_ns
+        if axis.absolute_at_start is None:
+            axis.absolute_at_start = count
+
+    def _miss_absolute(self) -> None:
+        """One that has told its count tells it in every turn."""
+        for axis in self.axes.values():
+            self.counts.sequence_gaps += axis.absolute is not None and axis._absolute_ns != self.now_ns
 
     def _count_edges(self, axis: Axis, fields: Fields, edges: tuple[int, ...]) -> None:
-        self._check_sequence(axis, fields[4])
+        axis._sequence = self._checked(axis._sequence, fields[4])
         levels = fields[1]
         for edge in edges:
             line = edge >> 30

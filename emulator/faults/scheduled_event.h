@@ -35,6 +35,8 @@ enum class ScheduledEventKind : std::uint8_t {
   // Encoder disc on its shaft (emulator/faults/slipping_disc.h).
   kSlipDisc,  // stands still for the next `value` counts of the shaft
   kTurnDisc,  // jumps by `value` counts
+  // What an absolute encoder tells.
+  kHoldAbsolute,  // `value` != 0: the same from now on, wherever the axis goes
   // Transmission on its wheel.
   kSkipTooth,  // jumps: the motor has turned `value` m of transmission further without moving the
                // carriage

@@ -30,6 +30,10 @@ class SlippingDisc {
     return loose_ ? follow(edges) : levels;
   }
 
+  // The disc's count where the shaft's is that.
+  [[nodiscard]] std::int64_t count_at(std::int64_t shaft_count) const noexcept {
+    return loose_ ? disc_ : shaft_count;
+  }
   // A and B edges that the disc made more than a tight one would have.
   [[nodiscard]] std::int64_t surplus_edges() const noexcept { return surplus_edges_; }
 

@@ -17,12 +17,14 @@ enum class EncoderSide { kMotor, kLoad };
   return {"motor", "load"};
 }
 
-// Magnetic incremental encoder on the motor shaft, 1000 lines, line driver (App. A, 228456).
+// Magnetic encoder on the motor shaft, 1000 lines, line driver (App. A, 228456).
 // Turning towards max, channel A leads channel B. `counts_per_turn` is a key of the axis itself
 // (encoder_counts_per_rev), all else of its table [encoder]. On the load side it sees the load
-// behind the elastic transmission; its counts are then those for the way of a motor turn.
+// behind the elastic transmission; its counts are then those for the way of a motor turn. An
+// absolute one has the same lines and tells its count besides, as EnDat 2.1 and BiSS do.
 struct EncoderParameters {
   EncoderSide side = EncoderSide::kMotor;
+  bool absolute = false;
   std::int64_t counts_per_turn = 4000;  // 4 x the lines: A and B, both edges (6.1.2, 7.2.1)
   double phase_deg = 90.0;              // electrical, from A to B; data sheet: 90 +- 45
   double pulse_width_deg = 180.0;       // electrical, high part of A and of B
@@ -34,6 +36,8 @@ struct EncoderParameters {
   template <typename Visitor>
   void visit(Visitor& v) {
     v.value("side", side, core::any_finite(), "what it sits on: the motor's shaft or the load");
+    v.value("absolute", absolute, core::any_finite(),
+            "whether it tells its count in full, besides A and B");
     v.value("phase_deg", phase_deg, core::between(20.0, 160.0),
             "electrical angle from A to B; the data sheet allows 45 to 135");
     v.value("pulse_width_deg", pulse_width_deg, core::between(150.0, 210.0),

@@ -43,7 +43,7 @@ class CaseList {
       }
     }
     if (campaign_.protocol_duties && campaign_.controller.external) {
-      for (const auto& duty : conformance_duties()) {
+      for (const auto& duty : conformance_duties(campaign_.motions.front().plain.rig.parameters)) {
         cases_.push_back(
             {"protocol/" + duty, "protocol", "protocol", duty, "none", {}, 0, kNoCarrier});
       }

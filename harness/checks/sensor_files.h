@@ -20,6 +20,12 @@ inline constexpr std::string_view kForceHeader =
 [[nodiscard]] inline std::string current_header(core::Axis axis) {
   return "time_s," + std::string(core::name_of(axis)) + "_current_A";
 }
+[[nodiscard]] inline std::string absolute_file(core::Axis axis) {
+  return "absolute_" + std::string(core::name_of(axis)) + ".csv";
+}
+[[nodiscard]] inline std::string absolute_header(core::Axis axis) {
+  return "time_s," + std::string(core::name_of(axis)) + "_absolute_count";
+}
 inline constexpr std::string_view kCameraFile = "camera.csv";
 [[nodiscard]] inline std::string camera_column(core::Axis axis) {
   return std::string(core::name_of(axis)) + "_camera_m";
@@ -29,6 +35,7 @@ inline constexpr std::string_view kCameraFile = "camera.csv";
   std::vector<std::string> files{std::string(kForceFile)};
   for (const auto axis : core::kAllAxes) {
     files.push_back(current_file(axis));
+    files.push_back(absolute_file(axis));
   }
   files.emplace_back(kCameraFile);
   return files;

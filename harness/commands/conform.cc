@@ -59,6 +59,10 @@ int execute_conform(const ConformOptions& options) {
   const auto rig =
       load_rig(options.rig.empty() ? nominal : std::filesystem::path(options.rig), sources);
   const auto checks = check_conformance(command, rig.parameters, options.printed, options.only);
+  if (checks.empty()) {
+    throw FixtureError({"command line", 0, "--only"}, '"' + options.only + '"',
+                       "a duty of that machine: it has no absolute encoder");
+  }
   options.json ? print_json(checks) : print(checks);
   return exit_code_of(worst_of(checks));
 }

@@ -167,6 +167,12 @@ void ConformSession::ToController::handle(const protocol::EncoderEdges& edges) n
   session.connection_->link().peer().on(edges);
 }
 
+void ConformSession::ToController::handle(const protocol::AbsoluteCount& count) noexcept {
+  if (!loses_absolute) {
+    session.connection_->link().peer().on(count);
+  }
+}
+
 void ConformSession::ToController::handle(const protocol::Advanced& advanced) noexcept {
   auto& peer = session.connection_->link().peer();
   if ((session.hello_.capabilities & protocol::kCapabilityReference) != 0) {

@@ -37,6 +37,8 @@ class ConformSession {
   void press_kill_switch();
   // The next encoder message of the first axis is dropped.
   void lose_a_count() { to_controller_.loses_count = true; }
+  // The counts of absolute encoders are dropped from now on.
+  void lose_absolute_counts() { to_controller_.loses_absolute = true; }
   // Bytes that go out between two messages.
   void send_raw(std::span<const std::byte> bytes) { (void)socket_->write(bytes); }
   // Closes the connection without Bye.
@@ -57,6 +59,9 @@ class ConformSession {
   [[nodiscard]] std::size_t odd_turns() const noexcept { return to_plant_.odd_turns; }
   // Messages that the plant refused, and what could not be read.
   [[nodiscard]] std::uint64_t refused() const;
+  [[nodiscard]] bool wants_absolute_counts() const noexcept {
+    return (hello_.capabilities & protocol::kCapabilityAbsolute) != 0;
+  }
   // Why the bench refused it, or none.
   [[nodiscard]] core::ErrorCode refusal() const noexcept { return to_controller_.refusal; }
 
@@ -100,11 +105,13 @@ class ConformSession {
     void handle(const protocol::HelloReply& reply) noexcept;
     void handle(const protocol::EncoderReport& report) noexcept;
     void handle(const protocol::EncoderEdges& edges) noexcept;
+    void handle(const protocol::AbsoluteCount& count) noexcept;
     void handle(const protocol::Advanced& advanced) noexcept;
 
     ConformSession& session;
     core::ErrorCode refusal = core::ErrorCode::kNone;
     bool loses_count = false;
+    bool loses_absolute = false;
   };
 
   const emulator::RigParameters& rig_;

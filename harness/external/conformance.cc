@@ -62,6 +62,16 @@ Finding goes_on_or_stops(ConformSession& session, bool may_stop) {
   return crashed ? broken("it " + *how) : kept();
 }
 
+// Within ten turns, and what was on its way.
+bool gives_up_drive(ConformSession& session) {
+  for (int turns = 0; turns < 12; ++turns) {
+    if (!session.turn() || session.complained() || !session.drives()) {
+      return true;
+    }
+  }
+  return false;
+}
+
 // A frame of a message that was changed behind the encoder's back.
 std::vector<std::byte> changed_frame(std::size_t at, std::byte value) {
   std::array<std::byte, protocol::LengthFraming::kMaxFrameSize> frame{};
@@ -132,12 +142,21 @@ Finding notices_loss(ConformSession& session) {
     return shows_nothing(why);
   }
   session.lose_a_count();
-  for (int turns = 0; turns < 12; ++turns) {
-    if (!session.turn() || session.complained() || !session.drives()) {
-      return kept();
-    }
+  return gives_up_drive(session) ? kept()
+                                 : broken("a count was lost, and ten turns later it drives on");
+}
+
+Finding misses_absolute(ConformSession& session) {
+  if (const auto why = reach_motion(session); !why.empty()) {
+    return shows_nothing(why);
   }
-  return broken("a count was lost, and ten turns later it drives on");
+  if (!session.wants_absolute_counts()) {
+    return kept();
+  }
+  session.lose_absolute_counts();
+  return gives_up_drive(session)
+             ? kept()
+             : broken("its absolute counts have stopped, and ten turns later it drives on");
 }
 
 Finding ignores_unknown(ConformSession& session) {
@@ -228,8 +247,13 @@ struct Duty {
   const char* meaning;
   const char* requirement;
   Finding (*check)(ConformSession&);
+  bool (*applies)(const emulator::RigParameters&) = nullptr;  // null: to every machine
+
+  [[nodiscard]] bool applies_to(const emulator::RigParameters& rig) const {
+    return applies == nullptr || applies(rig);
+  }
 };
-constexpr std::array<Duty, 13> kDuties{{
+constexpr std::array<Duty, 14> kDuties{{
     {"greets", "its Hello can be agreed to", "CON-1", greets},
     {"begins_undriven", "a start, or a restart, begins with zero duty", "CON-2", begins_undriven},
     {"keeps_turns", "each turn asks for one exchange, and all it sends is legal", "CON-3",
@@ -248,6 +272,8 @@ constexpr std::array<Duty, 13> kDuties{{
      ends_when_bench_dies},
     {"ends_after_bye", "after Bye it ends within 2 s, with code 0", "CON-12", ends_after_bye},
     {"obeys_kill", "the turn after the kill switch's edge drives nothing", "CON-13", obeys_kill},
+    {"misses_absolute", "absolute counts that it asked for and that stop end the drive", "CON-14",
+     misses_absolute, emulator::tells_counts},
 }};
 
 }  // namespace
@@ -260,12 +286,22 @@ std::vector<std::string> conformance_duties() {
   return names;
 }
 
+std::vector<std::string> conformance_duties(const emulator::RigParameters& rig) {
+  std::vector<std::string> names;
+  for (const auto& duty : kDuties) {
+    if (duty.applies_to(rig)) {
+      names.emplace_back(duty.name);
+    }
+  }
+  return names;
+}
+
 std::vector<Check> check_conformance(const std::string& command, const emulator::RigParameters& rig,
                                      const std::filesystem::path& printed,
                                      const std::string& only) {
   std::vector<Check> checks;
   for (const auto& duty : kDuties) {
-    if (!only.empty() && only != duty.name) {
+    if (!duty.applies_to(rig) || (!only.empty() && only != duty.name)) {
       continue;
     }
     ConformSession session(command, rig, printed);

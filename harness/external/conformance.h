@@ -16,6 +16,8 @@ namespace towbench::harness {
 
 // The names of the duties.
 [[nodiscard]] std::vector<std::string> conformance_duties();
+// Those of a controller of that machine.
+[[nodiscard]] std::vector<std::string> conformance_duties(const emulator::RigParameters& rig);
 
 // In the order of docs/requirements.md (CON-1 ...); of `only` alone unless it is empty. INVALID
 // where a controller did nothing that would have shown the duty: one that never drives, or never

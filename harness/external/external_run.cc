@@ -48,8 +48,8 @@ Check makes_sense(const std::vector<std::string>& refused) {
 }
 
 // By the wall clock a wire that cannot bear the worst case is refused before the clock begins.
-std::string why_not_by_the_clock(const ExternalController& controller,
-                                 const protocol::Hello& hello) {
+std::string why_not_by_the_clock(const ExternalController& controller, const protocol::Hello& hello,
+                                 const emulator::RigParameters& rig) {
   if (!controller.address) {
     return {};
   }
@@ -57,7 +57,9 @@ std::string why_not_by_the_clock(const ExternalController& controller,
       *controller.address,
       {.lockstep = true,  // turns cross as they do there
        .exchange_ns = hello.exchange_ns,
-       .references = (hello.capabilities & protocol::kCapabilityReference) != 0});
+       .references = (hello.capabilities & protocol::kCapabilityReference) != 0,
+       .absolute_counts = (hello.capabilities & protocol::kCapabilityAbsolute) != 0 &&
+                          emulator::tells_counts(rig)});
   if (!bears) {
     return bears.error().message;
   }
@@ -80,7 +82,8 @@ struct Play {
 // Rights are of a thread of its own and end with it: no process inherits them.
 RunOutcome run_by_the_clock(ExternalBench& bench, Arrival& arrival, const Play& what) {
   RunOutcome outcome;
-  outcome.reason = why_not_by_the_clock(what.how.controller, arrival.hello());
+  outcome.reason =
+      why_not_by_the_clock(what.how.controller, arrival.hello(), what.fixture.rig.parameters);
   if (!outcome.reason.empty()) {
     return outcome;
   }

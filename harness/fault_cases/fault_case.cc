@@ -31,7 +31,7 @@ Injection injection_of(const FaultPlan& plan, const std::vector<core::Nanosecond
       inject(plan[i], onsets_ns[i], reference, end_ns, injection);
     }
   }
-  finish(injection);
+  finish(injection, fixture.rig.parameters);
   return injection;
 }
 

@@ -83,12 +83,6 @@ class Injector {
          .input_line = line,
          .condition = condition});
   }
-  void hold_line(InputLine line, WireCondition condition) {
-    rewire(at_ns_, line, condition);
-    if (!lasts_) {
-      rewire(until_ns_, line, WireCondition::kIntact);
-    }
-  }
   void cross(InputLine a, InputLine b) {
     for (const auto time_ns : {at_ns_, until_ns_}) {
       if (time_ns == at_ns_ || !lasts_) {
@@ -105,7 +99,8 @@ class Injector {
          .encoder_line = line,
          .condition = condition});
   }
-  void hold_line(EncoderLine line, WireCondition condition) {
+  template <typename Line>
+  void hold_line(Line line, WireCondition condition) {
     rewire(at_ns_, line, condition);
     if (!lasts_) {
       rewire(until_ns_, line, WireCondition::kIntact);
@@ -224,6 +219,7 @@ class Injector {
       case kInverted:
         return hold_line(EncoderLine::kA, WireCondition::kInverted);
       case kFrozen:
+        hold(ScheduledEventKind::kHoldAbsolute, 1.0, 0.0);
         hold_line(EncoderLine::kA, WireCondition::kStuckLow);
         hold_line(EncoderLine::kB, WireCondition::kStuckLow);
         return hold_line(EncoderLine::kIndex, WireCondition::kStuckLow);
@@ -339,7 +335,11 @@ void inject(const Fault& fault, core::Nanoseconds at_ns, const CaseRecord& refer
   Injector(fault, at_ns, reference, end_ns, injection).run();
 }
 
-void finish(Injection& injection) {
+void finish(Injection& injection, const emulator::RigParameters& rig) {
+  std::erase_if(injection.events, [&](const ScheduledEvent& event) {
+    return event.kind == ScheduledEventKind::kHoldAbsolute &&
+           !rig.axes[event.axis].encoder.absolute;
+  });
   std::stable_sort(injection.events.begin(), injection.events.end(),
                    [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; });
 }

@@ -2,6 +2,7 @@
 // is never touched.
 #pragma once
 
+#include "emulator/rig_parameters.h"
 #include "harness/fault_cases/case_record.h"
 #include "harness/fault_plan/fault.h"
 #include "harness/lockstep/injection.h"
@@ -13,7 +14,7 @@ namespace towbench::harness {
 // at the latest.
 void inject(const Fault& fault, core::Nanoseconds at_ns, const CaseRecord& reference,
             core::Nanoseconds end_ns, Injection& injection);
-// Puts events in order; after the last inject().
-void finish(Injection& injection);
+// Puts events in order and drops those of encoders that the rig has not; after the last inject().
+void finish(Injection& injection, const emulator::RigParameters& rig);
 
 }  // namespace towbench::harness

@@ -51,7 +51,7 @@ constexpr FaultRow kRows[] = {
      {{{"rate_Hz", 1000, 1, 10000}}}},
     {kEncoder, kSwappedChannels, "swapped", "channels A and B exchanged", kAnyTime, kStop, kNone, {}},
     {kEncoder, kInverted, "inverted", "channel A's pair exchanged: counts backwards", kAnyTime, kStop, kNone, {}},
-    {kEncoder, kFrozen, "frozen", "no channel changes any more", kAnyTime, kStop, kNone, {}},
+    {kEncoder, kFrozen, "frozen", "no channel changes any more, nor what an absolute encoder tells", kAnyTime, kStop, kNone, {}},
     {kEncoder, kJump, "jump", "the disc jumps", kAnyTime, kStop, kNone, {{{"counts", 400, -100000, 100000}}}},
     {kEncoder, kSlip, "slip", "the disc stands while the shaft turns so far", kAnyTime, kNothing, kNone,
      {{{"counts", 800, 1, 1e7}}}},

@@ -26,7 +26,8 @@ ExpectedRecord expected_of(const ExperimentFixture& fixture, const RunOutcome& o
   return expected;
 }
 
-std::vector<ExpectedSensor> sensors_of(const emulator::RigParameters& rig) {
+std::vector<ExpectedSensor> sensors_of(const emulator::RigParameters& rig,
+                                       core::Nanoseconds exchange_ns) {
   std::vector<ExpectedSensor> sensors;
   if (rig.force_sensor.fitted) {
     sensors.push_back(
@@ -37,6 +38,9 @@ std::vector<ExpectedSensor> sensors_of(const emulator::RigParameters& rig) {
     if (axis.exists && axis.current_monitor.fitted) {
       sensors.push_back(
           {current_file(which), core::nanoseconds(axis.current_monitor.sample_period_s)});
+    }
+    if (axis.exists && axis.encoder.absolute) {
+      sensors.push_back({absolute_file(which), exchange_ns});
     }
   }
   if (rig.camera.fitted) {
@@ -133,7 +137,7 @@ Judgement judge(const std::filesystem::path& folder, const ExperimentFixture& fi
     checks.push_back(script_check(outcome));
     checks.push_back(check_log_complete(data, expected));
     checks.push_back(check_truth_complete(data, expected));
-    for (const auto& sensor : sensors_of(fixture.rig.parameters)) {
+    for (const auto& sensor : sensors_of(fixture.rig.parameters, outcome.exchange_ns)) {
       checks.push_back(check_sensor_complete(data, expected, sensor));
     }
     checks.push_back(check_edges_seen(data));

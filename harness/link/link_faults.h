@@ -41,7 +41,7 @@ using LinkMessage =
     std::variant<protocol::PwmDuty, protocol::DigitalOutputs, protocol::EncoderEdges,
                  protocol::EncoderReport, protocol::DigitalInputs, protocol::ForceSample,
                  protocol::CurrentSample, protocol::Heartbeat, protocol::Fault, protocol::Reference,
-                 protocol::Reset>;
+                 protocol::Reset, protocol::AbsoluteCount>;
 
 class LinkDisturber {
  public:

@@ -68,7 +68,7 @@ class TurnAnswers final : public protocol::EachMessage<TurnAnswers> {
                    protocol::EncoderReport, protocol::DigitalInputs, protocol::DigitalOutputs,
                    protocol::ForceSample, protocol::CurrentSample, protocol::Advance,
                    protocol::Advanced, protocol::Heartbeat, protocol::Fault, protocol::Bye,
-                   protocol::Reference, protocol::Reset>;
+                   protocol::Reference, protocol::Reset, protocol::AbsoluteCount>;
 
   protocol::MessageSink* controller_ = nullptr;
   bool in_turn_ = false;

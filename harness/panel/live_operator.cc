@@ -279,7 +279,7 @@ Injection LiveOperator::injection_of(const Fault& fault) const {
       looks_ahead ? run_reference(so_far, seed_) : std::make_unique<CaseRecord>();
   Injection injection;
   inject(fault, onset_ns, *reference, end_ns, injection);
-  harness::finish(injection);
+  harness::finish(injection, fixture_.rig.parameters);
   return injection;
 }
 

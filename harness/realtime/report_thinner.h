@@ -1,8 +1,8 @@
 // Lets a plant that reports in each of its ticks speak to a wire that bears one report an exchange.
 //
 // The digest is a count since the last report, so the reports of several ticks are one: changes add
-// up, levels and times are those of the last. Exactly what the plant would have said had it been
-// asked once.
+// up, levels and times are those of the last. Of an absolute encoder's counts the last is all there
+// is to say. Exactly what the plant would have said had it been asked once.
 #pragma once
 
 #include <optional>
@@ -38,14 +38,20 @@ class ReportThinner final : public protocol::EachMessage<ReportThinner> {
     sum->illegal_transitions =
         static_cast<std::uint16_t>(report.illegal_transitions + before.illegal_transitions);
   }
+  void handle(const protocol::AbsoluteCount& count) noexcept { counts_[count.axis] = count; }
   void handle(const protocol::Advanced& advanced) noexcept {
     if (advanced.time_ns % report_ns_ != 0) {
       return;
     }
-    for (auto& sum : sums_) {
-      if (sum) {
+    for (const auto which : core::kAllAxes) {
+      if (auto& sum = sums_[which]) {
         to_.on(*sum);
         sum.reset();
+      }
+      if (auto& count = counts_[which]) {
+        count->sequence = count_sequences_[which]++;
+        to_.on(*count);
+        count.reset();
       }
     }
     to_.on(advanced);
@@ -56,6 +62,8 @@ class ReportThinner final : public protocol::EachMessage<ReportThinner> {
   core::Nanoseconds report_ns_;
   core::PerAxis<std::optional<protocol::EncoderReport>> sums_;
   core::PerAxis<std::uint32_t> sequences_{{0, 0}};
+  core::PerAxis<std::optional<protocol::AbsoluteCount>> counts_;
+  core::PerAxis<std::uint32_t> count_sequences_{};
 };
 
 }  // namespace towbench::harness

@@ -25,6 +25,10 @@ void PlantRecorder::WriteTruth::operator()(
 
 void PlantRecorder::on_truth(const emulator::TruthRow& row) noexcept {
   rows_.add(row);
+  for (const auto axis : core::kAllAxes) {
+    sensors_.add(protocol::AbsoluteCount{
+        .axis = axis, .time_ns = row.time_ns, .count = row.axes[axis].absolute_count});
+  }
   if (tap_ != nullptr) {
     tap_->truth(row);
   }

@@ -15,6 +15,9 @@ SensorRecorder::SensorRecorder(const std::filesystem::path& folder,
     if (rig.axes[axis].exists && rig.axes[axis].current_monitor.fitted) {
       currents_[axis].emplace(folder / current_file(axis), current_header(axis), writer);
     }
+    if (rig.axes[axis].exists && rig.axes[axis].encoder.absolute) {
+      absolutes_[axis].emplace(folder / absolute_file(axis), absolute_header(axis), writer);
+    }
   }
   if (rig.camera.fitted) {
     WriteFrame write;
@@ -47,6 +50,13 @@ void SensorRecorder::WriteCurrent::operator()(
   }
 }
 
+void SensorRecorder::WriteAbsolute::operator()(
+    std::span<const protocol::AbsoluteCount> counts) const noexcept {
+  for (const auto& count : counts) {
+    csv->time(count.time_ns).number(count.count).end_row();
+  }
+}
+
 void SensorRecorder::WriteFrame::operator()(
     std::span<const emulator::CameraFrame> frames) const noexcept {
   for (const auto& frame : frames) {
@@ -72,6 +82,12 @@ void SensorRecorder::add(const protocol::CurrentSample& sample) noexcept {
   }
 }
 
+void SensorRecorder::add(const protocol::AbsoluteCount& count) noexcept {
+  if (auto& file = absolutes_[count.axis]) {
+    file->rows.add(count);
+  }
+}
+
 void SensorRecorder::add(const emulator::CameraFrame& frame) noexcept {
   if (camera_) {
     camera_->rows.add(frame);
@@ -90,6 +106,11 @@ void SensorRecorder::hand_over() noexcept {
       file->rows.hand_over();
     }
   }
+  for (auto& file : absolutes_) {
+    if (file) {
+      file->rows.hand_over();
+    }
+  }
 }
 
 void SensorRecorder::flush() noexcept {
@@ -104,11 +125,19 @@ void SensorRecorder::flush() noexcept {
       file->csv.flush();
     }
   }
+  for (auto& file : absolutes_) {
+    if (file) {
+      file->csv.flush();
+    }
+  }
 }
 
 bool SensorRecorder::good() const noexcept {
   bool good = (!force_ || force_->csv.good()) && (!camera_ || camera_->csv.good());
   for (const auto& file : currents_) {
+    good = good && (!file || file->csv.good());
+  }
+  for (const auto& file : absolutes_) {
     good = good && (!file || file->csv.good());
   }
   return good;

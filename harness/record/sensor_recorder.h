@@ -1,6 +1,7 @@
 // What the rig's sensors say, each at its own rate, in files of their own: force.csv of the force
-// sensor, current_y.csv and current_x.csv of the amplifiers' current monitors, camera.csv of the
-// camera, each frame with the time of its arrival. A sensor that is not fitted has no file.
+// sensor, current_y.csv and current_x.csv of the amplifiers' current monitors, absolute_y.csv and
+// its like of absolute encoders at the times of truth.csv, camera.csv of the camera, each frame
+// with the time of its arrival. A sensor that is not fitted has no file.
 #pragma once
 
 #include <filesystem>
@@ -26,6 +27,7 @@ class SensorRecorder {
   void add(const protocol::ForceSample& sample) noexcept;
   void add(const protocol::CurrentSample& sample) noexcept;
   void add(const emulator::CameraFrame& frame) noexcept;
+  void add(const protocol::AbsoluteCount& count) noexcept;
 
   // Before the writer is waited for, and after.
   void hand_over() noexcept;
@@ -41,6 +43,10 @@ class SensorRecorder {
   struct WriteCurrent {
     CsvWriter* csv = nullptr;
     void operator()(std::span<const protocol::CurrentSample> samples) const noexcept;
+  };
+  struct WriteAbsolute {
+    CsvWriter* csv = nullptr;
+    void operator()(std::span<const protocol::AbsoluteCount> counts) const noexcept;
   };
   struct WriteFrame {
     CsvWriter* csv = nullptr;
@@ -62,6 +68,7 @@ class SensorRecorder {
 
   std::optional<File<protocol::ForceSample, WriteForce>> force_;
   core::PerAxis<std::optional<File<protocol::CurrentSample, WriteCurrent>>> currents_;
+  core::PerAxis<std::optional<File<protocol::AbsoluteCount, WriteAbsolute>>> absolutes_;
   std::optional<File<emulator::CameraFrame, WriteFrame>> camera_;
 };
 

@@ -135,5 +135,6 @@ template void CanPacker::handle(const Fault&) noexcept;
 template void CanPacker::handle(const Bye&) noexcept;
 template void CanPacker::handle(const Reference&) noexcept;
 template void CanPacker::handle(const Reset&) noexcept;
+template void CanPacker::handle(const AbsoluteCount&) noexcept;
 
 }  // namespace towbench::protocol

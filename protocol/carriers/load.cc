@@ -87,6 +87,7 @@ Load serial_load(const Traffic& traffic, std::uint32_t baud) noexcept {
   to_controller += traffic.force_samples ? cobs_bits<ForceSample>() : 0.0;
   to_controller += traffic.current_samples ? axes * cobs_bits<CurrentSample>() : 0.0;
   to_controller += traffic.references ? axes * cobs_bits<Reference>() : 0.0;
+  to_controller += traffic.absolute_counts ? axes * cobs_bits<AbsoluteCount>() : 0.0;
   if (traffic.lockstep) {
     to_plant += cobs_bits<Advance>();
     to_controller += cobs_bits<Advanced>();
@@ -122,6 +123,9 @@ Load can_load(const Traffic& traffic, std::uint32_t bit_per_s,
                        : 0.0;
   to_controller +=
       traffic.references ? axes * exchanges_per_s * whole_message_frames<Reference>() : 0.0;
+  to_controller += traffic.absolute_counts
+                       ? axes * exchanges_per_s * whole_message_frames<AbsoluteCount>()
+                       : 0.0;
   if (traffic.lockstep) {
     to_plant += exchanges_per_s;
     to_controller += exchanges_per_s;

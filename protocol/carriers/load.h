@@ -30,6 +30,7 @@ struct Traffic {
   bool force_samples = false;    // one an exchange
   bool current_samples = false;  // one an axis and exchange
   bool references = false;       // the same
+  bool absolute_counts = false;  // the same
 };
 
 struct Load {

@@ -18,7 +18,7 @@ DEAF_TO = {
     "deaf_to_x_max": towbench.HALL_X_MAX,
 }
 # They go on whatever the count says, or their own fault would stop them.
-CREDULOUS = {*DEAF_TO, "forgets_the_kill", "any_reset_frees", "trusts_the_encoder", "sign_reversed", "wraps_at_16_bits"}
+CREDULOUS = {*DEAF_TO, "forgets_the_kill", "any_reset_frees", "trusts_the_encoder", "sign_reversed", "wraps_at_16_bits", "trusts_an_old_count"}
 LATE_BY = {"one_tick_late": 1, "a_tenth_of_a_second_late": 100}  # exchanges
 
 if kind == "never_connects":
@@ -30,7 +30,9 @@ if kind == "one_axis":
     bench.greet(axes=("y",))
 if kind == "other_tick":
     bench.greet(tick_ns=50_000)
-bench.greet(reference=True, resets=kind != "takes_no_reset", edges=kind == "takes_edges")
+absolute = ("y",) if kind in ("follows_absolute", "trusts_an_old_count") else ()
+bench.greet(reference=True, resets=kind != "takes_no_reset", edges=kind == "takes_edges", absolute=absolute)
+pid.SETTINGS.update({f"{axis}.absolute": 1.0 for axis in absolute})
 if kind == "waits_for_ever":
     bench.silence_s = 60.0
 loops = [pid.Pid("y"), pid.Pid("x")]
@@ -77,7 +79,7 @@ while True:
     if kind == "any_reset_frees" and bench.reset:
         stopped = ""
         bench.lines &= ~towbench.KILL_SWITCH
-    if kind == "counts_on_over_gaps":
+    if kind in ("counts_on_over_gaps", "trusts_an_old_count"):
         bench.counts.sequence_gaps = 0
     reason = pid.reason_to_stop(bench, loops)
     if reason in ("kill switch", "end-stop") or kind not in CREDULOUS:

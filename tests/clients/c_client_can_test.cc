@@ -33,7 +33,8 @@ std::string known_by(const tb_bench& bench) {
     out << axis.count << ' ' << axis.index_count << ' ' << axis.index_pulses << ' '
         << axis.illegal_transitions << ' ' << axis.reference.position_m << ' '
         << axis.reference.velocity_m_per_s << ' ' << axis.reference.acceleration_m_per_s2 << ' '
-        << axis.current_A << ' ' << int{axis.levels} << '\n';
+        << axis.current_A << ' ' << int{axis.levels} << ' ' << axis.absolute << ' '
+        << axis.absolute_at_start << ' ' << axis.absolute_ns << '\n';
   }
   out << bench.now_ns << ' ' << bench.lines << ' ' << bench.refusal << ' ' << bench.capabilities
       << ' ' << bench.fault << ' ' << bench.faults << ' ' << bench.heartbeats << ' '

@@ -110,6 +110,33 @@ TEST(CClient, CountsAsTheReportAndTheEdgesSay) {
   EXPECT_EQ(bench->axis[TB_Y].reference.acceleration_m_per_s2, 3.0F);
 }
 
+TEST(CClient, KnowsWhatAnAbsoluteEncoderTells) {
+  const auto bench = client(TB_STREAM);
+  const auto take = [&](const auto& message) {
+    Payloads one;
+    one.on(message);
+    ASSERT_NE(tb_take(bench.get(), bytes_in(one.all[0]), one.all[0].size()), 0);
+  };
+  take(Advanced{});
+  EXPECT_EQ(bench->counts.sequence_gaps, 0U) << "who tells nothing is not missed";
+  EXPECT_EQ(bench->axis[TB_X].has_absolute, 0);
+  take(AbsoluteCount{core::Axis::kX, 1'000'000, -70'000, 0});
+  take(Advanced{1'000'000});
+  take(AbsoluteCount{core::Axis::kX, 2'000'000, 123'456, 1});
+  take(Advanced{2'000'000});
+  EXPECT_EQ(bench->axis[TB_X].absolute, 123'456);
+  EXPECT_EQ(bench->axis[TB_X].absolute_at_start, -70'000);
+  EXPECT_EQ(bench->axis[TB_X].absolute_ns, 2'000'000);
+  EXPECT_EQ(bench->axis[TB_X].has_absolute, 1);
+  EXPECT_EQ(bench->axis[TB_Y].has_absolute, 0);
+  EXPECT_EQ(bench->counts.sequence_gaps, 0U);
+  take(Advanced{3'000'000});
+  EXPECT_EQ(bench->counts.sequence_gaps, 1U) << "a turn without it";
+  take(AbsoluteCount{core::Axis::kX, 4'000'000, 123'456, 3});
+  take(Advanced{4'000'000});
+  EXPECT_EQ(bench->counts.sequence_gaps, 2U) << "a gap in its sequence";
+}
+
 // What the client sends, as the bench reads it.
 template <typename Reader>
 std::vector<std::string> sent_by_client(tb_framing framing) {

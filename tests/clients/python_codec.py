@@ -81,4 +81,27 @@ for name in ("can", "can_hurt"):
 sent = of_lengths(streams["can_payloads"])
 assert len(sent) == 4 * 33_000 + 3, len(sent)
 assert b"".join(map(towbench.CanFraming.frame, sent)) == streams["can_sent"], "another frame than the packer's"
+
+
+def takes(bench: towbench.Bench, kind: int, *fields: int) -> None:
+    bench._take(towbench.encode(kind, *fields))
+
+
+# As KnowsWhatAnAbsoluteEncoderTells of the client in C.
+client = towbench.Bench(None, towbench.LengthFraming(towbench.Counts()), towbench.Counts())
+client.axes = {"y": towbench.Axis(), "x": towbench.Axis()}
+takes(client, towbench.ADVANCED, 0)
+assert client.counts.sequence_gaps == 0, "who tells nothing is not missed"
+takes(client, towbench.ABSOLUTE_COUNT, 1, 1_000_000, -70_000, 0)
+takes(client, towbench.ADVANCED, 1_000_000)
+takes(client, towbench.ABSOLUTE_COUNT, 1, 2_000_000, 123_456, 1)
+takes(client, towbench.ADVANCED, 2_000_000)
+assert (client.axes["x"].absolute, client.axes["x"].absolute_at_start) == (123_456, -70_000), client.axes
+assert client.axes["y"].absolute is None, client.axes
+assert client.counts.sequence_gaps == 0, client.counts
+takes(client, towbench.ADVANCED, 3_000_000)
+assert client.counts.sequence_gaps == 1, "a turn without it"
+takes(client, towbench.ABSOLUTE_COUNT, 1, 4_000_000, 123_456, 3)
+takes(client, towbench.ADVANCED, 4_000_000)
+assert client.counts.sequence_gaps == 2, "a gap in its sequence"
 print(counted)

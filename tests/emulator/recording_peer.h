@@ -22,10 +22,10 @@ struct EdgeInterval {
 
 class RecordingPeer : public protocol::MessageSink, public PlantObserver {
  public:
-  using Message =
-      std::variant<protocol::HelloReply, EdgeInterval, protocol::EncoderReport,
-                   protocol::DigitalInputs, protocol::Advanced, protocol::Fault, protocol::Bye,
-                   protocol::ForceSample, protocol::CurrentSample, protocol::Reset>;
+  using Message = std::variant<protocol::HelloReply, EdgeInterval, protocol::EncoderReport,
+                               protocol::DigitalInputs, protocol::Advanced, protocol::Fault,
+                               protocol::Bye, protocol::ForceSample, protocol::CurrentSample,
+                               protocol::Reset, protocol::AbsoluteCount>;
 
   using MessageSink::on;
   void on(const protocol::HelloReply& m) noexcept override { add("HelloReply", m); }
@@ -48,6 +48,9 @@ class RecordingPeer : public protocol::MessageSink, public PlantObserver {
   void on(const protocol::Fault& m) noexcept override { add("Fault", m); }
   void on(const protocol::Bye& m) noexcept override { add("Bye", m); }
   void on(const protocol::Reset& m) noexcept override { add("Reset", m); }
+  void on(const protocol::AbsoluteCount& m) noexcept override {
+    add(m.axis == core::Axis::kY ? "AbsoluteY" : "AbsoluteX", m);
+  }
 
   void on_truth(const TruthRow& row) noexcept override { truth.push_back(row); }
   void on_event(const PlantEvent& event) noexcept override { events.push_back(event); }

@@ -114,6 +114,20 @@ TEST(RigParameters, RefusesWhatNoSingleRangeCanSay) {
       "eccentricity_counts");
   refuses([](RigParameters& r) { r.axes[Axis::kX].start_m = 2.0; }, "start_m");
   refuses([](RigParameters& r) { r.axes[Axis::kX].hall_max.position_m = 0.0; }, "hall_max");
+  // 2e9 counts of the tank's Y are 2,695 m of its way.
+  refuses(
+      [](RigParameters& r) {
+        r.axes[Axis::kY].encoder.absolute = true;
+        r.axes[Axis::kY].plant.hard_ends.min_m = -5000.0;
+      },
+      "encoder.absolute");
+  refuses(
+      [](RigParameters& r) {
+        r.axes[Axis::kY].encoder.absolute = true;
+        r.axes[Axis::kY].plant.hard_ends.fitted = false;
+        r.axes[Axis::kY].start_m = 5000.0;
+      },
+      "encoder.absolute");
   refuses(
       [](RigParameters& r) {
         r.axes[Axis::kX].exists = false;
@@ -134,6 +148,16 @@ TEST(RigParameters, RefusesWhatNoSingleRangeCanSay) {
         r.water.object = {.in_water = true, .quadratic_drag_N_s2_per_m2 = 600.0};
       },
       "water");
+}
+
+TEST(RigParameters, AnAbsoluteEncoderFitsTheTank) {
+  RigParameters rig;
+  rig.axes[Axis::kY].encoder.absolute = true;
+  rig.axes[Axis::kY].plant.hard_ends.max_m = 2600.0;
+  EXPECT_EQ(inconsistency(rig), nullptr);
+  EXPECT_TRUE(tells_counts(rig));
+  rig.axes[Axis::kY].exists = false;
+  EXPECT_FALSE(tells_counts(rig)) << "an axis that is not there tells nothing";
 }
 
 TEST(RigParameters, AnAxisThatDoesNotExistNeedNotMakeSense) {

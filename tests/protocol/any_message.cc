@@ -84,8 +84,10 @@ void AnyMessage::send_to(MessageSink& sink, unsigned kind) noexcept {
       return sink.on(Bye{time()});
     case 14:
       return sink.on(Reference{axis(), time(), real(), real(), real()});
-    default:
+    case 15:
       return sink.on(Reset{time()});
+    default:
+      return sink.on(AbsoluteCount{axis(), time(), any<std::int32_t>(), any<std::uint32_t>()});
   }
 }
 

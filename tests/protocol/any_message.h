@@ -15,7 +15,7 @@ class AnyMessage {
   // Calls `sink` with one message of a random kind.
   void send_to(MessageSink& sink) noexcept;
   void send_to(MessageSink& sink, unsigned kind) noexcept;
-  static constexpr unsigned kKinds = 16;
+  static constexpr unsigned kKinds = 17;
 
  private:
   template <typename T>

@@ -66,7 +66,7 @@ ErrorCode decode_error_with(const std::string& name, std::size_t offset, const s
 }
 
 TEST(Codec, WritesTheExactBytesOfEveryMessage) {
-  EXPECT_EQ(golden_messages().size(), 16U);
+  EXPECT_EQ(golden_messages().size(), 17U);
   for (const Golden& golden : golden_messages()) {
     const auto expected = bytes_of(golden.payload_hex);
     const auto actual = encoded(golden.send);
@@ -142,7 +142,7 @@ TEST(Codec, RefusesEveryOtherLength) {
 }
 
 TEST(Codec, RefusesUnknownMessages) {
-  for (const unsigned id : {0U, 17U, 18U, 127U, 255U}) {
+  for (const unsigned id : {0U, 18U, 19U, 127U, 255U}) {
     std::array<std::byte, 32> payload{static_cast<std::byte>(id)};
     EXPECT_EQ(decode_error(payload), ErrorCode::kMessageUnknown) << id;
     EXPECT_FALSE(is_plausible(payload[0], payload.size()));
@@ -178,6 +178,8 @@ TEST(Codec, RefusesEveryFieldOutOfItsRange) {
   EXPECT_EQ(decode_error_with("Fault", 1, "ffff"), bad) << "error number 65535";
   EXPECT_EQ(decode_error_with("Reference", 1, "06"), bad) << "axis 6";
   EXPECT_EQ(decode_error_with("Reference", 10, "0000c07f"), bad) << "NaN";
+  EXPECT_EQ(decode_error_with("AbsoluteCount", 1, "06"), bad) << "axis 6";
+  EXPECT_EQ(decode_error_with("AbsoluteCount", 2, "0000000000000080"), bad) << "negative time";
   for (const char* name : {"Advance", "Advanced", "Heartbeat", "Bye", "Reset"}) {
     EXPECT_EQ(decode_error_with(name, 1, "0000000000000080"), bad) << name << ": negative time";
   }
@@ -243,7 +245,7 @@ TEST(Codec, RandomBytesNeverCrashAndWhatTheyYieldIsLegal) {
     for (auto& byte : bytes) {
       byte = static_cast<std::byte>(random.bits());
     }
-    bytes[0] = static_cast<std::byte>(random.bits() % 16U);
+    bytes[0] = static_cast<std::byte>(random.bits() % 18U);
     const auto payload =
         std::span<const std::byte>(bytes).first(random.bits() % (bytes.size() + 1));
     EncodingSink again;

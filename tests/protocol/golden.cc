@@ -105,6 +105,11 @@ const std::vector<Golden>& golden_messages() {
          s.on(Reference{core::Axis::kX, kTime_ns, 1.0F, -2.0F, 0.5F});
        }},
       {"Reset", "10 0807060504030201", [](MessageSink& s) { s.on(Reset{kTime_ns}); }},
+      // -2 = fffffffe.
+      {"AbsoluteCount", "11 01 0807060504030201 feffffff 44332211",
+       [](MessageSink& s) {
+         s.on(AbsoluteCount{core::Axis::kX, kTime_ns, -2, kSequence});
+       }},
   };
   return messages;
 }

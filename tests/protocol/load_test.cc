@@ -50,6 +50,7 @@ TEST(SerialLoad, BoundsWhatIsReallyWritten) {
       writer.on(EncoderReport{.axis = axis, .time_ns = time_ns, .sequence = word});
       writer.on(CurrentSample{axis, time_ns, 1.0F});
       writer.on(Reference{axis, time_ns, 1.0F, 1.0F, 1.0F});
+      writer.on(AbsoluteCount{axis, time_ns, static_cast<std::int32_t>(word), word});
     }
     writer.on(DigitalInputs{1, time_ns, word});
     writer.on(ForceSample{time_ns, {}, {}});
@@ -59,10 +60,23 @@ TEST(SerialLoad, BoundsWhatIsReallyWritten) {
                       .line_changes_per_s = 1000.0,
                       .force_samples = true,
                       .current_samples = true,
-                      .references = true};
+                      .references = true,
+                      .absolute_counts = true};
     const double bits = static_cast<double>(out.bytes.size() * 10);
     EXPECT_LE(bits * 1000.0, serial_load(all, 1).to_controller_bit_per_s);
   }
+}
+
+// 18 bytes + 4 checksum + 2 on a line; on a bus 18 + 1 of length + 4 in segments of seven, so four.
+TEST(SerialLoad, CountsTheAbsoluteCountOfEachAxis) {
+  const double with = serial_load({.absolute_counts = true}, 1).to_controller_bit_per_s;
+  EXPECT_DOUBLE_EQ(with - serial_load({}, 1).to_controller_bit_per_s, 2 * 24 * 10 * 1000.0);
+}
+
+TEST(CanLoad, CountsTheAbsoluteCountOfEachAxis) {
+  const double with = can_load({.absolute_counts = true}, 1'000'000).to_controller_bit_per_s;
+  const double without = can_load({}, 1'000'000).to_controller_bit_per_s;
+  EXPECT_DOUBLE_EQ(with - without, 2 * 4 * 135 * 1000.0);
 }
 
 // 7,400 frames a second at 1 Mbit/s with the worst stuffing, as Davis et al. (2007) reckon it.

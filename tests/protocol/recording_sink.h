@@ -92,6 +92,10 @@ inline std::string text_of(const Reference& m) {
 inline std::string text_of(const Reset& m) {
   return "Reset " + std::to_string(m.time_ns);
 }
+inline std::string text_of(const AbsoluteCount& m) {
+  return "AbsoluteCount " + std::string(name_of(m.axis)) + ' ' + std::to_string(m.time_ns) + ' ' +
+         std::to_string(m.count) + ' ' + std::to_string(m.sequence);
+}
 
 class RecordingSink final : public EachMessage<RecordingSink> {
  public:

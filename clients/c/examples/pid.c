@@ -22,6 +22,8 @@ static double proportional = 4600.0, integral = 20000.0, derivative = 120.0; /* 
 static double filter = 0.5, largest_error = 0.01, brake = 20.0;
 /* More than friction takes, and no way made. */
 static double stall_duty = 0.06, stall_counts = 2, stall_s = 0.04;
+/* 1: the place is what an absolute encoder tells, not what its edges add up to. */
+static double absolute[TB_AXES];
 static const struct {
   const char* name;
   double* value;
@@ -38,6 +40,7 @@ static const struct {
     {"stall_duty", &stall_duty, 0},
     {"stall_counts", &stall_counts, 0},
     {"stall_s", &stall_s, 0},
+    {"absolute", absolute, 1},
 };
 static const char kAxes[] = "yxzabc";
 static const double kPeriod_s = 1e-3;
@@ -52,9 +55,15 @@ static int drives(const tb_bench* bench, int axis) {
   return bench->axes_mask >> axis & 1;
 }
 
+/* Since the run began. */
+static int64_t count_of(const tb_bench* bench, int axis) {
+  const tb_axis* state = &bench->axis[axis];
+  return absolute[axis] != 0 ? (int64_t)state->absolute - state->absolute_at_start : state->count;
+}
+
 static double error_of(const tb_bench* bench, int axis) {
   return (double)bench->axis[axis].reference.position_m -
-         metres_per_count[axis] * (double)bench->axis[axis].count;
+         metres_per_count[axis] * (double)count_of(bench, axis);
 }
 
 static double duty_of(pid* loop, const tb_bench* bench, int axis) {
@@ -65,7 +74,7 @@ static double duty_of(pid* loop, const tb_bench* bench, int axis) {
       inertia[axis] * ((double)bench->axis[axis].reference.acceleration_m_per_s2 +
                        proportional * error + integral * loop->summed + derivative * loop->slope);
   if (fabs(duty) < 1.0) loop->summed += error * kPeriod_s; /* no wind-up at the limit */
-  const int64_t count = bench->axis[axis].count;
+  const int64_t count = count_of(bench, axis);
   const int stays = (double)llabs(count - loop->still_count) <= stall_counts;
   const int stalls = (stays && fabs(duty) > stall_duty) || fabs(duty) >= 1.0;
   if (!stays) loop->still_count = count;
@@ -75,8 +84,17 @@ static double duty_of(pid* loop, const tb_bench* bench, int axis) {
 
 static double braking_duty(const pid* loop, const tb_bench* bench, int axis) {
   const double moved_m =
-      metres_per_count[axis] * (double)(bench->axis[axis].count - loop->count_before);
+      metres_per_count[axis] * (double)(count_of(bench, axis) - loop->count_before);
   return -inertia[axis] * brake * moved_m / kPeriod_s;
+}
+
+/* The first axis whose place is to be what its encoder tells, and which tells none; 0: there is
+ * none. */
+static char without_absolute(const tb_bench* bench) {
+  for (int i = 0; i < TB_AXES; ++i) {
+    if (drives(bench, i) && absolute[i] != 0 && !bench->axis[i].has_absolute) return kAxes[i];
+  }
+  return 0;
 }
 
 static const char* reason_to_stop(const pid* loops, const tb_bench* bench) {
@@ -210,7 +228,11 @@ int main(int argc, char** argv) {
   if (line < 0)
     return fprintf(stderr, "usage: pid local:PATH | can:INTERFACE [AXES [NAME=VALUE ...]]\n"), 2;
   const tb_framing framing = argv[1][0] == 'c' ? TB_CAN : TB_STREAM;
-  tb_init(&bench, framing, mask, 1000000, TB_DIGEST | TB_REFERENCE | TB_RESETS);
+  uint32_t wanted = TB_DIGEST | TB_REFERENCE | TB_RESETS;
+  for (int i = 0; i < TB_AXES; ++i) {
+    if (mask >> i & 1 && absolute[i] != 0) wanted |= TB_ABSOLUTE;
+  }
+  tb_init(&bench, framing, mask, 1000000, wanted);
   if (!await_bench(line, &bench)) return fprintf(stderr, "no bench on the bus\n"), 1;
   tb_greet(&bench);
   if (!exchange(line, &bench) || bench.refusal != 0)
@@ -218,6 +240,12 @@ int main(int argc, char** argv) {
   tb_enable(&bench, mask);
   tb_end_turn(&bench);
   while (exchange(line, &bench)) {
+    const char lacking = without_absolute(&bench);
+    if (lacking != 0)
+      return fprintf(stderr,
+                     "%c.absolute: given 1; allowed: 0, the encoder of %c is not absolute\n",
+                     lacking, lacking),
+             2;
     if (bench.reset && !(bench.lines & TB_KILL_SWITCH)) { /* the operator asks to go on */
       memset(loops, 0, sizeof loops);
       stopped = NULL;
@@ -237,7 +265,7 @@ int main(int argc, char** argv) {
                           : stopped ? 0
                                     : duty_of(&loops[i], &bench, i);
       tb_drive(&bench, i, duty, !killed);
-      loops[i].count_before = bench.axis[i].count;
+      loops[i].count_before = count_of(&bench, i);
     }
     tb_end_turn(&bench);
   }

@@ -15,19 +15,22 @@ namespace {
 struct Kept final : protocol::MessageSink {
   using MessageSink::on;
   void on(const protocol::EncoderReport& report) noexcept override { reports.push_back(report); }
+  void on(const protocol::AbsoluteCount& count) noexcept override { counts.push_back(count); }
   void on(const protocol::Advanced& advanced) noexcept override {
     times_ns.push_back(advanced.time_ns);
   }
   std::vector<protocol::EncoderReport> reports;
+  std::vector<protocol::AbsoluteCount> counts;
   std::vector<core::Nanoseconds> times_ns;
 };
 
 // Both axes driven hard for 50 ms, the plant asked every `step_ns`.
 void drive(emulator::PlantNode& plant, core::Nanoseconds step_ns) {
-  plant.on(protocol::Hello{.axes_mask = 3,
-                           .tick_ns = static_cast<std::uint32_t>(core::kPlantTick_ns),
-                           .exchange_ns = 1'000'000,
-                           .capabilities = protocol::kCapabilityDigest});
+  plant.on(
+      protocol::Hello{.axes_mask = 3,
+                      .tick_ns = static_cast<std::uint32_t>(core::kPlantTick_ns),
+                      .exchange_ns = 1'000'000,
+                      .capabilities = protocol::kCapabilityDigest | protocol::kCapabilityAbsolute});
   plant.on(protocol::DigitalOutputs{.lines = 3});
   for (const auto axis : core::kPlanarAxes) {
     plant.on(protocol::PwmDuty{
@@ -40,7 +43,8 @@ void drive(emulator::PlantNode& plant, core::Nanoseconds step_ns) {
 }
 
 TEST(ReportThinner, MakesOfTheReportsOfTenTicksTheOneThatThePlantWouldHaveMade) {
-  const auto fixture = Runs::shipped("wall-clock-window");
+  auto fixture = Runs::shipped("wall-clock-window");
+  fixture.rig.parameters.axes[core::Axis::kX].encoder.absolute = true;
   UnrecordedPlant unrecorded;
   Kept asked_once;
   emulator::PlantNode coarse(fixture.rig.parameters, 1, {}, unrecorded);
@@ -72,6 +76,15 @@ TEST(ReportThinner, MakesOfTheReportsOfTenTicksTheOneThatThePlantWouldHaveMade) 
     travelled += b.count_change;
   }
   EXPECT_GT(travelled, 100) << "a machine that stands proves nothing";
+
+  // The plant's first is the greeting's, which waits for the end of an exchange here.
+  ASSERT_EQ(thinned.counts.size() + 1, asked_once.counts.size());
+  for (std::size_t i = 0; i < thinned.counts.size(); ++i) {
+    EXPECT_EQ(thinned.counts[i].axis, core::Axis::kX);
+    EXPECT_EQ(thinned.counts[i].time_ns, asked_once.counts[i + 1].time_ns);
+    EXPECT_EQ(thinned.counts[i].count, asked_once.counts[i + 1].count);
+    EXPECT_EQ(thinned.counts[i].sequence, i);
+  }
 }
 
 }  // namespace
