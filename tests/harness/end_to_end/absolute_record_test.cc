@@ -26,7 +26,9 @@ TEST(AbsoluteRecord, HasTheFloorOfTheTrueAngleAtTheTimesOfTheTruth) {
   Runs runs;
   const auto run = runs.run(absolute(files));
   ASSERT_EQ(run.exit_code, kExitPass) << complaints_of(run);
-  EXPECT_EQ(check_named(run, "absolute_y_complete")->verdict, Verdict::kPass);
+  const auto* complete = check_named(run, "absolute_y_complete");
+  ASSERT_NE(complete, nullptr);
+  EXPECT_EQ(complete->verdict, Verdict::kPass);
   EXPECT_FALSE(std::filesystem::exists(run.folder / "absolute_x.csv"));
   const auto told = CsvTable::load(run.folder / absolute_file(core::Axis::kY));
   const auto truth = CsvTable::load(run.folder / "truth.csv");
