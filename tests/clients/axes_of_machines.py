@@ -51,8 +51,8 @@ def of_axes(text: str, axes: str) -> str:
 
 def motion(axis: str, at_s: float, distance_rad: float = 0.6) -> str:
     return (
-        f'\n[[reference]]\nmove = "trapezoid"\naxis = "{axis}"\nat_s = {at_s:.1f}\ndistance_m = {distance_rad}\n'
-        "speed_m_per_s = 1.0\nacceleration_m_per_s2 = 4.0\n"
+        f'\n[[reference]]\nmove = "trapezoid"\naxis = "{axis}"\nat_s = {at_s:.1f}\ndistance_rad = {distance_rad}\n'
+        "speed_rad_per_s = 1.0\nacceleration_rad_per_s2 = 4.0\n"
     )
 
 
@@ -159,7 +159,7 @@ def refusals() -> None:
         "BBMC on three axes": (re.sub(r"\[\[(reference|budget|requirement)\]\](.|\n)*", script, text).replace("rig =", 'controller = "controller.toml"\nrig ='), "BBMC, which serves y and x"),
         "a motion of an axis that is not there": (text.replace('axis = "c"', 'axis = "b"'), "a motion of b"),
         "a motion of an axis that no machine has": (text.replace('axis = "c"', 'axis = "w"'), "y, x, z, a, b"),
-        "a start of an axis that is not there": (text.replace("\n[[reference]]", "\n[start]\na_m = 0.0\n\n[[reference]]", 1), "an axis that the rig lacks"),
+        "a start of an axis that is not there": (text.replace("\n[[reference]]", "\n[start]\na_rad = 0.0\n\n[[reference]]", 1), "an axis that the rig lacks"),
     }
     for what, (made, words) in cases.items():
         (folder / "refused.toml").write_text(made)
