@@ -26,6 +26,7 @@
 #include "emulator/sensors/encoder_wiring.h"
 #include "emulator/sensors/force_sensor.h"
 #include "emulator/sensors/hall_sensor.h"
+#include "emulator/sensors/home_switch.h"
 #include "emulator/sensors/input_wiring.h"
 #include "emulator/sensors/line_change.h"
 #include "emulator/sensors/quadrature_encoder.h"
@@ -56,7 +57,8 @@ class RigAxis {
   TOWBENCH_REALTIME [[nodiscard]] ForeignInput foreign_input() noexcept {
     return plant_.foreign_input(input_);
   }
-  // The second, from `start_ns` on; appends what the hall lines do. `output` is of a foreign plant.
+  // The second, from `start_ns` on; appends what the switches' lines do. `output` is of a foreign
+  // plant.
   TOWBENCH_REALTIME void move(core::Nanoseconds start_ns, const ForeignOutput& output,
                               LineChanges& changes) noexcept;
 
@@ -87,7 +89,8 @@ class RigAxis {
   // What the amplifier puts into the winding: heat and back EMF. What the inductance borrows it
   // gives back within a millisecond.
   [[nodiscard]] double output_power_W() const noexcept;
-  [[nodiscard]] std::uint16_t hall_lines() const noexcept;
+  // Of halls and home switch.
+  [[nodiscard]] protocol::InputLines switch_lines() const noexcept;
   [[nodiscard]] AxisTruth truth() const noexcept;
 
  private:
@@ -103,6 +106,7 @@ class RigAxis {
   EncoderWiring wiring_;
   HallSensor hall_min_;
   HallSensor hall_max_;
+  std::optional<HomeSwitch> home_;
   std::optional<CurrentMonitor> current_monitor_;
   std::optional<protocol::CurrentSample> current_sample_;
   MotionSegments segments_;
@@ -150,7 +154,7 @@ class Rig {
 
   // Lines now, as protocol::DigitalInputs, and how they changed in the last tick, oldest first: as
   // they arrive at the controller.
-  [[nodiscard]] std::uint16_t lines() const noexcept { return arriving_lines_; }
+  [[nodiscard]] protocol::InputLines lines() const noexcept { return arriving_lines_; }
   [[nodiscard]] const LineChanges& line_changes() const noexcept { return changes_; }
   [[nodiscard]] const Supply& supply() const noexcept { return supply_; }
   [[nodiscard]] Supply& supply() noexcept { return supply_; }
@@ -198,8 +202,8 @@ class Rig {
   std::optional<CameraFrame> camera_frame_;
   core::Nanoseconds now_ns_ = 0;
   InputWiring input_wiring_;
-  std::uint16_t machine_lines_ = 0;
-  std::uint16_t arriving_lines_ = 0;
+  protocol::InputLines machine_lines_ = 0;
+  protocol::InputLines arriving_lines_ = 0;
   LineChanges changes_;
   LineChanges kill_changes_;
   bool kill_pressed_ = false;

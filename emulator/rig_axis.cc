@@ -21,6 +21,9 @@ RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, const Seeds& seeds,
       torque_constant_Nm_per_A_(p.plant.torque_constant_Nm_per_A),
       motor_rad_per_m_(p.plant.gear_ratio / p.plant.output_radius_m),
       sees_load_(p.encoder.side == EncoderSide::kLoad) {
+  if (p.home.fitted) {
+    home_.emplace(p.home, protocol::home_line(axis), state_.carriage_m);
+  }
   if (p.current_monitor.fitted) {
     current_monitor_.emplace(p.current_monitor, axis, seeds.current_monitor);
   }
@@ -54,6 +57,9 @@ void RigAxis::move(core::Nanoseconds start_ns, const ForeignOutput& output,
                               .after_m_per_s = after.carriage_speed_m_per_s};
   hall_min_.step(start_ns, motion, changes);
   hall_max_.step(start_ns, motion, changes);
+  if (home_) {
+    home_->step(start_ns, motion, changes);
+  }
   acceleration_m_per_s2_ =
       (after.carriage_speed_m_per_s - before.carriage_speed_m_per_s) / core::kPlantTick_s;
   if (current_monitor_) {
@@ -104,12 +110,12 @@ double RigAxis::output_power_W() const noexcept {
          state_.current_A;
 }
 
-std::uint16_t RigAxis::hall_lines() const noexcept {
-  unsigned lines = 0;
+protocol::InputLines RigAxis::switch_lines() const noexcept {
+  protocol::InputLines lines = 0;
   for (const HallSensor* hall : {&hall_min_, &hall_max_}) {
     lines |= hall->active() ? protocol::mask_of(hall->line()) : 0U;
   }
-  return static_cast<std::uint16_t>(lines);
+  return lines | (home_ && home_->active() ? protocol::mask_of(home_->line()) : 0U);
 }
 
 AxisTruth RigAxis::truth() const noexcept {

@@ -49,6 +49,7 @@ struct RigAxisParameters {
   HallParameters hall_min;
   HallParameters hall_max;
   CurrentMonitorParameters current_monitor;
+  HomeParameters home;
   double start_m = 0.0;  // carriage at rest there at time 0, transmission relaxed
   double cross_axis_force_ratio = 0.0;
   bool load_turns = false;  // read rad for m; no key: the plant's transmission says so
@@ -68,6 +69,7 @@ struct RigAxisParameters {
     v.group("hall_min", hall_min, "end-stop sensor at the min end");
     v.group("hall_max", hall_max, "end-stop sensor at the max end");
     v.group("current_monitor", current_monitor, "the amplifier's current monitor output");
+    core::visit_if_fitted(v, "home", home, "switch at a place of the way");
   }
 };
 

@@ -80,7 +80,7 @@ static double braking_duty(const pid* loop, const tb_bench* bench, int axis) {
 }
 
 static const char* reason_to_stop(const pid* loops, const tb_bench* bench) {
-  const uint16_t halls =
+  const uint32_t halls =
       TB_HALL_Y_MIN | TB_HALL_Y_MAX | TB_HALL_X_MIN | TB_HALL_X_MAX | TB_FURTHER_HALLS;
   if (bench->lines & TB_KILL_SWITCH) return "kill switch";
   if (bench->lines & halls) return "end-stop";
