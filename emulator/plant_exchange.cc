@@ -116,6 +116,8 @@ void PlantExchange::set_outputs(const protocol::DigitalOutputs& outputs) noexcep
   for (const Axis which : rig_.axes()) {
     if (RigAxis* axis = rig_.axis(which)) {
       axis->enable_line = (outputs.lines & protocol::mask_of(protocol::enable_line(which))) != 0;
+      axis->brake_release_line =
+          (outputs.lines & protocol::mask_of(protocol::brake_line(which))) != 0;
     }
   }
 }

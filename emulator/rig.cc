@@ -102,6 +102,7 @@ void Rig::remove_drive() noexcept {
     if (axis) {
       axis->command.remove();
       axis->enable_line = false;
+      axis->brake_release_line = false;
     }
   }
 }

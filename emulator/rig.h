@@ -20,6 +20,7 @@
 #include "emulator/faults/axis_faults.h"
 #include "emulator/faults/slipping_disc.h"
 #include "emulator/foreign/moved_axis.h"
+#include "emulator/holding_brake.h"
 #include "emulator/rig_parameters.h"
 #include "emulator/sensors/camera.h"
 #include "emulator/sensors/current_monitor.h"
@@ -49,7 +50,7 @@ class RigAxis {
 
   struct Surroundings {
     double supply_V = 0;
-    bool amplifier_may_drive = false;
+    bool amplifier_may_drive = false;  // nor is a brake's coil fed where it may not
     double external_N = 0;
   };
   // The first half of a tick: what reaches the plant.
@@ -64,6 +65,7 @@ class RigAxis {
 
   CommandPath command;
   bool enable_line = false;
+  bool brake_release_line = false;
 
   [[nodiscard]] EncoderWiring& wiring() noexcept { return wiring_; }
   // Breaks something between connectors and carriage, or puts it right, from the next tick on.
@@ -107,6 +109,7 @@ class RigAxis {
   HallSensor hall_min_;
   HallSensor hall_max_;
   std::optional<HomeSwitch> home_;
+  std::optional<HoldingBrake> brake_;
   std::optional<CurrentMonitor> current_monitor_;
   std::optional<protocol::CurrentSample> current_sample_;
   MotionSegments segments_;

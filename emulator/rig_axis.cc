@@ -24,6 +24,9 @@ RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, const Seeds& seeds,
   if (p.home.fitted) {
     home_.emplace(p.home, protocol::home_line(axis), state_.carriage_m);
   }
+  if (p.brake.fitted) {
+    brake_.emplace(p.brake, p.plant, state_.carriage_m);
+  }
   if (p.current_monitor.fitted) {
     current_monitor_.emplace(p.current_monitor, axis, seeds.current_monitor);
   }
@@ -35,6 +38,10 @@ void RigAxis::take_command(const Surroundings& around) noexcept {
             .carriage_force_N = around.external_N,
             .amplifier_enabled = enable_line && around.amplifier_may_drive};
   faults_.apply(state_, acceleration_m_per_s2_, input_);
+  if (brake_) {
+    input_.carriage_force_N +=
+        brake_->step(brake_release_line && around.amplifier_may_drive, state_);
+  }
   command_V_ = input_.command_V;
 }
 
@@ -99,6 +106,10 @@ void RigAxis::fail(ScheduledEventKind kind, double value) noexcept {
   } else if (kind == ScheduledEventKind::kSkipTooth) {
     skipped_rad_ += plant_.skip_tooth(value);
     state_ = plant_.state();
+  } else if (kind == ScheduledEventKind::kStickBrake && brake_) {
+    brake_->stick(value != 0.0);
+  } else if (kind == ScheduledEventKind::kLoseBrake && brake_) {
+    brake_->lose(value != 0.0, state_.carriage_m);
   } else {
     faults_.set(kind, value, state_, command_V_);
   }

@@ -29,14 +29,17 @@ std::string unserved_parts_note(const RigFixture& rig) {
   };
   for (const auto which : core::kAllAxes) {
     const auto& axis = rig.parameters.axes[which];
+    if (axis.exists && axis.brake.fitted) {
+      add("a holding brake, which stays closed, of", which);
+    }
     if (axis.exists && axis.home.fitted) {
       add("a home switch of", which);
     }
   }
   return parts.empty() ? parts
                        : fmt::format(
-                             "this controller serves no home "
-                             "switches, and the machine has {}; a program of your own: "
+                             "this controller serves neither home switches nor holding "
+                             "brakes, and the machine has {}; a program of your own: "
                              "--controller",
                              parts);
 }

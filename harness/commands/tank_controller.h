@@ -10,7 +10,7 @@ namespace towbench::harness {
 // One line; empty where every axis is driven by a transmission, as the tank's are.
 [[nodiscard]] std::string tank_controller_note(const RigFixture& rig);
 
-// One line on home switches, which neither BBMC nor an image has a pin for;
+// One line on home switches and holding brakes, which neither BBMC nor an image has a pin for;
 // empty where the rig has none.
 [[nodiscard]] std::string unserved_parts_note(const RigFixture& rig);
 

@@ -30,6 +30,9 @@ void refuse_what_lines_cannot_carry(const std::string& option, const std::string
     if (wires_switches && axis.home.fitted) {
       refuse("a home switch of", which, kOnTheCable);
     }
+    if (wires_switches && axis.brake.fitted) {
+      refuse("a holding brake of", which, kOnTheCable);
+    }
   }
 }
 

@@ -293,6 +293,10 @@ class Injector {
         return hold(ScheduledEventKind::kObstacle, parameter(0), 0.0);
       case kToothSkip:
         return once(ScheduledEventKind::kSkipTooth);
+      case kBrakeStuck:
+        return hold(ScheduledEventKind::kStickBrake, 1.0, 0.0);
+      case kBrakeLost:
+        return hold(ScheduledEventKind::kLoseBrake, 1.0, 0.0);
       case kDroppedLoad:
         return hold(ScheduledEventKind::kDropLoad, parameter(0), 0.0);
       default:

@@ -84,6 +84,10 @@ constexpr FaultRow kRows[] = {
      {{{"force_N", 10, 0.1, 500}}}},
     {kDriveTrain, kObstacle, "obstacle", "something stands in the way, so far ahead (+ towards max)", kAnyTime, kNothing, kNone,
      {{{"ahead_m", 0.05, -4, 4}}}},
+    {kDriveTrain, kBrakeStuck, "brake_stuck", "the holding brake closes and does not release: its coil is dead", kAnyTime, kNothing,
+     FaultNeeds::kHoldingBrake, {}},
+    {kDriveTrain, kBrakeLost, "brake_lost", "the holding brake does not hold", kAnyTime, kNothing,
+     FaultNeeds::kHoldingBrake, {}},
 
     {kLink, kLoss, "loss", "messages are lost", kAnyTime, kStop, kNone, {{{"probability", 0.05, 1e-6, 1}}}},
     {kLink, kDelay, "delay", "messages come late, in order", kAnyTime, kNothing, kNone, {{{"delay_s", 5e-3, 1e-4, 10}}}},

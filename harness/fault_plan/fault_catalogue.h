@@ -75,6 +75,8 @@ enum class FaultKind : std::uint8_t {
   kDroppedLoad,
   kBrakeDrag,
   kObstacle,
+  kBrakeStuck,
+  kBrakeLost,
   // link
   kLoss,
   kDelay,
@@ -112,13 +114,14 @@ enum class FaultStart : std::uint8_t {
 // What it takes to make it happen.
 enum class FaultNeeds : std::uint8_t {
   kNothing,
-  kRecord,      // a run folder: it strikes what is written
-  kHomeSwitch,  // an axis that has one
+  kRecord,        // a run folder: it strikes what is written
+  kHomeSwitch,    // an axis that has one
+  kHoldingBrake,  // likewise
 };
 
 // Not every machine can have it: a campaign that is for all of them leaves it out.
 [[nodiscard]] constexpr bool needs_a_fitted_part(FaultNeeds needs) noexcept {
-  return needs == FaultNeeds::kHomeSwitch;
+  return needs == FaultNeeds::kHomeSwitch || needs == FaultNeeds::kHoldingBrake;
 }
 
 // Whether the run may end with it: the two sides do not hear each other any more.

@@ -14,6 +14,9 @@ const char* lacking(const Fault& fault, const emulator::RigParameters& rig) noex
   if (needs == FaultNeeds::kHomeSwitch && !axis.home.fitted) {
     return "an axis with a home switch: the rig has no table home of it";
   }
+  if (needs == FaultNeeds::kHoldingBrake && !axis.brake.fitted) {
+    return "an axis with a holding brake: the rig has no table brake of it";
+  }
   return nullptr;
 }
 
