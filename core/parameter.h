@@ -11,9 +11,11 @@
 //
 // A visitor offers value(key, field, range, meaning) for double, bool, std::int64_t and enums with
 // names, list(key, field, range, meaning) for a core::BoundedVector<double, N> (a TOML array), and
-// group(key, nested, meaning) for a nested struct. The unit is the key's suffix. An enum E with
-// names has, beside it, `constexpr std::array<std::string_view, n> names_of(E)`: one name a value,
-// in order.
+// group(key, nested, meaning) for a nested struct. What a machine may do without, a struct with
+// `bool fitted`, goes through visit_if_fitted(): it has no key while it is not fitted, and a
+// reader's optional_group(key, nested, meaning) fits it where it finds its table. The unit is the
+// key's suffix. An enum E with names has, beside it, `constexpr std::array<std::string_view, n>
+// names_of(E)`: one name a value, in order.
 #pragma once
 
 namespace towbench::core {
@@ -31,6 +33,15 @@ struct Range {
     return (min_is_allowed ? value >= min : value > min) && value <= max;
   }
 };
+
+template <typename Visitor, typename Nested>
+void visit_if_fitted(Visitor& v, const char* key, Nested& nested, const char* meaning) {
+  if constexpr (requires { v.optional_group(key, nested, meaning); }) {
+    v.optional_group(key, nested, meaning);
+  } else if (nested.fitted) {
+    v.group(key, nested, meaning);
+  }
+}
 
 [[nodiscard]] constexpr Range any_finite() noexcept {
   return {};

@@ -55,6 +55,8 @@ namespace {
     case ScheduledEventKind::kDragCarriage:
     case ScheduledEventKind::kObstacle:
     case ScheduledEventKind::kDropLoad:
+    case ScheduledEventKind::kStickBrake:
+    case ScheduledEventKind::kLoseBrake:
     case ScheduledEventKind::kSlipDisc:
     case ScheduledEventKind::kTurnDisc:
     case ScheduledEventKind::kHoldAbsolute:

@@ -123,6 +123,8 @@ void PlantExchange::set_outputs(const protocol::DigitalOutputs& outputs) noexcep
   for (const Axis which : rig_.axes()) {
     if (RigAxis* axis = rig_.axis(which)) {
       axis->enable_line = (outputs.lines & protocol::mask_of(protocol::enable_line(which))) != 0;
+      axis->brake_release_line =
+          (outputs.lines & protocol::mask_of(protocol::brake_line(which))) != 0;
     }
   }
 }
@@ -255,9 +257,8 @@ void PlantExchange::pass_reset(core::Nanoseconds time_ns) noexcept {
 
 void PlantExchange::collect_lines() noexcept {
   for (const LineChange& change : rig_.line_changes().view()) {
-    const unsigned mask = protocol::mask_of(change.line);
-    sent_lines_ =
-        static_cast<std::uint16_t>(change.active ? sent_lines_ | mask : sent_lines_ & ~mask);
+    const protocol::InputLines mask = protocol::mask_of(change.line);
+    sent_lines_ = change.active ? sent_lines_ | mask : sent_lines_ & ~mask;
     if (pending_lines_.full()) {
       send_lines();  // early rather than lost; still in the order of time
     }

@@ -93,7 +93,7 @@ class PlantExchange {
 
   // DigitalInputs of this exchange, sent behind the edges.
   core::BoundedVector<protocol::DigitalInputs, 64> pending_lines_;
-  std::uint16_t sent_lines_ = 0;
+  protocol::InputLines sent_lines_ = 0;
   std::uint32_t line_sequence_ = 0;
   std::uint32_t output_sequence_ = 0;
   bool output_sequence_known_ = false;

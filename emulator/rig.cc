@@ -63,18 +63,18 @@ Rig::Rig(const RigParameters& parameters, std::uint64_t seed)
   if (parameters.camera.fitted) {
     camera_.emplace(parameters.camera, camera_seed);
   }
-  unsigned lines = 0;
+  protocol::InputLines lines = 0;
   for (const Axis which : core::kAllAxes) {
     if (parameters_.axes[which].exists) {
       axes_[which].emplace(which, parameters_.axes[which], axis_seeds[which],
                            foreign_ ? &foreign_outputs_[which] : nullptr);
       axes_mask_ = static_cast<std::uint8_t>(axes_mask_ | 1U << core::index_of(which));
       axis_count_ = core::index_of(which) + 1;
-      lines |= axes_[which]->hall_lines();
+      lines |= axes_[which]->switch_lines();
       lines |= supply_.ready() ? protocol::mask_of(protocol::ready_line(which)) : 0U;
     }
   }
-  machine_lines_ = static_cast<std::uint16_t>(lines);
+  machine_lines_ = lines;
   arriving_lines_ = machine_lines_;
 }
 
@@ -102,6 +102,7 @@ void Rig::remove_drive() noexcept {
     if (axis) {
       axis->command.remove();
       axis->enable_line = false;
+      axis->brake_release_line = false;
     }
   }
 }

@@ -20,12 +20,14 @@
 #include "emulator/faults/axis_faults.h"
 #include "emulator/faults/slipping_disc.h"
 #include "emulator/foreign/moved_axis.h"
+#include "emulator/holding_brake.h"
 #include "emulator/rig_parameters.h"
 #include "emulator/sensors/camera.h"
 #include "emulator/sensors/current_monitor.h"
 #include "emulator/sensors/encoder_wiring.h"
 #include "emulator/sensors/force_sensor.h"
 #include "emulator/sensors/hall_sensor.h"
+#include "emulator/sensors/home_switch.h"
 #include "emulator/sensors/input_wiring.h"
 #include "emulator/sensors/line_change.h"
 #include "emulator/sensors/quadrature_encoder.h"
@@ -48,7 +50,7 @@ class RigAxis {
 
   struct Surroundings {
     double supply_V = 0;
-    bool amplifier_may_drive = false;
+    bool amplifier_may_drive = false;  // nor is a brake's coil fed where it may not
     double external_N = 0;
   };
   // The first half of a tick: what reaches the plant.
@@ -56,12 +58,14 @@ class RigAxis {
   TOWBENCH_REALTIME [[nodiscard]] ForeignInput foreign_input() noexcept {
     return plant_.foreign_input(input_);
   }
-  // The second, from `start_ns` on; appends what the hall lines do. `output` is of a foreign plant.
+  // The second, from `start_ns` on; appends what the switches' lines do. `output` is of a foreign
+  // plant.
   TOWBENCH_REALTIME void move(core::Nanoseconds start_ns, const ForeignOutput& output,
                               LineChanges& changes) noexcept;
 
   CommandPath command;
   bool enable_line = false;
+  bool brake_release_line = false;
 
   [[nodiscard]] EncoderWiring& wiring() noexcept { return wiring_; }
   // Breaks something between connectors and carriage, or puts it right, from the next tick on.
@@ -91,7 +95,8 @@ class RigAxis {
   // What the amplifier puts into the winding: heat and back EMF. What the inductance borrows it
   // gives back within a millisecond.
   [[nodiscard]] double output_power_W() const noexcept;
-  [[nodiscard]] std::uint16_t hall_lines() const noexcept;
+  // Of halls and home switch.
+  [[nodiscard]] protocol::InputLines switch_lines() const noexcept;
   [[nodiscard]] AxisTruth truth() const noexcept;
 
  private:
@@ -109,6 +114,8 @@ class RigAxis {
   EncoderWiring wiring_;
   HallSensor hall_min_;
   HallSensor hall_max_;
+  std::optional<HomeSwitch> home_;
+  std::optional<HoldingBrake> brake_;
   std::optional<CurrentMonitor> current_monitor_;
   std::optional<protocol::CurrentSample> current_sample_;
   MotionSegments segments_;
@@ -161,7 +168,7 @@ class Rig {
 
   // Lines now, as protocol::DigitalInputs, and how they changed in the last tick, oldest first: as
   // they arrive at the controller.
-  [[nodiscard]] std::uint16_t lines() const noexcept { return arriving_lines_; }
+  [[nodiscard]] protocol::InputLines lines() const noexcept { return arriving_lines_; }
   [[nodiscard]] const LineChanges& line_changes() const noexcept { return changes_; }
   [[nodiscard]] const Supply& supply() const noexcept { return supply_; }
   [[nodiscard]] Supply& supply() noexcept { return supply_; }
@@ -209,8 +216,8 @@ class Rig {
   std::optional<CameraFrame> camera_frame_;
   core::Nanoseconds now_ns_ = 0;
   InputWiring input_wiring_;
-  std::uint16_t machine_lines_ = 0;
-  std::uint16_t arriving_lines_ = 0;
+  protocol::InputLines machine_lines_ = 0;
+  protocol::InputLines arriving_lines_ = 0;
   LineChanges changes_;
   LineChanges kill_changes_;
   bool kill_pressed_ = false;

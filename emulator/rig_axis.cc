@@ -18,6 +18,7 @@ RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, const Seeds& seeds,
       wiring_(encoder_.levels()),
       hall_min_(p.hall_min, TravelEnd::kMin, protocol::hall_line(axis, false), p.start_m),
       hall_max_(p.hall_max, TravelEnd::kMax, protocol::hall_line(axis, true), p.start_m),
+      faults_(gripped_kg(p.plant)),
       resistance_ohm_(p.plant.winding.resistance_ohm),
       torque_constant_Nm_per_A_(p.plant.torque_constant_Nm_per_A),
       motor_rad_per_m_(p.plant.gear_ratio / p.plant.output_radius_m),
@@ -32,6 +33,12 @@ RigAxis::RigAxis(Axis axis, const RigAxisParameters& p, const Seeds& seeds,
   if (tells_count_ && !is_in_place) {
     count_track_.emplace(track);
   }
+  if (p.home.fitted) {
+    home_.emplace(p.home, protocol::home_line(axis), state_.carriage_m);
+  }
+  if (p.brake.fitted) {
+    brake_.emplace(p.brake, p.plant, state_.carriage_m);
+  }
   if (p.current_monitor.fitted) {
     current_monitor_.emplace(p.current_monitor, axis, seeds.current_monitor);
   }
@@ -43,6 +50,10 @@ void RigAxis::take_command(const Surroundings& around) noexcept {
             .carriage_force_N = around.external_N,
             .amplifier_enabled = enable_line && around.amplifier_may_drive};
   faults_.apply(state_, acceleration_m_per_s2_, input_);
+  if (brake_) {
+    input_.carriage_force_N +=
+        brake_->step(brake_release_line && around.amplifier_may_drive, state_);
+  }
   command_V_ = input_.command_V;
 }
 
@@ -65,6 +76,9 @@ void RigAxis::move(core::Nanoseconds start_ns, const ForeignOutput& output,
                               .after_m_per_s = after.carriage_speed_m_per_s};
   hall_min_.step(start_ns, motion, changes);
   hall_max_.step(start_ns, motion, changes);
+  if (home_) {
+    home_->step(start_ns, motion, changes);
+  }
   acceleration_m_per_s2_ =
       (after.carriage_speed_m_per_s - before.carriage_speed_m_per_s) / core::kPlantTick_s;
   if (current_monitor_) {
@@ -106,6 +120,10 @@ void RigAxis::fail(ScheduledEventKind kind, double value) noexcept {
   } else if (kind == ScheduledEventKind::kSkipTooth) {
     skipped_rad_ += plant_.skip_tooth(value);
     state_ = plant_.state();
+  } else if (kind == ScheduledEventKind::kStickBrake && brake_) {
+    brake_->stick(value != 0.0);
+  } else if (kind == ScheduledEventKind::kLoseBrake && brake_) {
+    brake_->lose(value != 0.0, state_.carriage_m);
   } else {
     faults_.set(kind, value, state_, command_V_);
   }
@@ -129,12 +147,12 @@ double RigAxis::output_power_W() const noexcept {
          state_.current_A;
 }
 
-std::uint16_t RigAxis::hall_lines() const noexcept {
-  unsigned lines = 0;
+protocol::InputLines RigAxis::switch_lines() const noexcept {
+  protocol::InputLines lines = 0;
   for (const HallSensor* hall : {&hall_min_, &hall_max_}) {
     lines |= hall->active() ? protocol::mask_of(hall->line()) : 0U;
   }
-  return static_cast<std::uint16_t>(lines);
+  return lines | (home_ && home_->active() ? protocol::mask_of(home_->line()) : 0U);
 }
 
 AxisTruth RigAxis::truth() const noexcept {

@@ -105,6 +105,10 @@ const char* inconsistency(const RigAxisParameters& axis) noexcept {
       axis.hall_min.position_m >= axis.hall_max.position_m) {
     return "hall_min.position_m must be below hall_max.position_m";
   }
+  if (axis.home.fitted && ends.fitted &&
+      (axis.home.position_m < ends.min_m || axis.home.position_m > ends.max_m)) {
+    return "home.position_m must lie within hard_ends";
+  }
   if (axis.current_monitor.fitted && !whole_ticks(axis.current_monitor.sample_period_s)) {
     return "current_monitor.sample_period_s must be a whole number of 100 us ticks";
   }

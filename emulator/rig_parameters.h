@@ -58,6 +58,24 @@ enum class Carrier : std::uint8_t { kNone, kY, kX, kZ, kA, kB, kC };
              : std::optional(core::kAllAxes[static_cast<std::size_t>(carrier) - 1]);
 }
 
+// Holding brake of an axis, closed while its coil is not energised. Not fitted unless a rig has its
+// table, which says what it holds.
+struct BrakeParameters {
+  static constexpr std::array<std::string_view, 1> kRequired{"holding_Nm"};
+  bool fitted = false;  // no key: its table says so
+  double holding_Nm = 0.1;
+  double engage_s = 20e-3;   // assumed: data sheets of small spring-applied brakes, 10 to 30 ms
+  double release_s = 40e-3;  // assumed: the same, 20 to 60 ms
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("holding_Nm", holding_Nm, core::above(0.0),
+            "torque up to which it holds, at the motor shaft");
+    v.value("engage_s", engage_s, core::between(0.0, 10.0), "from the coil's end to its hold");
+    v.value("release_s", release_s, core::between(0.0, 10.0), "from the coil's start to no hold");
+  }
+};
+
 struct RigAxisParameters {
   bool exists = true;
   AxisParameters plant;
@@ -66,6 +84,8 @@ struct RigAxisParameters {
   HallParameters hall_min;
   HallParameters hall_max;
   CurrentMonitorParameters current_monitor;
+  HomeParameters home;
+  BrakeParameters brake;
   double start_m = 0.0;  // carriage at rest there at time 0, transmission relaxed
   Carrier carried_by = Carrier::kNone;
   double cross_axis_force_ratio = 0.0;
@@ -89,6 +109,8 @@ struct RigAxisParameters {
     v.group("hall_min", hall_min, "end-stop sensor at the min end");
     v.group("hall_max", hall_max, "end-stop sensor at the max end");
     v.group("current_monitor", current_monitor, "the amplifier's current monitor output");
+    core::visit_if_fitted(v, "home", home, "switch at a place of the way");
+    core::visit_if_fitted(v, "brake", brake, "holding brake");
   }
 };
 

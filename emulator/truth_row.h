@@ -6,6 +6,7 @@
 #include "core/axis.h"
 #include "core/error.h"
 #include "core/time.h"
+#include "protocol/messages.h"
 
 namespace towbench::emulator {
 
@@ -28,7 +29,7 @@ struct AxisTruth {
 struct TruthRow {
   core::Nanoseconds time_ns = 0;
   core::PerAxis<AxisTruth> axes;
-  std::uint16_t input_lines = 0;  // as protocol::DigitalInputs
+  protocol::InputLines input_lines = 0;  // as protocol::DigitalInputs
 };
 
 enum class PlantEventKind : std::uint8_t {
@@ -48,7 +49,7 @@ struct PlantEvent {
   PlantEventKind kind = PlantEventKind::kFinished;
   core::Axis axis = core::kFirstAxis;
   core::ErrorCode code = core::ErrorCode::kNone;
-  std::uint16_t lines = 0;
+  protocol::InputLines lines = 0;
   double value = 0;  // contact: speed in m/s; scheduled event: its index; reset: 1 when told
   double energy_J = 0;
 };

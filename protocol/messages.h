@@ -16,7 +16,7 @@
 
 namespace towbench::protocol {
 
-inline constexpr std::uint16_t kProtocolVersion = 1;
+inline constexpr std::uint16_t kProtocolVersion = 2;
 
 enum class Role : std::uint8_t { kController = 0, kPlant = 1, kObserver = 2 };
 
@@ -131,17 +131,26 @@ enum class InputLine : std::uint8_t {
   kHallCMin = 13,
   kHallCMax = 14,
   kFurtherAmplifiersReady = 15,  // of z to c, their contacts in series
+  kHomeY = 16,
+  kHomeX = 17,
+  kHomeZ = 18,
+  kHomeA = 19,
+  kHomeB = 20,
+  kHomeC = 21,
 };
-inline constexpr std::size_t kInputLineCount = 16;
+inline constexpr std::size_t kInputLineCount = 22;
 
-[[nodiscard]] constexpr std::uint16_t mask_of(InputLine line) noexcept {
-  return static_cast<std::uint16_t>(1U << static_cast<unsigned>(line));
+// Bit of each InputLine; 1 = active.
+using InputLines = std::uint32_t;
+
+[[nodiscard]] constexpr InputLines mask_of(InputLine line) noexcept {
+  return InputLines{1} << static_cast<unsigned>(line);
 }
 
 // All lines as they are from `change_ns` on. Sent once at start and at each change, with the
 // change's own time inside the plant step.
 struct DigitalInputs {
-  std::uint16_t lines = 0;
+  InputLines lines = 0;
   core::Nanoseconds change_ns = 0;
   std::uint32_t sequence = 0;
 };
@@ -160,6 +169,10 @@ struct DigitalInputs {
              : InputLine::kFurtherAmplifiersReady;
 }
 
+[[nodiscard]] constexpr InputLine home_line(core::Axis axis) noexcept {
+  return static_cast<InputLine>(static_cast<std::size_t>(InputLine::kHomeY) + core::index_of(axis));
+}
+
 enum class OutputLine : std::uint8_t {
   kAmplifierEnableY = 0,
   kAmplifierEnableX = 1,
@@ -167,8 +180,14 @@ enum class OutputLine : std::uint8_t {
   kAmplifierEnableA = 3,
   kAmplifierEnableB = 4,
   kAmplifierEnableC = 5,
+  kBrakeReleaseY = 6,  // 1: the holding brake's coil is energised
+  kBrakeReleaseX = 7,
+  kBrakeReleaseZ = 8,
+  kBrakeReleaseA = 9,
+  kBrakeReleaseB = 10,
+  kBrakeReleaseC = 11,
 };
-inline constexpr std::size_t kOutputLineCount = 6;
+inline constexpr std::size_t kOutputLineCount = 12;
 
 // A cable for lines, not for messages, carries those of a machine of two axes.
 inline constexpr std::size_t kWiredInputLines = 7;
@@ -176,6 +195,11 @@ inline constexpr std::size_t kWiredOutputLines = 2;
 
 [[nodiscard]] constexpr OutputLine enable_line(core::Axis axis) noexcept {
   return static_cast<OutputLine>(core::index_of(axis));
+}
+
+[[nodiscard]] constexpr OutputLine brake_line(core::Axis axis) noexcept {
+  return static_cast<OutputLine>(static_cast<std::size_t>(OutputLine::kBrakeReleaseY) +
+                                 core::index_of(axis));
 }
 
 [[nodiscard]] constexpr std::uint16_t mask_of(OutputLine line) noexcept {

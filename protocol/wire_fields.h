@@ -26,6 +26,7 @@ inline constexpr auto levels = [](EncoderLevels l) { return l < 8U; };
 inline constexpr auto finite = [](float f) { return std::isfinite(f); };
 inline constexpr auto positive = [](std::uint16_t n) { return n > 0; };
 inline constexpr auto code = [](core::ErrorCode c) { return core::is_known(c); };
+inline constexpr auto input_lines = [](InputLines l) { return l < 1U << kInputLineCount; };
 inline constexpr auto output_lines = [](std::uint16_t l) { return l < 1U << kOutputLineCount; };
 inline constexpr auto edge_count = [](std::uint16_t n) { return n <= kMaxEdgesPerMessage; };
 
@@ -85,8 +86,7 @@ void wire_fields(Io& io, typename Io::template Field<EncoderReport>& m) noexcept
 
 template <typename Io>
 void wire_fields(Io& io, typename Io::template Field<DigitalInputs>& m) noexcept {
-  static_assert(kInputLineCount == 16, "every bit is a line");
-  io.value(m.lines);
+  io.checked(m.lines, legal::input_lines);
   io.checked(m.change_ns, legal::time);
   io.value(m.sequence);
 }

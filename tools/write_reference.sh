@@ -76,7 +76,8 @@ help_of() { # help_of PROGRAM VERB
   perl -0777 -ne '
     my %part = (EndStop => "endstop.{y,x,z,a,b,c}_{min,max}", KillSwitch => "kill_switch", Encoder => "encoder.{y,x,z,a,b,c}",
                 Amplifier => "amplifier.{y,x,z,a,b,c}", Supply => "supply", DriveTrain => "drive.{y,x,z,a,b,c}",
-                Link => "link.to_{controller,plant}", Host => "host");
+                Link => "link.to_{controller,plant}", Host => "host",
+                HomeSwitch => "home.{y,x,z,a,b,c}");
     my $last = "";
     while (/\{k(\w+), k\w+, "(\w+)", "([^"]+)",(.*?)\},\s*(?=\{k|\n|\/\/)/sg) {
       my ($of, $kind, $what, $rest) = ($1, $2, $3, $4);

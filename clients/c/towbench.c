@@ -150,7 +150,7 @@ static int send_can(tb_bench* bench, const message* m) {
       return send_frame(bench, ID_DUTY + (unsigned)p[1],
                         load(p + 3, 6) | (uint64_t)p[2] << 48 | load(p + 9, 4) << 49);
     case TB_DIGITAL_OUTPUTS:
-      if (load(p + 3, 8) >> 48 != 0) break;
+      if (p[2] != 0 || load(p + 3, 8) >> 48 != 0) break;
       return send_frame(bench, ID_LINES, p[1] | (uint64_t)p[11] << 8 | load(p + 3, 6) << 16);
     case TB_ADVANCE:
       return send_frame(bench, ID_TIME, load(p + 1, 8));
@@ -199,8 +199,12 @@ static int send_time(tb_bench* bench, uint8_t id, int64_t time_ns) {
 }
 
 int tb_enable(tb_bench* bench, uint8_t axes_mask) {
+  return tb_enable_released(bench, axes_mask, 0);
+}
+
+int tb_enable_released(tb_bench* bench, uint8_t axes_mask, uint8_t released_mask) {
   message m = message_of(TB_DIGITAL_OUTPUTS);
-  put(&m, axes_mask, 2);
+  put(&m, axes_mask | (uint64_t)released_mask << TB_AXES, 2);
   put(&m, (uint64_t)bench->now_ns, 8);
   put(&m, bench->outputs_sequence, 4);
   const int sent = send_message(bench, m);
@@ -253,7 +257,7 @@ int tb_ended(const tb_bench* bench) {
 
 /* Bytes of a payload without edges; 0 for an unknown id. */
 static size_t shortest(uint8_t id) {
-  static const uint8_t sizes[] = {0,  25, 27, 13, 25, 39, 15, 15, 33,
+  static const uint8_t sizes[] = {0,  25, 27, 13, 25, 39, 17, 15, 33,
                                   14, 9,  9,  13, 15, 9,  22, 9,  18};
   return id < sizeof sizes ? sizes[id] : 0;
 }
@@ -314,9 +318,9 @@ static int is_legal(const uint8_t* p) {
       return p[1] < TB_AXES && p[2] < 8 && load_time(p + 15) >= 0 &&
              load_time(p + 15) <= load_time(p + 3);
     case TB_DIGITAL_INPUTS:
-      return load_time(p + 3) >= 0;
+      return load32(p + 1) < 1u << 22 && load_time(p + 5) >= 0;
     case TB_DIGITAL_OUTPUTS:
-      return load16(p + 1) < 1 << TB_AXES && load_time(p + 3) >= 0;
+      return load16(p + 1) < 1 << 2 * TB_AXES && load_time(p + 3) >= 0;
     case TB_FORCE_SAMPLE:
       legal = load_time(p + 1) >= 0;
       for (int i = 0; i < 6; ++i) legal = legal && is_finite(p + 9 + 4 * i);
@@ -424,7 +428,7 @@ int tb_take(tb_bench* bench, const uint8_t* p, size_t size) {
       take_report(bench, p);
       break;
     case TB_DIGITAL_INPUTS:
-      bench->lines = load16(p + 1);
+      bench->lines = load32(p + 1);
       break;
     case TB_CURRENT_SAMPLE:
       bench->axis[p[1]].current_A = load_float(p + 10);
@@ -570,7 +574,7 @@ static void note_report(tb_can_report* last, const uint8_t* p) {
 static int take_whole(tb_bench* bench, const uint8_t* payload, size_t size) {
   const int id = tb_take(bench, payload, size);
   if (id == TB_ENCODER_REPORT) note_report(&bench->can.report[payload[1]], payload);
-  if (id == TB_DIGITAL_INPUTS) bench->can.lines_sequence = load32(payload + 11);
+  if (id == TB_DIGITAL_INPUTS) bench->can.lines_sequence = load32(payload + 13);
   return id;
 }
 
@@ -624,7 +628,7 @@ static int take_digest(tb_bench* bench, size_t axis, uint64_t word) {
 static int take_lines(tb_bench* bench, uint64_t word) {
   const uint32_t next = bench->can.lines_sequence + 1;
   message m = message_of(TB_DIGITAL_INPUTS);
-  put(&m, word & 0xff, 2);
+  put(&m, word & 0xff, 4);
   put(&m, word >> 16, 8);
   put(&m, next + (((word >> 8) - next) & 0xff), 4);
   return take_whole(bench, m.bytes, m.size);

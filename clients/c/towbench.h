@@ -21,7 +21,7 @@
 extern "C" {
 #endif
 
-enum { TB_VERSION = 1, TB_TICK_NS = 100000 };
+enum { TB_VERSION = 2, TB_TICK_NS = 100000 };
 enum { TB_Y = 0, TB_X, TB_Z, TB_A, TB_B, TB_C, TB_AXES };
 /* Capabilities. Encoders as edges or, for a controller that cannot take so many bytes, as a digest.
  */
@@ -35,7 +35,9 @@ enum {
   TB_READY_Y = 32,
   TB_READY_X = 64,
   TB_FURTHER_HALLS = 0x7f80, /* z min, z max, a min ... c max, a bit each */
-  TB_FURTHER_READY = 0x8000  /* of z to c, in series */
+  TB_FURTHER_READY = 0x8000, /* of z to c, in series */
+  TB_HOME_Y = 0x10000,       /* home switch; of axis n: TB_HOME_Y << n */
+  TB_HOMES = 0x3f0000
 };
 enum {
   TB_HELLO = 1,
@@ -119,7 +121,7 @@ typedef struct {
 typedef struct {
   tb_axis axis[TB_AXES];
   int64_t now_ns;
-  uint16_t lines;        /* TB_KILL_SWITCH and the like */
+  uint32_t lines;        /* TB_KILL_SWITCH and the like */
   uint16_t refusal;      /* of the greeting: an error number, 0 = agreed */
   uint32_t capabilities; /* of the bench */
   uint8_t reset;         /* in this turn the operator asked to leave the safe state */
@@ -148,6 +150,8 @@ void tb_init(tb_bench* bench, tb_framing framing, uint8_t axes_mask, uint32_t ex
 /* All of these append to `out`; 0 when it does not fit, and then nothing was written. */
 int tb_greet(tb_bench* bench);
 int tb_enable(tb_bench* bench, uint8_t axes_mask);
+/* With the holding brakes of `released_mask` released; tb_enable() closes all of them. */
+int tb_enable_released(tb_bench* bench, uint8_t axes_mask, uint8_t released_mask);
 int tb_drive(tb_bench* bench, int axis, double duty,
              int enable);         /* a duty that is no number drives nothing */
 int tb_end_turn(tb_bench* bench); /* runs the plant for one exchange */

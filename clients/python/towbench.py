@@ -23,18 +23,19 @@ from functools import reduce
 from operator import getitem, xor
 from typing import Any, Callable, Iterator, NamedTuple, Tuple
 
-VERSION = 1
+VERSION = 2
 CONTROLLER, PLANT, OBSERVER = 0, 1, 2
 EDGES, DIGEST, REFERENCE, RESETS, ABSOLUTE = 1, 2, 4, 8, 16  # capabilities
 AXES = ("y", "x", "z", "a", "b", "c")
 HALL_Y_MIN, HALL_Y_MAX, HALL_X_MIN, HALL_X_MAX, KILL_SWITCH, READY_Y, READY_X = (1 << n for n in range(7))
 FURTHER_HALLS = sum(1 << n for n in range(7, 15))  # z min, z max, a min ... c max
 FURTHER_READY = 1 << 15  # of z to c, in series
+HOMES = sum(1 << n for n in range(16, 22))  # home switch of y, x, z, a, b, c
 HALLS = HALL_Y_MIN | HALL_Y_MAX | HALL_X_MIN | HALL_X_MAX | FURTHER_HALLS
 MAX_EDGES = 1024
 _EDGES_HEADER = 25
 
-# The error numbers of version 1.
+# The error numbers of version 2.
 KNOWN_CODES = frozenset(
     [0, *range(100, 110), *range(200, 212), *range(300, 304), *range(310, 316), 320, 321, 330, 340, 350, 351]
     + [*range(400, 407), *range(410, 415), *range(420, 425), *range(500, 506)]
@@ -86,8 +87,9 @@ LAYOUTS: dict[int, Layout] = {
     ENCODER_REPORT: Layout(
         "EncoderReport", struct.Struct("<BBqiqIiHHI"), lambda m: m[0] < len(AXES) and m[1] < 8 and 0 <= m[4] <= m[2]
     ),
-    DIGITAL_INPUTS: Layout("DigitalInputs", struct.Struct("<HqI"), lambda m: m[1] >= 0),
-    DIGITAL_OUTPUTS: Layout("DigitalOutputs", struct.Struct("<HqI"), lambda m: m[0] < 1 << len(AXES) and m[1] >= 0),
+    DIGITAL_INPUTS: Layout("DigitalInputs", struct.Struct("<IqI"), lambda m: m[0] < 1 << 22 and m[1] >= 0),
+    # Enables of the amplifiers, then releases of the holding brakes.
+    DIGITAL_OUTPUTS: Layout("DigitalOutputs", struct.Struct("<HqI"), lambda m: m[0] < 1 << 2 * len(AXES) and m[1] >= 0),
     FORCE_SAMPLE: Layout("ForceSample", struct.Struct("<q6f"), lambda m: m[0] >= 0 and _finite(m[1:])),
     CURRENT_SAMPLE: Layout(
         "CurrentSample", struct.Struct("<Bqf"), lambda m: m[0] < len(AXES) and m[1] >= 0 and math.isfinite(m[2])
@@ -389,7 +391,7 @@ class CanFraming:
             return _can_frame(_CAN_DUTY + axis, word)
         if kind == DIGITAL_OUTPUTS:
             lines, change_ns, sequence = LAYOUTS[kind].fields.unpack_from(payload, 1)
-            if 0 <= change_ns < 1 << 48:
+            if lines < 1 << 8 and 0 <= change_ns < 1 << 48:
                 return _can_frame(_CAN_LINES, lines | (sequence & 0xFF) << 8 | change_ns << 16)
         if kind in (ADVANCE, BYE):
             return _CAN_FRAME.pack(_CAN_TIME if kind == ADVANCE else _CAN_BYE, 8, payload[1:])
@@ -683,9 +685,9 @@ class Bench:
             if self.axes[name].absolute is None:
                 raise BenchError(f"the encoder of {name} is not absolute")
 
-    def enable(self, *axes: str) -> None:
-        """Of these axes the amplifier is on from now on, of the others off."""
-        lines = sum(1 << AXES.index(name) for name in axes)
+    def enable(self, *axes: str, released: tuple[str, ...] = ()) -> None:
+        """Of these axes the amplifier is on from now on, of the others off; `released`: likewise of the holding brakes."""
+        lines = sum(1 << AXES.index(name) for name in axes) | sum(1 << len(AXES) + AXES.index(name) for name in released)
         self.send(DIGITAL_OUTPUTS, lines, self.now_ns, self._outputs_sequence)
         self._outputs_sequence = self._outputs_sequence + 1 & 0xFFFFFFFF
 

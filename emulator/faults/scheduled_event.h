@@ -32,6 +32,9 @@ enum class ScheduledEventKind : std::uint8_t {
   kDragCarriage,  // brakes with `value` N
   kObstacle,      // a stop `value` m ahead (signed: towards max or min); 0: gone
   kDropLoad,      // lighter by `value` kg
+  // Holding brake; nothing on an axis without one.
+  kStickBrake,  // `value` != 0: its coil is dead, it closes
+  kLoseBrake,   // `value` != 0: does not hold
   // Encoder disc on its shaft (emulator/faults/slipping_disc.h).
   kSlipDisc,  // stands still for the next `value` counts of the shaft
   kTurnDisc,  // jumps by `value` counts

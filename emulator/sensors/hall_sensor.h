@@ -1,8 +1,7 @@
 // A hall switch at one end of an axis: from the carriage's true position to a line, with hysteresis
 // or latching, and the time of each change inside the step.
 //
-// The line follows the field after `delay_s`, and only if the field has stayed for that long: a
-// comparator behind a filter, so a touch shorter than the delay leaves no trace.
+// The line follows the field after `delay_s` (delayed_line.h).
 #pragma once
 
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "core/realtime.h"
 #include "core/time.h"
 #include "emulator/sensors/cubic_motion.h"
+#include "emulator/sensors/delayed_line.h"
 #include "emulator/sensors/line_change.h"
 #include "emulator/sensors/sensor_parameters.h"
 
@@ -39,13 +39,8 @@ class HallSensor {
     }
   }
 
-  [[nodiscard]] bool active() const noexcept { return line_is_active_; }
-  [[nodiscard]] protocol::InputLine line() const noexcept { return line_; }
-
- private:
-  [[nodiscard]] double depth(double carriage_m) const noexcept {
-    return sign_ * (carriage_m - position_m_);
-  }
+  [[nodiscard]] bool active() const noexcept { return line_.active(); }
+  [[nodiscard]] protocol::InputLine line() const noexcept { return line_.line(); }
   // The usual case, settled without solving anything: no way within reach during this step.
   [[nodiscard]] bool far_from_change(const CarriageMotion& motion) const noexcept {
     const double start_speed = std::fabs(motion.before_m_per_s);
@@ -53,28 +48,27 @@ class HallSensor {
     const double reach_m = (start_speed > end_speed ? start_speed : end_speed) * core::kPlantTick_s;
     const double before = depth(motion.before_m);
     const double after = depth(motion.after_m);
-    if (field_is_on_ != line_is_active_) {
+    if (!line_.is_settled()) {
       return false;
     }
-    return field_is_on_ ? (before < after ? before : after) - reach_m >= release_depth_m_
-                        : (before > after ? before : after) + reach_m < 0.0;
+    return line_.field_is_on() ? (before < after ? before : after) - reach_m >= release_depth_m_
+                               : (before > after ? before : after) + reach_m < 0.0;
+  }
+
+ private:
+  [[nodiscard]] double depth(double carriage_m) const noexcept {
+    return sign_ * (carriage_m - position_m_);
   }
   void follow(core::Nanoseconds start_ns, const CarriageMotion& motion,
               LineChanges& changes) noexcept;
   void follow_field(core::Nanoseconds start_ns, const CarriageMotion& motion,
                     LineChanges& changes) noexcept;
-  void toggle_field(core::Nanoseconds time_ns, LineChanges& changes) noexcept;
-  void settle_line(core::Nanoseconds before_ns, LineChanges& changes) noexcept;
 
   double position_m_;
   double sign_;             // +1 at max, -1 at min: depth is positive beyond the switch point
   double release_depth_m_;  // negative
-  core::Nanoseconds delay_ns_;
-  protocol::InputLine line_;
   bool fitted_;
-  bool field_is_on_;
-  bool line_is_active_;
-  core::Nanoseconds field_since_ns_ = 0;
+  DelayedLine line_;
 };
 
 }  // namespace towbench::emulator

@@ -6,6 +6,7 @@
 namespace towbench::emulator {
 
 using protocol::InputLine;
+using protocol::InputLines;
 
 bool InputWiring::set_line(InputLine line, WireCondition condition,
                            core::Nanoseconds time_ns) noexcept {
@@ -17,7 +18,7 @@ bool InputWiring::cross(InputLine a, InputLine b, core::Nanoseconds time_ns) noe
   return pending_.push_back({.time_ns = time_ns, .line = a, .crossed_with = b});
 }
 
-void InputWiring::rewire(const Change& change, std::uint16_t near, std::uint16_t& far,
+void InputWiring::rewire(const Change& change, InputLines near, InputLines& far,
                          LineChanges& arrived) noexcept {
   if (change.crossed_with == change.line) {
     condition_[static_cast<std::size_t>(change.line)] = change.condition;
@@ -29,7 +30,7 @@ void InputWiring::rewire(const Change& change, std::uint16_t near, std::uint16_t
   deliver(change.time_ns, change.line, near, far, arrived);
 }
 
-void InputWiring::step(std::uint16_t& near, std::uint16_t& far, LineChanges& changes) noexcept {
+void InputWiring::step(InputLines& near, InputLines& far, LineChanges& changes) noexcept {
   if (changes.empty() && pending_.empty()) {
     return;
   }
@@ -43,24 +44,24 @@ void InputWiring::step(std::uint16_t& near, std::uint16_t& far, LineChanges& cha
   };
   for (const LineChange& change : made.view()) {
     rewire_until(change.time_ns);
-    const unsigned mask = protocol::mask_of(change.line);
-    near = static_cast<std::uint16_t>(change.active ? near | mask : near & ~mask);
+    const InputLines mask = protocol::mask_of(change.line);
+    near = change.active ? near | mask : near & ~mask;
     deliver(change.time_ns, change.line, near, far, changes);
   }
   rewire_until(std::numeric_limits<core::Nanoseconds>::max());
   pending_.clear();
 }
 
-void InputWiring::deliver(core::Nanoseconds time_ns, InputLine line, std::uint16_t near,
-                          std::uint16_t& far, LineChanges& arrived) const noexcept {
+void InputWiring::deliver(core::Nanoseconds time_ns, InputLine line, InputLines near,
+                          InputLines& far, LineChanges& arrived) const noexcept {
   const bool made = (near & protocol::mask_of(line)) != 0;
   const bool level = level_behind(condition_[static_cast<std::size_t>(line)], made);
   const InputLine arriving = arrives_as_[static_cast<std::size_t>(line)];
-  const unsigned mask = protocol::mask_of(arriving);
+  const InputLines mask = protocol::mask_of(arriving);
   if (level == ((far & mask) != 0)) {
     return;
   }
-  far = static_cast<std::uint16_t>(level ? far | mask : far & ~mask);
+  far = level ? far | mask : far & ~mask;
   (void)arrived.push_back({.time_ns = time_ns, .line = arriving, .active = level});
 }
 

@@ -26,7 +26,7 @@ class InputWiring {
 
   // From the changes at the sensors (in the order of time) to those that arrive. `near` and `far`
   // are the lines before the step at either end; both are brought up to date.
-  TOWBENCH_REALTIME void step(std::uint16_t& near, std::uint16_t& far,
+  TOWBENCH_REALTIME void step(protocol::InputLines& near, protocol::InputLines& far,
                               LineChanges& changes) noexcept;
 
  private:
@@ -37,7 +37,7 @@ class InputWiring {
     protocol::InputLine crossed_with = line;  // another line: the two are exchanged
   };
 
-  void rewire(const Change& change, std::uint16_t near, std::uint16_t& far,
+  void rewire(const Change& change, protocol::InputLines near, protocol::InputLines& far,
               LineChanges& arrived) noexcept;
   [[nodiscard]] static constexpr std::array<protocol::InputLine, protocol::kInputLineCount>
   straight() noexcept {
@@ -47,8 +47,8 @@ class InputWiring {
     }
     return lines;
   }
-  void deliver(core::Nanoseconds time_ns, protocol::InputLine line, std::uint16_t near,
-               std::uint16_t& far, LineChanges& arrived) const noexcept;
+  void deliver(core::Nanoseconds time_ns, protocol::InputLine line, protocol::InputLines near,
+               protocol::InputLines& far, LineChanges& arrived) const noexcept;
 
   std::array<WireCondition, protocol::kInputLineCount> condition_{};
   // Where each line of the machine arrives.

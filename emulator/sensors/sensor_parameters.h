@@ -79,6 +79,26 @@ struct HallParameters {
   }
 };
 
+// Switch that tells a place of the way: active while the load is within half the width of it. Not
+// fitted unless a rig has its table. A rig says where and how wide.
+struct HomeParameters {
+  static constexpr std::array<std::string_view, 2> kRequired{"position_m", "width_m"};
+  bool fitted = false;  // no key: its table says so
+  double position_m = 0.0;
+  double width_m = 2e-3;
+  double hysteresis_m = 0.1e-3;  // assumed
+  double delay_s = 0.1e-3;       // assumed, as of a hall sensor
+
+  template <typename Visitor>
+  void visit(Visitor& v) {
+    v.value("position_m", position_m, core::between(-1e4, 1e4), "middle of where it is active");
+    v.value("width_m", width_m, core::above(0.0), "way over which it is active");
+    v.value("hysteresis_m", hysteresis_m, core::above(0.0),
+            "way out of that at either edge until it releases");
+    v.value("delay_s", delay_s, core::between(0.0, 1e-3), "from the field to the line");
+  }
+};
+
 // The amplifier's "Monitor I" output (App. A), as digitised. Not fitted unless a rig says so: an
 // estimator sees only the sensors that its rig lists.
 struct CurrentMonitorParameters {

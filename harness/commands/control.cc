@@ -204,8 +204,10 @@ int execute_control(const ControlOptions& options) {
     plant = &whole->whole();
   } else {
     const auto rig = load_rig(options.rig, sources);
-    if (const auto note = tank_controller_note(rig); !note.empty()) {
-      std::fprintf(stderr, "note: %s\n", note.c_str());
+    for (const auto& note : {tank_controller_note(rig), unserved_parts_note(rig)}) {
+      if (!note.empty()) {
+        std::fprintf(stderr, "note: %s\n", note.c_str());
+      }
     }
     plant_recorder = options.out.empty()
                          ? nullptr

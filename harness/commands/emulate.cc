@@ -13,6 +13,7 @@
 #include "harness/commands/command.h"
 #include "harness/commands/option_checks.h"
 #include "harness/commands/stop_signal.h"
+#include "harness/commands/wired_lines.h"
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/fault_cases/faulted_experiment.h"
 #include "harness/fixtures/fixture_paths.h"
@@ -56,18 +57,6 @@ protocol::Scheme scheme_of(const EmulateOptions& options) {
                                         : carrier_address("--carrier", options.carrier).scheme;
 }
 
-void refuse_what_lines_cannot_carry(const EmulateOptions& options, const Machine& machine) {
-  const auto& given = options.lines.empty() ? options.encoder_lines : options.lines;
-  for (const auto further : core::kFurtherAxes) {
-    if (!given.empty() && machine.rig.axes[further].exists) {
-      throw FixtureError(
-          {options.lines.empty() ? "--encoder-lines" : "--lines"},
-          fmt::format("{}, and a machine with axis {}", given, core::name_of(further)),
-          "lines of axes y and x");
-    }
-  }
-}
-
 Machine machine_of(const EmulateOptions& options) {
   Machine machine;
   if (!options.rig.empty()) {
@@ -88,7 +77,8 @@ Machine machine_of(const EmulateOptions& options) {
     throw FixtureError({"command line"}, "no machine", "--rig FILE, or an experiment");
   }
   machine.seed = options.seed.value_or(machine.seed);
-  refuse_what_lines_cannot_carry(options, machine);
+  refuse_what_lines_cannot_carry("--lines", options.lines, machine.rig);
+  refuse_what_lines_cannot_carry("--encoder-lines", options.encoder_lines, machine.rig);
   return machine;
 }
 

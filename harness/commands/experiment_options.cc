@@ -14,6 +14,7 @@
 #include "harness/commands/progress_line.h"
 #include "harness/commands/stop_signal.h"
 #include "harness/commands/tank_controller.h"
+#include "harness/commands/wired_lines.h"
 #include "harness/fixtures/fixture_error.h"
 #include "harness/realtime/wall_clock_carrier.h"
 #include "harness/report/report.h"
@@ -143,6 +144,19 @@ int tell_of_trouble(const ReportResult& written) {
 
 }  // namespace
 
+namespace {
+
+void tell_notes(const RigFixture& rig, bool is_bbmc) {
+  for (const auto& note :
+       {is_bbmc ? tank_controller_note(rig) : std::string(), unserved_parts_note(rig)}) {
+    if (!note.empty()) {
+      std::fprintf(stderr, "note: %s\n", note.c_str());
+    }
+  }
+}
+
+}  // namespace
+
 RunResult run_with_options(const ExperimentFixture& fixture, const ExperimentOptions& options) {
   RunOptions run_options;
   run_options.out = options.out;
@@ -153,6 +167,7 @@ RunResult run_with_options(const ExperimentFixture& fixture, const ExperimentOpt
   check_load(fixture, run_options);
   refuse_lines_of_others(options);
   choose_lines(options.lines, run_options);
+  refuse_what_lines_cannot_carry("--lines", options.lines, fixture.rig.parameters);
   choose_encoder_lines(options.encoder_lines, run_options);
   check_encoder_lines(fixture, run_options);
   if (!options.console.empty() && run_options.firmware.empty()) {
@@ -178,9 +193,8 @@ RunResult run_with_options(const ExperimentFixture& fixture, const ExperimentOpt
                          simulated_s / progress.elapsed_s());
     });
   };
-  if (const auto note = tank_controller_note(fixture.rig);
-      options.controller.empty() && !options.quiet && !options.json && !note.empty()) {
-    std::fprintf(stderr, "note: %s\n", note.c_str());
+  if (!options.quiet && !options.json && !run_options.external) {
+    tell_notes(fixture.rig, options.controller.empty());
   }
   auto result = run_experiment(fixture, run_options);
   if (!options.quiet && !options.json) {

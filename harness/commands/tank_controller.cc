@@ -22,4 +22,26 @@ std::string tank_controller_note(const RigFixture& rig) {
                               others, turns ? "; read rad where it says m" : "");
 }
 
+std::string unserved_parts_note(const RigFixture& rig) {
+  std::string parts;
+  const auto add = [&](const char* text, core::Axis axis) {
+    parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", text, core::name_of(axis));
+  };
+  for (const auto which : core::kAllAxes) {
+    const auto& axis = rig.parameters.axes[which];
+    if (axis.exists && axis.brake.fitted) {
+      add("a holding brake, which stays closed, of", which);
+    }
+    if (axis.exists && axis.home.fitted) {
+      add("a home switch of", which);
+    }
+  }
+  return parts.empty() ? parts
+                       : fmt::format(
+                             "this controller serves neither home switches nor holding "
+                             "brakes, and the machine has {}; a program of your own: "
+                             "--controller",
+                             parts);
+}
+
 }  // namespace towbench::harness

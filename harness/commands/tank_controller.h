@@ -1,4 +1,4 @@
-// BBMC is the tow tank's controller; on another machine a run says so, once.
+// BBMC and the virtual board are those of the tow tank; on another machine a run says so, once.
 #pragma once
 
 #include <string>
@@ -9,5 +9,9 @@ namespace towbench::harness {
 
 // One line; empty where every axis is driven by a transmission, as the tank's are.
 [[nodiscard]] std::string tank_controller_note(const RigFixture& rig);
+
+// One line on home switches and holding brakes, which neither BBMC nor an image has a pin for;
+// empty where the rig has none.
+[[nodiscard]] std::string unserved_parts_note(const RigFixture& rig);
 
 }  // namespace towbench::harness

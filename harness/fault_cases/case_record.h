@@ -22,7 +22,7 @@ namespace towbench::harness {
 struct LineArrival {
   core::Nanoseconds served_ns = 0;
   core::Nanoseconds change_ns = 0;
-  std::uint16_t lines = 0;
+  protocol::InputLines lines = 0;
 };
 
 // As the controller sent it.
@@ -54,7 +54,7 @@ struct KeptTruth {
 
   core::Nanoseconds time_ns = 0;
   KeptAxes<emulator::AxisTruth> axes;
-  std::uint16_t input_lines = 0;
+  protocol::InputLines input_lines = 0;
 };
 
 class CaseRecord final : public BenchRecorder, public emulator::PlantObserver {

@@ -62,8 +62,8 @@ Nanoseconds could_know_ns(const CaseEvidence& evidence, const Contact& contact) 
     since_ns = reset_ns + 1;
   }
   Nanoseconds known_ns = kNever;
-  const unsigned halls = protocol::mask_of(protocol::hall_line(contact.axis, false)) |
-                         protocol::mask_of(protocol::hall_line(contact.axis, true));
+  const protocol::InputLines halls = protocol::mask_of(protocol::hall_line(contact.axis, false)) |
+                                     protocol::mask_of(protocol::hall_line(contact.axis, true));
   for (const auto& arrival : run.lines) {
     if (arrival.served_ns >= since_ns && (arrival.lines & halls) != 0) {
       known_ns = std::min(known_ns, served_ns(evidence, arrival.served_ns));

@@ -144,7 +144,7 @@ MaybeCheck bounce_while_leaving_is_ignored(const CaseEvidence& evidence) {
     return std::nullopt;
   }
   const auto& edges = evidence.reference.plant_events;
-  const auto line = fault->place.hall_line();
+  const auto line = fault->place.switch_line();
   const auto index = static_cast<std::size_t>(fault - evidence.prepared.plan.data());
   const auto edge = std::find_if(edges.begin(), edges.end(), [&](const auto& event) {
     return event.kind == emulator::PlantEventKind::kInputLineChanged &&
@@ -204,6 +204,8 @@ MaybeCheck fault_number_fits(const CaseEvidence& evidence) {
         // What a link loses or damages is the link's fault, however it looks further on.
         fits = fits || (must_be_found(fault) ? between(320, 321) : between(303, 350));
         break;
+      case FaultPart::kHomeSwitch:
+        break;  // BBMC does not read it
       case FaultPart::kHost:
         fits = fits || between(303, 350);
         break;

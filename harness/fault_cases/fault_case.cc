@@ -9,6 +9,7 @@
 #include "harness/fault_cases/motion_phases.h"
 #include "harness/fault_cases/requirements.h"
 #include "harness/fault_plan/built_in_fault.h"
+#include "harness/fault_plan/fault_fit.h"
 #include "harness/fixtures/fixture_error.h"
 
 namespace towbench::harness {
@@ -97,8 +98,8 @@ PreparedPlan prepare_at(const FaultPlan& plan, const std::vector<core::Nanosecon
     throw FixtureError({.file = "fault plan"}, "a machine that cannot be", wrong);
   }
   for (const auto& fault : plan) {
-    if (is_of_an_axis(fault.place.part) && !fixture.rig.parameters.axes[fault.place.axis].exists) {
-      throw FixtureError({.file = "fault plan"}, describe(fault), "an axis that the rig has");
+    if (const char* lacks = lacking(fault, fixture.rig.parameters)) {
+      throw FixtureError({.file = "fault plan"}, describe(fault), lacks);
     }
   }
   prepared.injection = injection_of(plan, onsets_ns, fixture, reference, kAll, over_can);

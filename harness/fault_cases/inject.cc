@@ -37,7 +37,8 @@ class Injector {
   void run() {
     switch (fault_.place.part) {
       case FaultPart::kEndStop:
-        return end_stop();
+      case FaultPart::kHomeSwitch:
+        return position_switch();
       case FaultPart::kKillSwitch:
         return kill_switch();
       case FaultPart::kEncoder:
@@ -77,6 +78,9 @@ class Injector {
       add({.time_ns = until_ns_, .kind = kind, .value = off});
     }
   }
+  void once(ScheduledEventKind kind) {
+    add({.time_ns = at_ns_, .kind = kind, .value = parameter(0)});
+  }
   void rewire(core::Nanoseconds time_ns, InputLine line, WireCondition condition) {
     add({.time_ns = time_ns,
          .kind = ScheduledEventKind::kRewireInput,
@@ -99,6 +103,7 @@ class Injector {
          .encoder_line = line,
          .condition = condition});
   }
+  // Of the machine's lines, or of an encoder's.
   template <typename Line>
   void hold_line(Line line, WireCondition condition) {
     rewire(at_ns_, line, condition);
@@ -121,8 +126,8 @@ class Injector {
     }
   }
 
-  void end_stop() {
-    const InputLine line = fault_.place.hall_line();
+  void position_switch() {
+    const InputLine line = fault_.place.switch_line();
     switch (fault_.kind) {
       case kStuckOpen:
         return hold_line(line, WireCondition::kStuckLow);
@@ -226,11 +231,9 @@ class Injector {
       case kSwappedChannels:
         return hold(ScheduledEventKind::kSwapEncoderChannels, 1.0, 0.0);
       case kJump:
-        return add(
-            {.time_ns = at_ns_, .kind = ScheduledEventKind::kTurnDisc, .value = parameter(0)});
+        return once(ScheduledEventKind::kTurnDisc);
       case kSlip:
-        return add(
-            {.time_ns = at_ns_, .kind = ScheduledEventKind::kSlipDisc, .value = parameter(0)});
+        return once(ScheduledEventKind::kSlipDisc);
       case kExtraEdges:
         return at_random(parameter(0), [&](core::Nanoseconds time_ns) {
           pulse(time_ns, EncoderLine::kA, parameter(1), WireCondition::kInverted);
@@ -290,8 +293,11 @@ class Injector {
       case kObstacle:
         return hold(ScheduledEventKind::kObstacle, parameter(0), 0.0);
       case kToothSkip:
-        return add(
-            {.time_ns = at_ns_, .kind = ScheduledEventKind::kSkipTooth, .value = parameter(0)});
+        return once(ScheduledEventKind::kSkipTooth);
+      case kBrakeStuck:
+        return hold(ScheduledEventKind::kStickBrake, 1.0, 0.0);
+      case kBrakeLost:
+        return hold(ScheduledEventKind::kLoseBrake, 1.0, 0.0);
       case kDroppedLoad:
         return hold(ScheduledEventKind::kDropLoad, parameter(0), 0.0);
       default:

@@ -59,6 +59,18 @@ bool travels(const CaseRecord& run, const bbmc::ControllerEvent& start) {
   });
 }
 
+// "y_max", "x_home" and the like; of no other name than those of kEventNames.
+protocol::InputLine line_of_event(std::string_view name) {
+  for (const auto axis : core::kPlanarAxes) {
+    const std::string_view letter = core::name_of(axis);
+    if (name.starts_with(letter)) {
+      return name.ends_with("_home") ? protocol::home_line(axis)
+                                     : protocol::hall_line(axis, name.ends_with("_max"));
+    }
+  }
+  return protocol::InputLine::kKillSwitch;
+}
+
 std::optional<core::Nanoseconds> event_onset(const std::string& name, const CaseRecord& reference) {
   const auto controller = [&](Kind kind, bool of_travel) -> std::optional<core::Nanoseconds> {
     const auto moving = moving_axis(reference);
@@ -80,14 +92,11 @@ std::optional<core::Nanoseconds> event_onset(const std::string& name, const Case
   if (name == "fault") {
     return controller(Kind::kFaultLatched, false);
   }
-  constexpr std::array<std::string_view, 5> kLines{"y_min", "y_max", "x_min", "x_max",
-                                                   "kill_switch"};
+  const auto line = line_of_event(name);
   for (const auto& event : reference.plant_events) {
-    if (event.kind != emulator::PlantEventKind::kInputLineChanged) {
-      continue;
-    }
-    const auto line = static_cast<std::size_t>(event.value);
-    if (line < kLines.size() && kLines[line] == name && ((event.lines >> line) & 1U) != 0) {
+    if (event.kind == emulator::PlantEventKind::kInputLineChanged &&
+        static_cast<protocol::InputLine>(static_cast<int>(event.value)) == line &&
+        (event.lines & protocol::mask_of(line)) != 0) {
       return event.time_ns;
     }
   }
@@ -153,6 +162,7 @@ core::Axis trigger_axis(const Fault& fault, const CaseRecord& reference) {
     case FaultPart::kEncoder:
     case FaultPart::kAmplifier:
     case FaultPart::kDriveTrain:
+    case FaultPart::kHomeSwitch:
       return fault.place.axis;
     default:
       return moving_axis(reference);

@@ -25,11 +25,11 @@ struct Edge {
 // Every line that became active, as the controller heard it.
 std::vector<Edge> activations(const CaseEvidence& evidence) {
   std::vector<Edge> edges;
-  std::uint16_t before = 0;
+  protocol::InputLines before = 0;
   const auto& run = evidence.run;
   for (std::size_t i = 0; i < run.lines.size(); ++i) {
     const auto& arrival = run.lines[i];
-    const auto risen = static_cast<unsigned>(arrival.lines & ~before);
+    const protocol::InputLines risen = arrival.lines & ~before;
     before = arrival.lines;
     const bool late = arrival.served_ns - arrival.change_ns > run.outcome.exchange_ns;
     const auto seen_ns = served_ns(evidence, arrival.served_ns);

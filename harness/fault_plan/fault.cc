@@ -31,6 +31,7 @@ const std::vector<NamedPlace>& all_places() {
     add_of_axes(places, "amplifier", FaultPart::kAmplifier);
     places.push_back({"supply", {.part = FaultPart::kSupply}});
     add_of_axes(places, "drive", FaultPart::kDriveTrain);
+    add_of_axes(places, "home", FaultPart::kHomeSwitch);
     places.push_back({"link.to_controller", {.part = FaultPart::kLink}});
     places.push_back({"link.to_plant", {.part = FaultPart::kLink, .to_plant = true}});
     places.push_back({"host", {.part = FaultPart::kHost}});

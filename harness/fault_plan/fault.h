@@ -18,17 +18,19 @@ namespace towbench::harness {
 // Where a fault sits: a part of the table, and which one of them.
 struct FaultPlace {
   FaultPart part = FaultPart::kKillSwitch;
-  core::Axis axis = core::kFirstAxis;  // of end-stop, encoder, amplifier, drive train
+  core::Axis axis = core::kFirstAxis;  // of end-stop, home switch, encoder, amplifier, drive train
   bool at_max = false;                 // of an end-stop
   bool to_plant = false;               // of a link
 
-  [[nodiscard]] protocol::InputLine hall_line() const noexcept {
-    return protocol::hall_line(axis, at_max);
+  // Of an end-stop or home switch.
+  [[nodiscard]] protocol::InputLine switch_line() const noexcept {
+    return part == FaultPart::kHomeSwitch ? protocol::home_line(axis)
+                                          : protocol::hall_line(axis, at_max);
   }
   friend bool operator==(const FaultPlace&, const FaultPlace&) = default;
 };
 
-// "endstop.y_max", "kill_switch", "encoder.y", "amplifier.x", "supply", "drive.y",
+// "endstop.y_max", "home.y", "kill_switch", "encoder.y", "amplifier.x", "supply", "drive.y",
 // "link.to_controller", "link.to_plant", "host". None when it is no place.
 [[nodiscard]] std::optional<FaultPlace> place_named(std::string_view name);
 [[nodiscard]] std::string name_of(const FaultPlace& place);

@@ -84,6 +84,10 @@ constexpr FaultRow kRows[] = {
      {{{"force_N", 10, 0.1, 500}}}},
     {kDriveTrain, kObstacle, "obstacle", "something stands in the way, so far ahead (+ towards max)", kAnyTime, kNothing, kNone,
      {{{"ahead_m", 0.05, -4, 4}}}},
+    {kDriveTrain, kBrakeStuck, "brake_stuck", "the holding brake closes and does not release: its coil is dead", kAnyTime, kNothing,
+     FaultNeeds::kHoldingBrake, {}},
+    {kDriveTrain, kBrakeLost, "brake_lost", "the holding brake does not hold", kAnyTime, kNothing,
+     FaultNeeds::kHoldingBrake, {}},
 
     {kLink, kLoss, "loss", "messages are lost", kAnyTime, kStop, kNone, {{{"probability", 0.05, 1e-6, 1}}}},
     {kLink, kDelay, "delay", "messages come late, in order", kAnyTime, kNothing, kNone, {{{"delay_s", 5e-3, 1e-4, 10}}}},
@@ -113,6 +117,18 @@ constexpr FaultRow kRows[] = {
     {kHost, kFullDisk, "full_disk", "no file of the record can grow any more", kAnyTime, kNoTrip, FaultNeeds::kRecord, {}},
     {kHost, kKilledWhileLogging, "killed_while_logging", "the controller's process is killed", kAnyTime, kNothing,
      FaultNeeds::kRecord, {}},
+
+    {kHomeSwitch, kStuckOpen, "stuck_open", "the line stays inactive", kAnyTime, kNothing, FaultNeeds::kHomeSwitch, {}},
+    {kHomeSwitch, kStuckClosed, "stuck_closed", "the line stays active", kAnyTime, kNothing, FaultNeeds::kHomeSwitch, {}},
+    {kHomeSwitch, kBounce, "bounce", "the contact's next edge bounces", kAnyTime, kNothing, FaultNeeds::kHomeSwitch,
+     {{{"bounces", 5, 1, 40}, {"within_s", 5e-3, 1e-4, 0.1}}}},
+    {kHomeSwitch, kLate, "late", "the line follows its switch late", kWholeRun, kNothing, FaultNeeds::kHomeSwitch,
+     {{{"delay_s", 2e-3, 1e-4, 0.1}}}},
+    {kHomeSwitch, kMissing, "missing", "the switch is not there", kWholeRun, kNothing, FaultNeeds::kHomeSwitch, {}},
+    {kHomeSwitch, kDisplaced, "displaced", "mounted elsewhere, + towards max", kWholeRun, kNothing, FaultNeeds::kHomeSwitch,
+     {{{"by_m", -0.02, -4, 4}}}},
+    {kHomeSwitch, kBrokenWire, "broken_wire", "reads inactive, or active with reads_active = 1", kAnyTime, kNothing,
+     FaultNeeds::kHomeSwitch, {{{"reads_active", 0, 0, 1}}}},
 };
 // clang-format on
 
@@ -138,8 +154,9 @@ const FaultRow& row_of(FaultPart part, FaultKind kind) noexcept {
 }
 
 std::string_view name_of(FaultPart part) noexcept {
-  constexpr std::array<std::string_view, 8> kNames{
-      "end-stop", "kill switch", "encoder", "amplifier", "supply", "drive train", "link", "host"};
+  constexpr std::array<std::string_view, 9> kNames{"end-stop",  "kill switch", "encoder",
+                                                   "amplifier", "supply",      "drive train",
+                                                   "link",      "host",        "home switch"};
   return kNames[static_cast<std::size_t>(part)];
 }
 

@@ -18,16 +18,18 @@ enum class FaultPart : std::uint8_t {
   kDriveTrain,
   kLink,
   kHost,
+  kHomeSwitch,
 };
 
 // Each axis has one of its own.
 [[nodiscard]] constexpr bool is_of_an_axis(FaultPart part) noexcept {
   return part == FaultPart::kEndStop || part == FaultPart::kEncoder ||
-         part == FaultPart::kAmplifier || part == FaultPart::kDriveTrain;
+         part == FaultPart::kAmplifier || part == FaultPart::kDriveTrain ||
+         part == FaultPart::kHomeSwitch;
 }
 
 enum class FaultKind : std::uint8_t {
-  // end-stop
+  // end-stop; home switch, of these the ones that one switch can have
   kStuckOpen,
   kStuckClosed,
   kBounce,
@@ -73,6 +75,8 @@ enum class FaultKind : std::uint8_t {
   kDroppedLoad,
   kBrakeDrag,
   kObstacle,
+  kBrakeStuck,
+  kBrakeLost,
   // link
   kLoss,
   kDelay,
@@ -110,8 +114,15 @@ enum class FaultStart : std::uint8_t {
 // What it takes to make it happen.
 enum class FaultNeeds : std::uint8_t {
   kNothing,
-  kRecord,  // a run folder: it strikes what is written
+  kRecord,        // a run folder: it strikes what is written
+  kHomeSwitch,    // an axis that has one
+  kHoldingBrake,  // likewise
 };
+
+// Not every machine can have it: a campaign that is for all of them leaves it out.
+[[nodiscard]] constexpr bool needs_a_fitted_part(FaultNeeds needs) noexcept {
+  return needs == FaultNeeds::kHomeSwitch || needs == FaultNeeds::kHoldingBrake;
+}
 
 // Whether the run may end with it: the two sides do not hear each other any more.
 [[nodiscard]] constexpr bool may_end_run(FaultKind kind) noexcept {

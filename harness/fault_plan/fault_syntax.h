@@ -28,8 +28,9 @@ inline constexpr std::array<TriggerKey, 3> kNumericTriggers{{
 // decelerate, reverse (about a change of direction), open_loop (a duty is commanded), brake.
 inline constexpr std::array<std::string_view, 8> kPhaseNames{
     "rest", "hold", "accelerate", "cruise", "decelerate", "reverse", "open_loop", "brake"};
-inline constexpr std::array<std::string_view, 8> kEventNames{
-    "motion", "motion_end", "y_min", "y_max", "x_min", "x_max", "kill_switch", "fault"};
+inline constexpr std::array<std::string_view, 10> kEventNames{
+    "motion", "motion_end", "y_min",  "y_max",       "x_min",
+    "x_max",  "y_home",     "x_home", "kill_switch", "fault"};
 
 // Throws FixtureError when the fault as a whole cannot be: without a trigger, or built in and with
 // one.

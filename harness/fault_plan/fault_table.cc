@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -23,7 +24,7 @@ bool read_trigger(TableReader& reader, Trigger& trigger) {
     }
   }
   const auto read_name = [&](const char* key, Trigger::Kind kind,
-                             const std::array<std::string_view, 8>& names) {
+                             std::span<const std::string_view> names) {
     std::size_t chosen = 0;
     reader.choice(key, chosen, {names.begin(), names.end()});
     if (reader.has(key)) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -147,7 +148,8 @@ class WordReader {
     if (key != "phase" && key != "event") {
       return false;
     }
-    const auto& names = key == "phase" ? kPhaseNames : kEventNames;
+    const std::span<const std::string_view> names =
+        key == "phase" ? std::span<const std::string_view>(kPhaseNames) : kEventNames;
     if (std::find(names.begin(), names.end(), text) == names.end()) {
       refuse(word_, fmt::format("{}", fmt::join(names, ", ")));
     }

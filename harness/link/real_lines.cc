@@ -47,7 +47,7 @@ void RealLinesAtPlant::In::handle(const protocol::Advance& advance) noexcept {
 }
 
 void RealLinesAtPlant::Out::handle(const protocol::DigitalInputs& inputs) noexcept {
-  if (const auto written = owner.port_.write(inputs.lines); !written) {
+  if (const auto written = owner.port_.write(static_cast<std::uint16_t>(inputs.lines)); !written) {
     owner.status_ = written;
   }
 }

@@ -22,7 +22,7 @@ RunEvent parse_event(const nlohmann::json& line) {
   event.kind = line.at("kind").get<std::string>();
   event.axis = line.value("axis", std::string{});
   event.code = line.value("code", std::uint16_t{0});
-  event.lines = line.value("lines", std::uint16_t{0});
+  event.lines = line.value("lines", protocol::InputLines{0});
   event.value = line.value("value", 0.0);
   event.energy_J = line.value("energy_J", 0.0);
   return event;

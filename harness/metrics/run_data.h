@@ -14,6 +14,7 @@
 
 #include "core/axis.h"
 #include "harness/files/csv_table.h"
+#include "protocol/messages.h"
 
 namespace towbench::harness {
 
@@ -41,7 +42,7 @@ struct RunEvent {
   std::string kind;
   std::string axis;  // its name
   std::uint16_t code = 0;
-  std::uint16_t lines = 0;
+  protocol::InputLines lines = 0;
   double value = 0;
   double energy_J = 0;
 };

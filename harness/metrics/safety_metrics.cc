@@ -31,15 +31,16 @@ double interpolate(std::span<const double> time_s, std::span<const double> value
 // First moment in the span at which one of the lines of `mask` becomes active.
 struct LineEdge {
   double time_s = 0;
-  std::uint16_t line = 0;
+  protocol::InputLines line = 0;
 };
-std::optional<LineEdge> first_edge(const RunData& data, std::uint16_t mask, const TimeSpan& span) {
+std::optional<LineEdge> first_edge(const RunData& data, protocol::InputLines mask,
+                                   const TimeSpan& span) {
   for (const auto& event : data.events) {
     if (event.kind != "input_line_changed" || !span.holds(event.time_s)) {
       continue;
     }
     // `value` is the number of the line that changed, `lines` all levels after the change.
-    const auto changed = static_cast<std::uint16_t>(1U << static_cast<unsigned>(event.value));
+    const auto changed = protocol::InputLines{1} << static_cast<unsigned>(event.value);
     if ((changed & mask & event.lines) != 0) {
       return LineEdge{event.time_s, changed};
     }
@@ -55,7 +56,7 @@ std::optional<HallEdge> first_hall_edge(const RunData& data, core::Axis axis,
                                         const TimeSpan& span) {
   const auto min = protocol::mask_of(protocol::hall_line(axis, false));
   const auto max = protocol::mask_of(protocol::hall_line(axis, true));
-  const auto edge = first_edge(data, static_cast<std::uint16_t>(min | max), span);
+  const auto edge = first_edge(data, min | max, span);
   if (!edge) {
     return std::nullopt;
   }
@@ -87,7 +88,7 @@ bool command_stays_zero(const RunData& data, double from_s) {
     if (time_s[i] <= from_s + kCommandPath_s) {
       continue;
     }
-    if ((static_cast<std::uint16_t>(lines[i]) & kKill) == 0) {
+    if ((static_cast<protocol::InputLines>(lines[i]) & kKill) == 0) {
       break;
     }
     for (const auto axis : recorded_axes(data.limits)) {

@@ -10,6 +10,7 @@
 #include "harness/fault_cases/inject.h"
 #include "harness/fault_cases/machine_faults.h"
 #include "harness/fault_plan/carrier_fit.h"
+#include "harness/fault_plan/fault_fit.h"
 
 namespace towbench::harness {
 namespace {
@@ -27,8 +28,8 @@ void refuse_unless_possible(const Fault& fault, const ExperimentFixture& fixture
     throw FixtureError({.file = "fault"}, place,
                        "before the start: a machine is built like that or not");
   }
-  if (is_of_an_axis(fault.place.part) && !fixture.rig.parameters.axes[fault.place.axis].exists) {
-    throw FixtureError({.file = "fault"}, place, "an axis that the rig has");
+  if (const char* lacks = lacking(fault, fixture.rig.parameters)) {
+    throw FixtureError({.file = "fault"}, place, lacks);
   }
   if (!fixture.experiment.reference.empty()) {
     refuse_faults_beyond({fault}, FaultReach::kMachineAndLink);

@@ -80,7 +80,7 @@ struct LiveTruthAxis {
 struct alignas(64) LiveTruth {
   core::Nanoseconds time_ns = 0;
   core::PerPlanarAxis<LiveTruthAxis> planar;
-  std::uint16_t input_lines = 0;
+  protocol::InputLines input_lines = 0;
   alignas(64) std::array<LiveTruthAxis, core::kFurtherAxes.size()> further;
 
   [[nodiscard]] LiveTruthAxis& axis(core::Axis which) noexcept {

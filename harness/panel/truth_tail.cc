@@ -39,7 +39,7 @@ LiveTruth row_of(const RecordedAxes& axes, const std::vector<double>& values) {
     axis.transmission_force_N = at[8];
     at += kColumnsPerAxis;
   }
-  row.input_lines = static_cast<std::uint16_t>(*at);
+  row.input_lines = static_cast<protocol::InputLines>(*at);
   return live(row);
 }
 

@@ -28,6 +28,9 @@ std::string name_of_line(std::size_t line) {
         return fmt::format("end-stop switch {} {}", core::name_of(axis), at_max ? "max" : "min");
       }
     }
+    if (protocol::home_line(axis) == asked) {
+      return fmt::format("home switch {}", core::name_of(axis));
+    }
     if (core::is_planar(axis) && protocol::ready_line(axis) == asked) {
       return fmt::format("amplifier {} ready", core::name_of(axis));
     }

@@ -37,6 +37,10 @@ std::string end_stop_event(core::Axis axis, bool at_max) {
   return fmt::format("{}_{}_edge", core::name_of(axis), at_max ? "max" : "min");
 }
 
+std::string home_event(core::Axis axis) {
+  return fmt::format("{}_home_edge", core::name_of(axis));
+}
+
 std::vector<RunEventName> make_events() {
   std::vector<RunEventName> events{{"kill_edge", "the kill switch is pressed"},
                                    {"kill_release", "the kill switch is released"}};
@@ -47,6 +51,10 @@ std::vector<RunEventName> make_events() {
                                     at_max ? "maximum" : "minimum"),
                         axis});
     }
+  }
+  for (const auto axis : core::kAllAxes) {
+    events.push_back({home_event(axis),
+                      fmt::format("the home switch of {} operates", core::name_of(axis)), axis});
   }
   events.push_back({"fault_latched", "the controller latches a fault"});
   events.push_back(
@@ -155,6 +163,7 @@ void add_line_events(const RunData& data, Trace& trace) {
       add_events_of(protocol::hall_line(axis, at_max), end_stop_event(axis, at_max), {}, data,
                     trace);
     }
+    add_events_of(protocol::home_line(axis), home_event(axis), {}, data, trace);
   }
 }
 

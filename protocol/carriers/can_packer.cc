@@ -77,7 +77,7 @@ bool CanPacker::pack(const EncoderReport& m) noexcept {
   return send(can_id::kDigest + axis, packed->digest);
 }
 
-bool CanPacker::pack_lines(std::uint16_t lines, core::Nanoseconds change_ns,
+bool CanPacker::pack_lines(InputLines lines, core::Nanoseconds change_ns,
                            std::uint32_t sequence) noexcept {
   const auto time = static_cast<std::uint64_t>(change_ns);
   const bool packs = follows(last_lines_, sequence, kLinesSequence) && kLinesLevels.fits(lines) &&

@@ -45,8 +45,7 @@ class CanPacker final : public EachMessage<CanPacker> {
   bool pack(const Message& /*m*/) noexcept {
     return false;
   }
-  bool pack_lines(std::uint16_t lines, core::Nanoseconds change_ns,
-                  std::uint32_t sequence) noexcept;
+  bool pack_lines(InputLines lines, core::Nanoseconds change_ns, std::uint32_t sequence) noexcept;
   bool send(std::uint32_t id, std::uint64_t word) noexcept;
   [[nodiscard]] std::uint32_t directed(std::uint32_t id) const noexcept {
     return id + static_cast<std::uint32_t>(direction_);

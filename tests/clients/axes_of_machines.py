@@ -15,7 +15,7 @@ root, bench, c_pid = Path(sys.argv[1]), sys.argv[2], sys.argv[3]
 study = sys.argv[4] if len(sys.argv) > 4 else ""
 work = Path(tempfile.mkdtemp(prefix="towbench-axes-"))
 joint = root / "fixtures/machines/joint"
-SETTINGS = "metres_per_count=1.5707963e-5 inertia=0.02 stall_duty=0.5 largest_error=0.02"
+SETTINGS = "metres_per_count=1.5707963e-5 inertia=0.02 stall_duty=0.5 largest_error=0.02 holding_brake=1"
 PYTHON, C = f"python3 '{root}/clients/python/examples/pid.py'", f"'{c_pid}'"
 failures = []
 
@@ -105,6 +105,7 @@ def faults_strike_their_axis() -> None:
     for fault, reason in {
         "encoder.a frozen phase=cruise": "does not follow|tracking error",
         "amplifier.c disabled at=1s": "does not follow|tracking error",
+        "drive.b brake_stuck at=0.5s": "does not follow|tracking error",
         "endstop.z_max stuck_closed at=1s": "end-stop",
         "kill_switch pressed at=1s": "kill switch",
     }.items():

@@ -283,5 +283,24 @@ TEST(CClientOnCan, GreetsAndTakesItsTurn) {
   EXPECT_EQ(tb_ended(bench.get()), 1);
 }
 
+// Eight lines fit into a frame of lines; with one behind them all go whole.
+TEST(CClientOnCan, ReleasesTheBrakeOfEveryAxis) {
+  const auto bench = new_client(TB_CAN);
+  ClientPort port(*bench);
+  CanLink plant(port, CanDirection::kToController, 5 * core::kNanosecondsPerMillisecond);
+  RecordingSink heard;
+  for (const core::Axis axis : core::kAllAxes) {
+    const auto index = static_cast<unsigned>(core::index_of(axis));
+    tb_enable_released(bench.get(), 3, static_cast<std::uint8_t>(1U << index));
+    tb_end_turn(bench.get());
+    ASSERT_EQ(plant.wait(heard), Turn::kAdvance);
+    ASSERT_GE(heard.texts.size(), 2U);
+    EXPECT_EQ(
+        heard.texts.at(heard.texts.size() - 2),
+        text_of(DigitalOutputs{.lines = static_cast<std::uint16_t>(3U | mask_of(brake_line(axis))),
+                               .sequence = index}));
+  }
+}
+
 }  // namespace
 }  // namespace towbench::protocol

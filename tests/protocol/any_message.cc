@@ -63,7 +63,7 @@ void AnyMessage::send_to(MessageSink& sink, unsigned kind) noexcept {
                                    .sequence = any<std::uint32_t>()});
     }
     case 5:
-      return sink.on(DigitalInputs{static_cast<std::uint16_t>(below(1U << kInputLineCount)), time(),
+      return sink.on(DigitalInputs{static_cast<InputLines>(below(1U << kInputLineCount)), time(),
                                    any<std::uint32_t>()});
     case 6:
       return sink.on(DigitalOutputs{static_cast<std::uint16_t>(below(1U << kOutputLineCount)),

@@ -171,7 +171,10 @@ TEST(Codec, RefusesEveryFieldOutOfItsRange) {
   EXPECT_EQ(decode_error_with("EncoderReport", 2, "08"), bad) << "levels";
   EXPECT_EQ(decode_error_with("EncoderReport", 15, "0907060504030201"), bad)
       << "last edge after the interval";
-  EXPECT_EQ(decode_error_with("DigitalOutputs", 1, "4000"), bad) << "line 6";
+  EXPECT_EQ(decode_error_with("DigitalInputs", 1, "00004000"), bad) << "line 22";
+  EXPECT_EQ(decode_error_with("DigitalInputs", 1, "00002000"), ErrorCode::kNone) << "line 21";
+  EXPECT_EQ(decode_error_with("DigitalOutputs", 1, "0010"), bad) << "line 12";
+  EXPECT_EQ(decode_error_with("DigitalOutputs", 1, "0008"), ErrorCode::kNone) << "line 11";
   EXPECT_EQ(decode_error_with("ForceSample", 9, "0000c07f"), bad) << "NaN";
   EXPECT_EQ(decode_error_with("ForceSample", 29, "000080ff"), bad) << "minus infinity";
   EXPECT_EQ(decode_error_with("CurrentSample", 10, "0000807f"), bad) << "infinity";
@@ -190,7 +193,7 @@ TEST(Codec, ReadsTheGreetingOfALaterVersionWhateverItAppends) {
     for (const Golden& golden : golden_messages()) {
       if (golden.name == name) {
         auto payload = bytes_of(golden.payload_hex);
-        payload[1] = std::byte{2};
+        payload[1] = std::byte{kProtocolVersion + 1};
         payload.resize(payload.size() + 9);
         EXPECT_EQ(decode_error(payload), ErrorCode::kNone) << name;
         EXPECT_TRUE(is_plausible(payload[0], payload.size())) << name;

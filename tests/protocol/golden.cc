@@ -6,14 +6,14 @@ namespace {
 constexpr core::Nanoseconds kTime_ns = 0x0102030405060708;
 constexpr std::uint32_t kSequence = 0x11223344;
 
-const Hello kControllerHello{.version = 1,
+const Hello kControllerHello{.version = 2,
                              .role = Role::kController,
                              .axes_mask = 3,
                              .tick_ns = 100'000,
                              .exchange_ns = 1'000'000,
                              .capabilities = kCapabilityEdges | kCapabilityDigest,
                              .fixture_hash = 0x8877665544332211};
-const Hello kPlantHello{.version = 1,
+const Hello kPlantHello{.version = 2,
                         .role = Role::kPlant,
                         .axes_mask = 1,
                         .tick_ns = 50'000,
@@ -37,9 +37,9 @@ void send_edges(MessageSink& sink) {
 
 const std::vector<Golden>& golden_messages() {
   static const std::vector<Golden> messages{
-      {"Hello", "01 0100 00 03 a0860100 40420f00 03000000 1122334455667788",
+      {"Hello", "01 0200 00 03 a0860100 40420f00 03000000 1122334455667788",
        [](MessageSink& s) { s.on(kControllerHello); }},
-      {"HelloReply", "02 0100 01 01 50c30000 00000000 01000000 0000000000000000 9401",
+      {"HelloReply", "02 0200 01 01 50c30000 00000000 01000000 0000000000000000 9401",
        [](MessageSink& s) {
          s.on(HelloReply{kPlantHello, core::ErrorCode::kProtocolTick});
        }},
@@ -69,16 +69,17 @@ const std::vector<Golden>& golden_messages() {
                             .illegal_transitions = 2,
                             .sequence = kSequence});
        }},
-      {"DigitalInputs", "06 5100 0807060504030201 44332211",
+      {"DigitalInputs", "06 51000200 0807060504030201 44332211",
        [](MessageSink& s) {
-         s.on(DigitalInputs{static_cast<std::uint16_t>(mask_of(InputLine::kHallYMin) |
-                                                       mask_of(InputLine::kKillSwitch) |
-                                                       mask_of(InputLine::kAmplifierReadyX)),
+         s.on(DigitalInputs{mask_of(InputLine::kHallYMin) | mask_of(InputLine::kKillSwitch) |
+                                mask_of(InputLine::kAmplifierReadyX) | mask_of(InputLine::kHomeX),
                             kTime_ns, kSequence});
        }},
-      {"DigitalOutputs", "07 0200 0807060504030201 44332211",
+      {"DigitalOutputs", "07 8200 0807060504030201 44332211",
        [](MessageSink& s) {
-         s.on(DigitalOutputs{mask_of(OutputLine::kAmplifierEnableX), kTime_ns, kSequence});
+         s.on(DigitalOutputs{static_cast<std::uint16_t>(mask_of(OutputLine::kAmplifierEnableX) |
+                                                        mask_of(OutputLine::kBrakeReleaseX)),
+                             kTime_ns, kSequence});
        }},
       // IEEE-754 binary32: 1 = 3f800000, -2 = c0000000, 0.5 = 3f000000, 10 = 41200000.
       {"ForceSample", "08 0807060504030201 0000803f 000000c0 0000003f 00002041 00000000 00000080",

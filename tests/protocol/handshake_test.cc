@@ -49,12 +49,12 @@ TEST(Handshake, AcceptsAnObserverBesideEitherRole) {
 
 TEST(Handshake, RefusesAnotherVersionBeforeAnythingElse) {
   Hello other = kController;
-  other.version = 2;
+  other.version = 3;
   other.axes_mask = 0;
   EXPECT_EQ(verdict(kController, other), ErrorCode::kProtocolVersion);
   other.role = Role::kPlant;
   EXPECT_EQ(explained(ErrorCode::kProtocolVersion, kController, other),
-            "protocol versions differ: controller 1, plant 2");
+            "protocol versions differ: controller 2, plant 3");
 }
 
 TEST(Handshake, RefusesTwoOfTheSameRole) {

@@ -9,13 +9,13 @@
 namespace towbench::protocol {
 namespace {
 
-// By hand from the byte tables. Duty 13 + 4 checksum + 2 = 19 bytes, report 39 -> 45, lines 15
-// -> 21.
+// By hand from the byte tables. Duty 13 + 4 checksum + 2 = 19 bytes, report 39 -> 45, lines to the
+// plant 15 -> 21, to the controller 17 -> 23.
 TEST(SerialLoad, CountsTheDigestOfTwoAxesAtOneKilohertz) {
   const Load load = serial_load({}, 921'600);
   EXPECT_DOUBLE_EQ(load.to_plant_bit_per_s, 2 * 19 * 10 * 1000.0 + 21 * 10 * 200.0);
-  EXPECT_DOUBLE_EQ(load.to_controller_bit_per_s, 2 * 45 * 10 * 1000.0 + 21 * 10 * 200.0);
-  EXPECT_DOUBLE_EQ(load.fraction(), 942'000.0 / 921'600.0);
+  EXPECT_DOUBLE_EQ(load.to_controller_bit_per_s, 2 * 45 * 10 * 1000.0 + 23 * 10 * 200.0);
+  EXPECT_DOUBLE_EQ(load.fraction(), 946'000.0 / 921'600.0);
 }
 
 TEST(SerialLoad, NeedsMoreThanTwentyMegabaudForTheEdgesAtTopSpeed) {

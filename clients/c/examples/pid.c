@@ -20,6 +20,8 @@ static double metres_per_count[TB_AXES] = {2.24545e-6, 1.34727e-6};
 static double inertia[TB_AXES] = {0.13, 0.06}; /* duty per m/s2: the amplifier sets the current */
 static double proportional = 4600.0, integral = 20000.0, derivative = 120.0; /* m/s2 per m, ... */
 static double filter = 0.5, largest_error = 0.01, brake = 20.0;
+/* 1: the axis has a holding brake, which is released with the enable. */
+static double holding_brake[TB_AXES];
 /* More than friction takes, and no way made. */
 static double stall_duty = 0.06, stall_counts = 2, stall_s = 0.04;
 /* 1: the place is what an absolute encoder tells, not what its edges add up to. */
@@ -35,6 +37,7 @@ static const struct {
     {"integral", &integral, 0},
     {"derivative", &derivative, 0},
     {"brake", &brake, 0},
+    {"holding_brake", holding_brake, 1},
     {"filter", &filter, 0},
     {"largest_error", &largest_error, 0},
     {"stall_duty", &stall_duty, 0},
@@ -59,6 +62,14 @@ static int drives(const tb_bench* bench, int axis) {
 static int64_t count_of(const tb_bench* bench, int axis) {
   const tb_axis* state = &bench->axis[axis];
   return absolute[axis] != 0 ? (int64_t)state->absolute - state->absolute_at_start : state->count;
+}
+
+static uint8_t with_brake(const tb_bench* bench) {
+  uint8_t mask = 0;
+  for (int i = 0; i < TB_AXES; ++i) {
+    if (drives(bench, i) && holding_brake[i] != 0) mask |= (uint8_t)(1u << i);
+  }
+  return mask;
 }
 
 static double error_of(const tb_bench* bench, int axis) {
@@ -98,7 +109,7 @@ static char without_absolute(const tb_bench* bench) {
 }
 
 static const char* reason_to_stop(const pid* loops, const tb_bench* bench) {
-  const uint16_t halls =
+  const uint32_t halls =
       TB_HALL_Y_MIN | TB_HALL_Y_MAX | TB_HALL_X_MIN | TB_HALL_X_MAX | TB_FURTHER_HALLS;
   if (bench->lines & TB_KILL_SWITCH) return "kill switch";
   if (bench->lines & halls) return "end-stop";
@@ -237,7 +248,8 @@ int main(int argc, char** argv) {
   tb_greet(&bench);
   if (!exchange(line, &bench) || bench.refusal != 0)
     return fprintf(stderr, "refused: %u\n", bench.refusal), 1;
-  tb_enable(&bench, mask);
+  uint8_t released = with_brake(&bench);
+  tb_enable_released(&bench, mask, released);
   tb_end_turn(&bench);
   while (exchange(line, &bench)) {
     const char lacking = without_absolute(&bench);
@@ -259,6 +271,10 @@ int main(int argc, char** argv) {
     if (bench.lines & TB_KILL_SWITCH) killed = 1;
     /* Otherwise the count is not to be believed. */
     brakes = !killed && stopped != NULL && strcmp(stopped, "end-stop") == 0;
+    /* An axis that has stopped is held, where there is a brake. */
+    const uint8_t releases = stopped == NULL || brakes ? with_brake(&bench) : 0;
+    if (releases != released) tb_enable_released(&bench, mask, releases);
+    released = releases;
     for (int i = 0; i < TB_AXES; ++i) {
       if (!drives(&bench, i)) continue;
       const double duty = brakes    ? braking_duty(&loops[i], &bench, i)

@@ -10,6 +10,7 @@ SETTINGS = {
     **{"metres_per_count": 2.24545e-6, "inertia": 0.13, "x.metres_per_count": 1.34727e-6, "x.inertia": 0.06},
     **{"proportional": 4600.0, "integral": 20000.0, "derivative": 120.0},  # m/s2 per m, per m s, per m/s
     **{"brake": 20.0, "filter": 0.5, "largest_error": 0.01},  # m/s2 per m/s, share of the newest slope, m
+    "holding_brake": 0.0,  # 1: the axis has one, which is released with the enable
     **{"stall_duty": 0.06, "stall_counts": 2.0, "stall_s": 0.04},  # more than friction takes, and no way made
     **{"absolute": 0.0},  # 1: follow what an absolute encoder tells, not what its edges add up to
 }
@@ -54,9 +55,8 @@ def main() -> None:
         SETTINGS.pop(f"x.{name}", None)
         SETTINGS[name] = float(value) if known else sys.exit(f"{name}: given an unknown setting; allowed: {', '.join(SETTINGS)}")
     bench = towbench.connect(sys.argv[1])
-    loops, stopped, killed = [Pid(axis) for axis in axes], "", False
+    loops, stopped, killed, released = [Pid(axis) for axis in axes], "", False, None
     bench.greet(reference=True, resets=True, axes=axes, absolute=tuple(loop.axis for loop in loops if loop.absolute))
-    bench.enable(*axes)
     while True:
         if bench.reset and not bench.lines & towbench.KILL_SWITCH:  # the operator asks to go on
             loops, stopped, killed = [Pid(axis) for axis in axes], "", False
@@ -64,6 +64,10 @@ def main() -> None:
             print(f"{bench.now_ns * 1e-9:.3f} s: {stopped}", flush=True)
         killed = killed or bool(bench.lines & towbench.KILL_SWITCH)
         brakes = stopped == "end-stop" and not killed  # otherwise the count is not to be believed
+        releases = tuple(p.axis for p in loops if p.holding_brake and (brakes or not stopped))
+        if releases != released:  # an axis that has stopped is held, where there is a brake
+            bench.enable(*axes, released=releases)
+            released = releases
         for loop in loops:
             duty = loop.braking_duty(bench) if brakes else 0.0 if stopped else loop.duty(bench)
             bench.drive(loop.axis, duty, enable=not killed)

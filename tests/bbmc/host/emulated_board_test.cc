@@ -24,7 +24,7 @@ class EmulatedBoardTest : public ::testing::Test {
     ASSERT_TRUE(devices_.interrupts().init({}));
   }
 
-  void lines(std::uint16_t levels, core::Nanoseconds time_ns) {
+  void lines(protocol::InputLines levels, core::Nanoseconds time_ns) {
     ASSERT_TRUE(board_.take(
         protocol::DigitalInputs{.lines = levels, .change_ns = time_ns, .sequence = sequence_++}));
   }
@@ -44,9 +44,9 @@ class EmulatedBoardTest : public ::testing::Test {
 };
 
 TEST_F(EmulatedBoardTest, ServesLineEdgesByTimeAndThoseOfOneInstantByUrgency) {
-  const std::uint16_t hall = protocol::mask_of(InputLine::kHallXMax);
-  const std::uint16_t kill = protocol::mask_of(InputLine::kKillSwitch);
-  const std::uint16_t ready = protocol::mask_of(InputLine::kAmplifierReadyY);
+  const protocol::InputLines hall = protocol::mask_of(InputLine::kHallXMax);
+  const protocol::InputLines kill = protocol::mask_of(InputLine::kKillSwitch);
+  const protocol::InputLines ready = protocol::mask_of(InputLine::kAmplifierReadyY);
   lines(hall, 500);
   lines(hall | ready | kill, 800);
   board_.set_time(1'000);
@@ -63,15 +63,16 @@ TEST_F(EmulatedBoardTest, AnEdgeOfTheFutureWaitsForItsTime) {
 }
 
 TEST_F(EmulatedBoardTest, AFloodOfBouncesNeverDrownsTheKillSwitch) {
-  std::uint16_t level = 0;
+  protocol::InputLines level = 0;
   for (int i = 0; i < 500; ++i) {
-    level = static_cast<std::uint16_t>(level ^ protocol::mask_of(InputLine::kHallYMax));
+    level = static_cast<protocol::InputLines>(level ^ protocol::mask_of(InputLine::kHallYMax));
     lines(level, i);
   }
-  lines(static_cast<std::uint16_t>(level | protocol::mask_of(InputLine::kKillSwitch)), 600);
+  lines(static_cast<protocol::InputLines>(level | protocol::mask_of(InputLine::kKillSwitch)), 600);
   for (int i = 0; i < 500; ++i) {
-    level = static_cast<std::uint16_t>(level ^ protocol::mask_of(InputLine::kHallYMax));
-    lines(static_cast<std::uint16_t>(level | protocol::mask_of(InputLine::kKillSwitch)), 700 + i);
+    level = static_cast<protocol::InputLines>(level ^ protocol::mask_of(InputLine::kHallYMax));
+    lines(static_cast<protocol::InputLines>(level | protocol::mask_of(InputLine::kKillSwitch)),
+          700 + i);
   }
   board_.set_time(10'000);
   const auto order = served();

@@ -27,7 +27,7 @@ bool take_until_service(std::FILE* file, bbmc::EmulatedBoard& board, protocol::E
       unsigned lines = 0;
       protocol::DigitalInputs inputs;
       damaged = std::fscanf(file, "%u %lld %u", &lines, &first, &inputs.sequence) != 3;
-      inputs.lines = static_cast<std::uint16_t>(lines);
+      inputs.lines = static_cast<protocol::InputLines>(lines);
       inputs.change_ns = first;
       damaged = damaged || !board.take(inputs);
     } else if (kind == 'E') {

@@ -40,7 +40,7 @@ class FakeBoardMachine final : public protocol::MessageSink, public emulator::Pl
   emulator::PlantNode plant_;
   core::Nanoseconds exchange_ns_;
   core::Nanoseconds now_ns_ = 0;
-  std::uint16_t inputs_ = 0;
+  protocol::InputLines inputs_ = 0;
   std::uint32_t sequence_ = 0;
   bool kill_pressed_ = false;
 };

@@ -162,12 +162,12 @@ TEST_F(EndStop, ASwitchWiredToTheOtherEndOrTheOtherAxisStopsTheMachineToo) {
     machine.run_for(0.6);
     // The plant's lines are all inactive here but the amplifiers'.
     const auto ready =
-        static_cast<std::uint16_t>(protocol::mask_of(protocol::InputLine::kAmplifierReadyY) |
-                                   protocol::mask_of(protocol::InputLine::kAmplifierReadyX));
-    static_cast<void>(machine.board().take(protocol::DigitalInputs{
-        .lines = static_cast<std::uint16_t>(ready | protocol::mask_of(wired)),
-        .change_ns = core::nanoseconds(machine.time_s()),
-        .sequence = 1}));
+        static_cast<protocol::InputLines>(protocol::mask_of(protocol::InputLine::kAmplifierReadyY) |
+                                          protocol::mask_of(protocol::InputLine::kAmplifierReadyX));
+    static_cast<void>(machine.board().take(
+        protocol::DigitalInputs{.lines = ready | protocol::mask_of(wired),
+                                .change_ns = core::nanoseconds(machine.time_s()),
+                                .sequence = 1}));
     ASSERT_TRUE(machine.run_until_rest(5.0));
     EXPECT_EQ(machine.system().status().fault, ErrorCode::kFaultEndStopMin);
   }

@@ -43,7 +43,9 @@ TEST(Campaign, TriesEveryKindThereIs) {
     tried.emplace(name_of(place_named(one.part)->part), one.kind);
   }
   for (const auto& row : fault_catalogue()) {
-    EXPECT_TRUE(tried.contains({std::string(name_of(row.part)), std::string(row.name)}))
+    // The tank has neither home switch nor holding brake.
+    EXPECT_TRUE(needs_a_fitted_part(row.needs) ||
+                tried.contains({std::string(name_of(row.part)), std::string(row.name)}))
         << name_of(row.part) << ' ' << row.name;
   }
 }
