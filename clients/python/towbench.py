@@ -608,18 +608,24 @@ class Reference(NamedTuple):
 
 @dataclass
 class Axis:
-    count: int = 0  # since the run began
+    count: int = 0  # of its edges since the run began
     index_count: int | None = None  # at the last index pulse
     illegal_transitions: int = 0
     reference: Reference = Reference()
     current_A: float | None = None
     absolute: int | None = None  # what an absolute encoder tells, 0 at the machine's zero
     absolute_at_start: int | None = None  # what it told first
+    follows_absolute: bool = False  # greet() asked for it
     _levels: int | None = None
     _sequence: int | None = None
     _absolute_sequence: int | None = None
     _absolute_ns: int = 0
     _duty_sequence: int = 0
+
+    @property
+    def way(self) -> int:
+        """Counts since the run began: by the absolute encoder where greet() asked for it, by its edges elsewhere."""
+        return self.absolute - self.absolute_at_start if self.follows_absolute else self.count
 
 
 # Of (A, B) before << 2 | after: A leads B towards max.
@@ -645,6 +651,7 @@ class Bench:
     reset: bool = False  # in this turn the operator asked to leave the safe state
     _out: bytearray = field(default_factory=bytearray)
     _outputs_sequence: int = 0
+    _enabled: tuple | None = None
     _ended: int = 0  # the message that ended the last wait
     _reply: Fields | None = None
     _waiting: list[bytes] = field(default_factory=list)
@@ -684,9 +691,13 @@ class Bench:
         for name in absolute:
             if self.axes[name].absolute is None:
                 raise BenchError(f"the encoder of {name} is not absolute")
+            self.axes[name].follows_absolute = True
 
     def enable(self, *axes: str, released: tuple[str, ...] = ()) -> None:
         """Of these axes the amplifier is on from now on, of the others off; `released`: likewise of the holding brakes."""
+        if (axes, released) == self._enabled:
+            return
+        self._enabled = axes, released
         lines = sum(1 << AXES.index(name) for name in axes) | sum(1 << len(AXES) + AXES.index(name) for name in released)
         self.send(DIGITAL_OUTPUTS, lines, self.now_ns, self._outputs_sequence)
         self._outputs_sequence = self._outputs_sequence + 1 & 0xFFFFFFFF
@@ -814,6 +825,14 @@ class Bench:
                 a, b, a_now, b_now = before & 1, before >> 1 & 1, levels & 1, levels >> 1 & 1
                 axis.count += _STEP[a << 3 | b << 2 | a_now << 1 | b_now]
         axis._levels = levels
+
+
+def run(program: Callable[[], None]) -> None:
+    """What a bench refuses ends the program in one line, with code 1."""
+    try:
+        program()
+    except BenchError as error:
+        sys.exit(str(error))
 
 
 _LONGEST_START_S = 60.0  # of a bench on a bus; it waits for a controller as long

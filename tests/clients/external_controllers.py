@@ -25,7 +25,7 @@ from whole_runs import (
 
 def good() -> None:
     lines = len((root / "clients/python/examples/pid.py").read_text().splitlines())
-    expect("the example in Python has at most 90 lines", lines <= 90, lines)
+    expect("the example in Python has at most 80 lines", lines <= 80, lines)
     for name, file in (("trapezoid", TRAPEZOID), ("circle", CIRCLE)):
         one = expect_pass(f"Python, {name}", file, PYTHON_PID)
         two = expect_pass(f"Python, {name}, again", file, PYTHON_PID)

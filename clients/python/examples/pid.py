@@ -10,9 +10,7 @@ SETTINGS = {
     **{"metres_per_count": 2.24545e-6, "inertia": 0.13, "x.metres_per_count": 1.34727e-6, "x.inertia": 0.06},
     **{"proportional": 4600.0, "integral": 20000.0, "derivative": 120.0},  # m/s2 per m, per m s, per m/s
     **{"brake": 20.0, "filter": 0.5, "largest_error": 0.01},  # m/s2 per m/s, share of the newest slope, m
-    "holding_brake": 0.0,  # 1: the axis has one, which is released with the enable
-    **{"stall_duty": 0.06, "stall_counts": 2.0, "stall_s": 0.04},  # more than friction takes, and no way made
-    **{"absolute": 0.0},  # 1: follow what an absolute encoder tells, not what its edges add up to
+    **{"stall_duty": 0.06, "stall_counts": 2.0, "stall_s": 0.04, "absolute": 0.0, "holding_brake": 0.0},  # 1: the axis has it
 }
 
 
@@ -22,16 +20,12 @@ class Pid:
         self.axis, self.still_count, self.count_before, self.stalled_s = axis, 0, 0, 0.0
         self.summed = self.slope = self.error_before = 0.0
 
-    def count(self, bench: towbench.Bench) -> int:
-        axis = bench.axes[self.axis]
-        return axis.absolute - axis.absolute_at_start if self.absolute else axis.count
-
     def braking_duty(self, bench: towbench.Bench) -> float:
-        moved_m = self.metres_per_count * (self.count(bench) - self.count_before)
+        moved_m = self.metres_per_count * (bench.axes[self.axis].way - self.count_before)
         return -self.inertia * self.brake * moved_m / (bench.exchange_ns * 1e-9)
 
     def error(self, bench: towbench.Bench) -> float:
-        return bench.axes[self.axis].reference.position_m - self.metres_per_count * self.count(bench)
+        return bench.axes[self.axis].reference.position_m - self.metres_per_count * bench.axes[self.axis].way
 
     def duty(self, bench: towbench.Bench) -> float:
         period_s = bench.exchange_ns * 1e-9
@@ -41,8 +35,8 @@ class Pid:
         feedback = self.proportional * error + self.integral * self.summed + self.derivative * self.slope
         wanted = self.inertia * (bench.axes[self.axis].reference.acceleration_m_per_s2 + feedback)
         self.summed += error * period_s if abs(wanted) < 1.0 else 0.0  # no wind-up while the duty is at its limit
-        stays = abs(self.count(bench) - self.still_count) <= self.stall_counts
-        self.still_count = self.still_count if stays else self.count(bench)
+        stays = abs(bench.axes[self.axis].way - self.still_count) <= self.stall_counts
+        self.still_count = self.still_count if stays else bench.axes[self.axis].way
         stalls = (stays and abs(wanted) > self.stall_duty) or abs(wanted) >= 1.0
         self.stalled_s = self.stalled_s + period_s if stalls else 0.0
         return max(-1.0, min(1.0, wanted))
@@ -55,7 +49,7 @@ def main() -> None:
         SETTINGS.pop(f"x.{name}", None)
         SETTINGS[name] = float(value) if known else sys.exit(f"{name}: given an unknown setting; allowed: {', '.join(SETTINGS)}")
     bench = towbench.connect(sys.argv[1])
-    loops, stopped, killed, released = [Pid(axis) for axis in axes], "", False, None
+    loops, stopped, killed = [Pid(axis) for axis in axes], "", False
     bench.greet(reference=True, resets=True, axes=axes, absolute=tuple(loop.axis for loop in loops if loop.absolute))
     while True:
         if bench.reset and not bench.lines & towbench.KILL_SWITCH:  # the operator asks to go on
@@ -64,14 +58,11 @@ def main() -> None:
             print(f"{bench.now_ns * 1e-9:.3f} s: {stopped}", flush=True)
         killed = killed or bool(bench.lines & towbench.KILL_SWITCH)
         brakes = stopped == "end-stop" and not killed  # otherwise the count is not to be believed
-        releases = tuple(p.axis for p in loops if p.holding_brake and (brakes or not stopped))
-        if releases != released:  # an axis that has stopped is held, where there is a brake
-            bench.enable(*axes, released=releases)
-            released = releases
+        bench.enable(*axes, released=tuple(p.axis for p in loops if p.holding_brake and (brakes or not stopped)))
         for loop in loops:
             duty = loop.braking_duty(bench) if brakes else 0.0 if stopped else loop.duty(bench)
             bench.drive(loop.axis, duty, enable=not killed)
-            loop.count_before = loop.count(bench)
+            loop.count_before = bench.axes[loop.axis].way
         if not bench.turn():
             return
 
@@ -86,7 +77,4 @@ def reason_to_stop(bench: towbench.Bench, loops: list) -> str:
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except towbench.BenchError as error:
-        sys.exit(str(error))
+    towbench.run(main)
