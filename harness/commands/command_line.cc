@@ -39,8 +39,9 @@ bool refuse_unknown_verb(const std::vector<std::string>& verbs, std::string_view
 
 int parse_and_run(std::span<const AddVerb> add_verbs, int argc, char** argv) {
   CLI::App app{
-      "towbench: a hardware-in-the-loop bench for the two-axis tow-tank carriage.\n"
-      "The unmodified BBMC controller runs against an emulated machine; every run is judged.",
+      "towbench: a hardware-in-the-loop bench for motion controllers.\n"
+      "BBMC, or a controller of your own, runs unmodified against an emulated machine; every run\n"
+      "is judged.",
       "towbench"};
   app.set_version_flag("--version", TOWBENCH_VERSION);
   app.require_subcommand(1);

@@ -58,7 +58,7 @@ stamp_before_build() {
 first_help_unless_built() {
   [[ -x $bench_program ]] && return
   cat <<'TEXT'
-towbench: a hardware-in-the-loop bench for a two-axis tow-tank carriage and its motion controller.
+towbench: a hardware-in-the-loop bench for motion controllers, BBMC of a tow-tank carriage or your own.
 
   ./towbench demo          installs Debian packages, builds, runs four experiments, writes their reports
   ./towbench test          what guards main; ./towbench test --help names the stages

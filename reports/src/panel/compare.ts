@@ -106,8 +106,8 @@ export async function compare(host: HTMLElement, names: [string, string]): Promi
     host.replaceChildren(element("h2", "", "Compared"));
     for (const axis of axisNames.filter((one) => logs.some((log) => log.columns.has(`${one}_duty_pct`)))) {
       host.append(
-        plot(`${axis.toUpperCase()} tracking error`, "mm", names, logs, axis, "error"),
-        plot(`${axis.toUpperCase()} duty`, "%", names, logs, axis, "duty"),
+        plot(`${axis} tracking error`, "mm", names, logs, axis, "error"),
+        plot(`${axis} duty`, "%", names, logs, axis, "duty"),
       );
     }
     const checks = JSON.parse(await loadText(`/runs/${names[0]}/result.json`)).checks as Check[] | undefined;

@@ -28,7 +28,7 @@ export class EventList {
   private entry(event: BenchEvent): HTMLLIElement {
     const entry = element("li");
     const words = [event.kind.replace(/_/g, " ")];
-    if (event.axis !== undefined && event.side !== "wire") words.push(event.axis.toUpperCase());
+    if (event.axis !== undefined && event.side !== "wire") words.push(event.axis);
     if (event.code !== undefined) words.push(String(event.code));
     if (event.text !== undefined && event.text !== "") words.push(event.text);
     const what = element("span", grave.has(event.kind) ? "grave" : "", words.join(" "));

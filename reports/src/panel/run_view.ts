@@ -150,7 +150,7 @@ export class RunView {
       const own = limits[axis];
       let plan = this.furtherPlans.get(axis);
       if (own !== undefined && plan === undefined) {
-        plan = new Plan(axis.toUpperCase());
+        plan = new Plan(axis);
         this.furtherPlans.set(axis, plan);
         this.plans.append(plan.box);
       }
@@ -164,7 +164,7 @@ export class RunView {
     if (axes.join("") === this.axes) return;
     const before = this.axis.value as AxisName;
     this.axes = axes.join("");
-    setOptions(this.axis, axes.map((axis) => [axis, `${axis.toUpperCase()} axis`]));
+    setOptions(this.axis, axes.map((axis) => [axis, `axis ${axis}`]));
     if (axes.includes(before)) this.axis.value = before;
   }
 

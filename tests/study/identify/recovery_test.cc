@@ -84,12 +84,12 @@ void PrintTo(const Case& tested, std::ostream* out) {
        << tested.seed;
 }
 
-class WholeTransmission : public testing::TestWithParam<Case> {};
+class WholeSequence : public testing::TestWithParam<Case> {};
 
 // Preliminary experiments, break-away, maps, pulses, tuning, switches, validation. Of the drawn
 // machines inertia, friction, drive constants and transmission are up to 40 % off: the controller
 // believes another machine.
-TEST_P(WholeTransmission, RecoversTheMachine) {
+TEST_P(WholeSequence, RecoversTheMachine) {
   const auto& [machine, axis, seed] = GetParam();
   const auto rig = drawn_rig(machine);
   expect_recovered(rig, identified(rig, axis, seed, {}));
@@ -107,7 +107,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(NominalAndTwoDrawn, WholeTransmission, testing::ValuesIn(cases()),
+INSTANTIATE_TEST_SUITE_P(NominalAndTwoDrawn, WholeSequence, testing::ValuesIn(cases()),
                          [](const auto& tested) {
                            return std::string(core::name_of(tested.param.axis)) +
                                   std::to_string(tested.param.machine) + "_seed" +
