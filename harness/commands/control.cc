@@ -204,11 +204,7 @@ int execute_control(const ControlOptions& options) {
     plant = &whole->whole();
   } else {
     const auto rig = load_rig(options.rig, sources);
-    for (const auto& note : {tank_controller_note(rig), unserved_parts_note(rig)}) {
-      if (!note.empty()) {
-        std::fprintf(stderr, "note: %s\n", note.c_str());
-      }
-    }
+    tell_notes(rig, true);
     plant_recorder = options.out.empty()
                          ? nullptr
                          : std::make_unique<PlantRecorder>(options.out, rig.parameters);

@@ -144,19 +144,6 @@ int tell_of_trouble(const ReportResult& written) {
 
 }  // namespace
 
-namespace {
-
-void tell_notes(const RigFixture& rig, bool is_bbmc) {
-  for (const auto& note :
-       {is_bbmc ? tank_controller_note(rig) : std::string(), unserved_parts_note(rig)}) {
-    if (!note.empty()) {
-      std::fprintf(stderr, "note: %s\n", note.c_str());
-    }
-  }
-}
-
-}  // namespace
-
 RunResult run_with_options(const ExperimentFixture& fixture, const ExperimentOptions& options) {
   RunOptions run_options;
   run_options.out = options.out;

@@ -1,5 +1,7 @@
 #include "harness/commands/tank_controller.h"
 
+#include <cstdio>
+
 #include <fmt/format.h>
 
 namespace towbench::harness {
@@ -42,6 +44,15 @@ std::string unserved_parts_note(const RigFixture& rig) {
                              "brakes, and the machine has {}; a program of your own: "
                              "--controller",
                              parts);
+}
+
+void tell_notes(const RigFixture& rig, bool is_bbmc) {
+  for (const auto& note :
+       {is_bbmc ? tank_controller_note(rig) : std::string(), unserved_parts_note(rig)}) {
+    if (!note.empty()) {
+      std::fprintf(stderr, "note: %s\n", note.c_str());
+    }
+  }
 }
 
 }  // namespace towbench::harness

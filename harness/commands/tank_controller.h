@@ -14,4 +14,7 @@ namespace towbench::harness {
 // empty where the rig has none.
 [[nodiscard]] std::string unserved_parts_note(const RigFixture& rig);
 
+// Both on the error output, the first of BBMC alone.
+void tell_notes(const RigFixture& rig, bool is_bbmc);
+
 }  // namespace towbench::harness

@@ -1,10 +1,9 @@
 #include "harness/fault_cases/inject.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include "core/random.h"
+#include "harness/fault_cases/fault_schedule.h"
 
 namespace towbench::harness {
 namespace {
@@ -22,17 +21,11 @@ core::Axis neighbour_of(core::Axis axis) {
   return core::kAllAxes[nth == 0 ? 1 : nth - 1];
 }
 
-class Injector {
+class Injector : FaultSchedule {
  public:
   Injector(const Fault& fault, core::Nanoseconds at_ns, const CaseRecord& reference,
            core::Nanoseconds end_ns, Injection& into)
-      : fault_(fault),
-        at_ns_(at_ns),
-        until_ns_(fault.duration_s ? at_ns + core::nanoseconds(*fault.duration_s) : end_ns),
-        lasts_(!fault.duration_s),
-        reference_(reference),
-        random_(fault.seed),
-        into_(into) {}
+      : FaultSchedule(fault, at_ns, end_ns, into), reference_(reference) {}
 
   void run() {
     switch (fault_.place.part) {
@@ -65,67 +58,6 @@ class Injector {
   }
 
  private:
-  [[nodiscard]] double parameter(std::size_t i) const { return fault_.parameters[i]; }
-
-  void add(ScheduledEvent event) {
-    event.axis = fault_.place.axis;
-    into_.events.push_back(event);
-  }
-  // `on` from the start, `off` at the end of the fault's duration.
-  void hold(ScheduledEventKind kind, double on, double off) {
-    add({.time_ns = at_ns_, .kind = kind, .value = on});
-    if (!lasts_) {
-      add({.time_ns = until_ns_, .kind = kind, .value = off});
-    }
-  }
-  void once(ScheduledEventKind kind) {
-    add({.time_ns = at_ns_, .kind = kind, .value = parameter(0)});
-  }
-  void rewire(core::Nanoseconds time_ns, InputLine line, WireCondition condition) {
-    add({.time_ns = time_ns,
-         .kind = ScheduledEventKind::kRewireInput,
-         .input_line = line,
-         .condition = condition});
-  }
-  void cross(InputLine a, InputLine b) {
-    for (const auto time_ns : {at_ns_, until_ns_}) {
-      if (time_ns == at_ns_ || !lasts_) {
-        add({.time_ns = time_ns,
-             .kind = ScheduledEventKind::kCrossInputs,
-             .input_line = a,
-             .other_line = b});
-      }
-    }
-  }
-  void rewire(core::Nanoseconds time_ns, EncoderLine line, WireCondition condition) {
-    add({.time_ns = time_ns,
-         .kind = ScheduledEventKind::kRewireEncoder,
-         .encoder_line = line,
-         .condition = condition});
-  }
-  // Of the machine's lines, or of an encoder's.
-  template <typename Line>
-  void hold_line(Line line, WireCondition condition) {
-    rewire(at_ns_, line, condition);
-    if (!lasts_) {
-      rewire(until_ns_, line, WireCondition::kIntact);
-    }
-  }
-
-  // 2 x `bounces` changes after `from_ns`, at random times, that end where they began.
-  template <typename Change>
-  void bounce(core::Nanoseconds from_ns, Change change) {
-    const auto changes = static_cast<std::size_t>(2 * std::lround(parameter(0)));
-    std::vector<core::Nanoseconds> times;
-    for (std::size_t i = 0; i < changes; ++i) {
-      times.push_back(from_ns + 1 + core::nanoseconds(random_.uniform() * parameter(1)));
-    }
-    std::sort(times.begin(), times.end());
-    for (std::size_t i = 0; i < changes; ++i) {
-      change(times[i], i % 2 == 0);
-    }
-  }
-
   void position_switch() {
     const InputLine line = fault_.place.switch_line();
     switch (fault_.kind) {
@@ -325,13 +257,7 @@ class Injector {
     host.stalls.push_back({at_ns_, at_ns_ + core::nanoseconds(length_s)});
   }
 
-  const Fault& fault_;
-  core::Nanoseconds at_ns_;
-  core::Nanoseconds until_ns_;
-  bool lasts_;
   const CaseRecord& reference_;
-  core::Random random_;
-  Injection& into_;
 };
 
 }  // namespace
