@@ -40,8 +40,8 @@ enum class ScheduledEventKind : std::uint8_t {
   kTurnDisc,  // jumps by `value` counts
   // What an absolute encoder tells.
   kHoldAbsolute,  // `value` != 0: the same from now on, wherever the axis goes
-  // Transmission on its wheel.
-  kSkipTooth,  // jumps: the motor has turned `value` m of transmission further without moving the
+  // Teeth of the transmission.
+  kSkipTooth,  // jumps: the motor has turned further, by `value` m at the load, without moving the
                // carriage
   // The operator, to the controller.
   kReset,  // leave the safe state

@@ -77,7 +77,7 @@ class AxisPlant {
   // Advances by one tick. `segments` describes the motor shaft during it, without gaps.
   TOWBENCH_REALTIME void step(const AxisInput& input, MotionSegments& segments) noexcept;
 
-  // Between two steps the transmission jumps over its wheel: stretched by `by_m` less, as if the
+  // Between two steps the transmission jumps a tooth: stretched by `by_m` less, as if the
   // motor stood so far back, while neither body moves. state() has the motor's angle by the
   // transmission, which from then on is not that of the shaft; the difference is returned, in rad.
   // A rigid transmission has no teeth to jump: 0.

@@ -1,6 +1,6 @@
 // From effective, motor-side parameters to the two bodies of (3.37)-(3.38).
 //
-//   r   = R/n                            metres of transmission a radian of motor
+//   r   = R/n                            metres of the load a radian of motor
 //   M   = (J - J_m) / r^2                from (3.39), wheels counted with the rotor; the water's
 //                                        mass (3.9) comes on top once the spring is known
 //   B_m = (1 - share) B,  B_c = share B / r^2

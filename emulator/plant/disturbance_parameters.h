@@ -34,7 +34,7 @@ struct WheelParameters {
     v.value("eccentricity_phase_deg", eccentricity_phase_deg, core::between(-360.0, 360.0),
             "at motor angle 0");
     v.value("teeth", teeth, core::between(0.0, 200.0),
-            "that the transmission lies on as a polygon, from 5; 0: it lies on a circle");
+            "on which links lie as a polygon, from 5; 0: a circle");
   }
 };
 

@@ -1,8 +1,8 @@
 // Play between motor and carriage, and strands that go slack: (3.37)-(3.38) with dead zones
 // (docs/theory/plant.md, 6). Values: gearhead data sheet, App. A, 0.35 deg.
 //
-// A massless wheel between gear and transmission lets gear backlash (an arc R beta) and
-// transmission slack s add up to one gap, half_gap p = (R beta + s) / 2. With the transmission's
+// A massless wheel behind the gear lets gear backlash (an arc R beta) and the slack s of what runs
+// over the wheel add up to one gap, half_gap p = (R beta + s) / 2. With the transmission's
 // stretch d:
 //
 //   taut         F = K (d - sigma p) + B d'                both strands pull; side sigma

@@ -1,5 +1,5 @@
-// How much more transmission a real wheel pays out than a true circle of radius R, at motor angle
-// theta = n phi:
+// How much further a real wheel moves what runs over it than a true circle of radius R does, at
+// motor angle theta = n phi:
 //
 //   delta(theta) = e (sin(phi + phi_0) - sin(phi_0))                    eccentric by e
 //                + (R_p sin(psi) - R psi),  psi = phi - (2 pi / N) round(phi N / 2 pi)
@@ -7,8 +7,8 @@
 //   R_p = R (pi/N) / sin(pi/N): N chords are as long as a circle of radius R
 //
 // The transmission's stretch is r theta + delta(theta) - x, and by virtual work its force acts on
-// the motor with lever r + delta'(theta): speed and torque ripple are one law. Chordal action is
-// textbook kinematics of transmission drives.
+// the motor with lever r + delta'(theta): speed and torque ripple are one law. That links lie on
+// their wheel as chords is textbook kinematics.
 #pragma once
 
 #include "emulator/plant/axis_parameters.h"

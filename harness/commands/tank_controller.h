@@ -7,7 +7,7 @@
 
 namespace towbench::harness {
 
-// One line; empty where every axis is driven by a transmission, as the tank's are.
+// One line; empty where every axis has the tank's kind of transmission.
 [[nodiscard]] std::string tank_controller_note(const RigFixture& rig);
 
 // One line on home switches and holding brakes, which neither BBMC nor an image has a pin for;

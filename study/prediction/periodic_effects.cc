@@ -96,7 +96,7 @@ void add_periodic_effects(std::vector<Effect>& library) {
                      .set = set_scale<Key::kOutOfRoundPerMetre>,
                      .step = share_step});
   library.push_back({.name = "chain_polygon",
-                     .cause = "the transmission's polygon on its wheel",
+                     .cause = "links that lie on their wheel as a polygon",
                      .needs = "medium speed, where a tooth passes within the band",
                      .amplitudes = {Key::kReadCosine, Key::kReadSine},
                      .amplitude_names = {"cosine_m", "sine_m"},

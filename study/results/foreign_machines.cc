@@ -38,7 +38,7 @@ constexpr std::array<ForeignStructure, 15> kStructures{{
     {"eccentric_wheel", "a wheel 0.08 mm out of centre",
      "ISO 606: radial run-out 0.0008 d + 0.08 mm",
      [](AxisParameters& a) { a.disturbances.wheel.eccentricity_m = 0.08e-3; }},
-    {"polygon", "a wheel of few teeth: the transmission lies on a polygon of 12.7 mm a side",
+    {"polygon", "a wheel of few teeth: links lie on it as a polygon of 12.7 mm a side",
      "ISO 606, 08B: 25 teeth on Y, 15 on X",
      [](AxisParameters& a) { a.disturbances.wheel.teeth = a.output_radius_m > 0.04 ? 25 : 15; }},
     {"pretension", "transmission strands that go slack at 5 N: half the stiffness beyond",

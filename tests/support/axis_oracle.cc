@@ -74,7 +74,7 @@ double AxisOracle::terminal_V(const State& y) const {
   return p_.winding.resistance_ohm * y[0] + p_.torque_constant_Nm_per_A * y[3];
 }
 
-// Transmission paid out by a wheel of true shape, less where the carriage is.
+// How far a wheel of its true shape would move the carriage, less where the carriage is.
 double AxisOracle::stretch_m(const State& y) const {
   const auto& wheel = p_.disturbances.wheel;
   const double radius = p_.output_radius_m;

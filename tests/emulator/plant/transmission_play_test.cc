@@ -30,7 +30,7 @@ double stiffness_N_per_m(const AxisParameters& axis) {
          (motor_kg + carriage_kg);
 }
 
-// Transmission paid out when the motor pulls with this force and has come to rest.
+// The stretch when the motor pulls with this force and has come to rest.
 double stretch_under_m(const AxisParameters& axis, double force_N) {
   EXPECT_EQ(emulator::inconsistency(axis), nullptr);
   Bench bench(axis, 1.0);

@@ -14,7 +14,7 @@ namespace {
 const TwoMassAxis kTable7_4{1.714e-5, 3.6e-6, 1.106e-5, 9, 0.06};  // Table 7.4, App. A
 const SampledLoop kLoop{.period_s = 1e-3};
 
-// A transmission of 5 kHz is no transmission, and 1 us no delay: J s^3 + (B + K_D) s^2 + K_P s +
+// A mode of 5 kHz is as good as rigid, and 1 us as no delay: J s^3 + (B + K_D) s^2 + K_P s +
 // K_I is J (s + w)(s^2 + 2 zeta w s + w^2).
 TEST(PolePlacement, OfARigidAxisHasTheGainsOfItsPolynomial) {
   const TwoMassAxis rigid{1.714e-5, 3.6e-6, 1.106e-5, 5000, 0.06};
