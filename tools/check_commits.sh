@@ -8,23 +8,15 @@ if ! git cat-file -e "$base^{commit}" 2>/dev/null; then
   echo "commits: skipped, $base is not in this clone"
   exit 0
 fi
-status=0
-count=0
-for commit in $(git rev-list --no-merges "$base..HEAD"); do
-  count=$((count + 1))
-  subject=$(git show -s --format=%s "$commit")
-  short=$(git rev-parse --short "$commit")
-  if [ "${#subject}" -gt 72 ]; then
-    echo "$short: subject of ${#subject} characters, at most 72: $subject" >&2
-    status=1
-  fi
-  case $subject in
-    *.) echo "$short: subject ends in a full stop: $subject" >&2 && status=1 ;;
-  esac
-  if [ -z "$(git show -s --format=%b "$commit")" ]; then
-    echo "$short: no body that says why: $subject" >&2
-    status=1
-  fi
-done
-echo "commits: $count since $base"
-exit $status
+commits=$(git log --no-merges --encoding=UTF-8 --format='%h%x1f%s%x1f%b%x1e' "$base..HEAD")
+printf '%s' "$commits" | BASE=$base perl -CSD -0036 -ne '
+  chomp;
+  s/^\n//;
+  my ($short, $subject, $body) = split /\x1f/, $_, 3;
+  next unless defined $subject;
+  ++$count;
+  my $found = sub { print STDERR "$short: $_[0]: $subject\n"; $status = 1; };
+  $found->("subject of " . length($subject) . " characters, at most 72") if length($subject) > 72;
+  $found->("subject ends in a full stop") if $subject =~ /\.$/;
+  $found->("no body that says why") if $body !~ /\S/;
+  END { printf "commits: %d since $ENV{BASE}\n", $count; $? = $status; }'

@@ -11,13 +11,13 @@ mapfile -t scripts < <(git ls-files '*.sh' towbench .ci/run)
 
 echo "clang-format: ${#sources[@]} files"
 # Not as a pipe into grep: its status is that of the first that fails, and a finding would pass.
-if ! findings=$(clang-format --dry-run -Werror "${sources[@]}" 2>&1); then
+if ! findings=$(printf '%s\0' "${sources[@]}" | xargs -0 -P "$(nproc)" -n 200 clang-format --dry-run -Werror 2>&1); then
   grep -E 'error' <<<"$findings" | head -n 20
   status=1
 fi
 
 echo "shellcheck: ${#scripts[@]} scripts"
-shellcheck -x "${scripts[@]}" || status=1
+printf '%s\0' "${scripts[@]}" | xargs -0 -P "$(nproc)" -n 8 shellcheck -x || status=1
 
 sh tools/check_includes.sh . || status=1
 sh tools/check_folder_cycles.sh . || status=1
