@@ -12,6 +12,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   # GCC bug 105651: a false -Wrestrict inside std::string's operator+ at -O2 and above.
   target_compile_options(towbench_options INTERFACE -Wno-restrict)
 endif()
+# GCC collects garbage from 128 MB on. Where there is memory, a build is a fifteenth quicker without it.
+cmake_host_system_information(RESULT memory_MB QUERY TOTAL_PHYSICAL_MEMORY)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND memory_MB GREATER 7500)
+  target_compile_options(towbench_options INTERFACE
+    $<$<COMPILE_LANGUAGE:C,CXX>:--param=ggc-min-heapsize=1048576>)
+endif()
 if(TOWBENCH_SANITIZE)
   target_compile_options(towbench_options INTERFACE
     -fsanitize=${TOWBENCH_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
