@@ -84,13 +84,13 @@ build_preset() {
   log=$build/$preset.log
   mkdir -p "$build"
   forget_if_moved "$build/$folder"
-  (cd "$root" && one_at_a_time cmake --preset "$preset") >"$log" 2>&1 &&
-    watched "building ($folder)" build_steps "$log" one_at_a_time cmake --build "$build/$folder" "${targets[@]}" && return
+  (cd "$root" && one_at_a_time "$folder" cmake --preset "$preset") >"$log" 2>&1 &&
+    watched "building ($folder)" build_steps "$log" one_at_a_time "$folder" cmake --build "$build/$folder" "${targets[@]}" && return
   explain_failed_build "$preset" "$log"
 }
 
-# Two calls in one clone must not build at once.
-one_at_a_time() { flock "$build/.lock" "$@"; }
+# one_at_a_time FOLDER COMMAND...: two calls in one clone must not build the same folder at once.
+one_at_a_time() { flock "$build/.lock-$1" "${@:2}"; }
 
 # CMake refuses a tree that was configured elsewhere.
 forget_if_moved() {

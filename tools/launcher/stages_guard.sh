@@ -31,6 +31,7 @@ every_long_test_exists() {
 }
 
 stage_tests() {
+  start_kernel_beside
   built release
   count every_long_test_exists
   run_tests release . -E "$(long_tests)"
@@ -59,6 +60,7 @@ slowest_tests() {
 }
 
 stage_board() {
+  start_sanitizers_beside
   built release towbench-bench bbmc_record replay_on_board
   build_baremetal
   reported "$build/board.log" board_checks
@@ -68,7 +70,7 @@ board_checks() {
   "$root/tools/baremetal_duty.sh" "$build/release" "$root" && "$root/tests/board/demo_on_board.sh" "$build/release" "$root"
 }
 
-# Its download and its one compiler call wait beside the sanitizers.
+# Its download and its one compiler call wait beside the tests.
 start_kernel_beside() {
   if is_asked_for carriers && [[ -z $kernel_fetched ]]; then
     "$root/tests/carriers/fetch_kernel.sh" "$build/carriers/kernel" >"$build/kernel.log" 2>&1 &
@@ -78,10 +80,10 @@ start_kernel_beside() {
 
 stage_carriers() {
   local status=0 log=$build/carriers.log jobs=machine
+  start_sanitizers_beside
   if [[ -n $kernel_fetched ]]; then wait "$kernel_fetched" || true; fi
   if [[ $everything == true ]]; then jobs=whole-machine; fi
   built release towbench-bench test_protocol test_bbmc c_pid
-  start_fresh_start_beside
   "$root/tests/carriers/run.sh" "$root" "$build/release" "$jobs" 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
   passed=$((passed + $(grep -c '^@@ passed' "$log")))
   note=$(sed -n -e 's/^@@ \(real time unproven\).*/; \1/p' \
@@ -97,7 +99,6 @@ stage_carriers() {
 # Where threads are: the lock-free queues, the carriers, and the controller between them.
 stage_sanitize_thread() {
   start_fresh_start_beside
-  start_kernel_beside
   built tsan test_core test_protocol test_bbmc
   local folder
   for folder in core protocol bbmc; do
@@ -112,14 +113,22 @@ left_out() {
 
 # One build of clang serves this stage and the fuzzer. Whole runs are left to --all: their parts are
 # tested one by one, at a tenth of the cost.
+address_targets() {
+  echo test_core test_protocol test_clients test_board test_harness_report test_harness towbench-bench towbench-panel
+  [[ $everything == false ]] || echo test_bbmc test_emulator towbench-study
+}
+
+start_sanitizers_beside() {
+  # shellcheck disable=SC2046  # one word each
+  if is_to_come sanitize_address; then start_build_beside sanitize $(address_targets); fi
+}
+
 stage_sanitize_address() {
-  local targets=(test_core test_protocol test_clients test_board test_harness_report test_harness)
   local folders=(core protocol clients board harness) folder
-  if [[ $everything == true ]]; then
-    targets+=(test_bbmc test_emulator towbench-study)
-    folders+=(bbmc emulator)
-  fi
-  built sanitize "${targets[@]}" towbench-bench towbench-panel
+  if [[ $everything == true ]]; then folders+=(bbmc emulator); fi
+  # shellcheck disable=SC2046  # one word each
+  built sanitize $(address_targets)
+  if is_asked_for fuzz; then start_build_beside sanitize fuzz_targets; fi
   for folder in "${folders[@]}"; do
     LSAN_OPTIONS="suppressions='$root/tests/support/leaks_of_libraries.txt':print_suppressions=0" \
       ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 \
@@ -153,8 +162,7 @@ first_start_key() {
 first_starts_kept() { echo "${XDG_CACHE_HOME:-$HOME/.cache}/towbench/fresh_start"; }
 first_start_has_passed() { [[ $everything == false && -e $(first_starts_kept)/$(first_start_key) ]]; }
 
-# It waits for packages more than it computes, so other stages run beside it: the sanitizers, or where they are kept
-# the carriers' machine.
+# It waits for packages more than it computes, so the sanitizers run beside it.
 start_fresh_start_beside() {
   if is_asked_for fresh_start && [[ -z $fresh_start ]]; then start_fresh_start; fi
 }
@@ -166,7 +174,6 @@ start_fresh_start() {
   if [[ $everything == false ]]; then cache=("$(ccache --get-config cache_dir 2>/dev/null || true)"); fi
   setsid "$root/tools/fresh_start.sh" "$root" "${cache[@]}" >"$build/fresh_start.log" 2>&1 &
   fresh_start=$!
-  trap 'kill -- "-$fresh_start" 2>/dev/null' EXIT
 }
 
 stage_fresh_start() {
@@ -178,7 +185,7 @@ stage_fresh_start() {
   [[ -n $fresh_start ]] || start_fresh_start
   tail -n +1 -f --pid="$fresh_start" "$build/fresh_start.log"
   wait "$fresh_start" || status=$?
-  trap - EXIT
+  fresh_start=''
   count_report "$build/fresh_start.log" "$status" || return
   mkdir -p "$(first_starts_kept)" && touch "$(first_starts_kept)/$(first_start_key)"
 }

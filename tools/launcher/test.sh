@@ -8,12 +8,14 @@
 source "$root/tools/launcher/kept_passes.sh"
 # shellcheck source=tools/launcher/progress.sh
 source "$root/tools/launcher/progress.sh"
+# shellcheck source=tools/launcher/beside.sh
+source "$root/tools/launcher/beside.sh"
 # shellcheck source=tools/launcher/stages_guard.sh
 source "$root/tools/launcher/stages_guard.sh"
 # shellcheck source=tools/launcher/stages_release.sh
 source "$root/tools/launcher/stages_release.sh"
 
-guard_stages=(lint tests board sanitize_thread sanitize_address carriers fresh_start fuzz)
+guard_stages=(lint tests board carriers sanitize_thread sanitize_address fresh_start fuzz)
 quick_stages=(lint tests)
 release_stages=(attack long_tests alone tidy step_cost armhf package campaign other_controllers linuxcnc diagnosis mutants guard_mutations slurm)
 on_request_stages=(build_times carrier_table panel_cost)
@@ -35,11 +37,11 @@ guards main:
   tests             unit, integration and browser tests of the release build
   board             BBMC as a bare-metal image on the virtual board: the same duty to the last bit, and the
                     demo's experiments twice: loopback's verdicts, the same record to the last byte
+  carriers          the demo over serial lines, CAN and GPIO lines, and the carriers' own tests, in an
+                    emulated machine whose Debian kernel has both; a run by the wall clock
   sanitize_thread   threads and lock-free queues under the thread sanitizer: core, protocol, controller
   sanitize_address  memory under the address and undefined-behaviour sanitizers: core, protocol, board,
                     parsers of fixtures and faults, recorder, judge, report, panel
-  carriers          the demo over serial lines, CAN and GPIO lines, and the carriers' own tests, in an
-                    emulated machine whose Debian kernel has both; a run by the wall clock
   fresh_start       a clone in a bare Debian 12, as root and as a user: ./towbench demo from nothing, beside
                     the stages before. Left out where launcher, build files and packages are as when it passed
                     last
@@ -145,10 +147,13 @@ run_or_keep() {
 }
 
 is_asked_for() { [[ " ${asked_for[*]} " == *" $1 "* ]]; }
+# A stage that is asked for and not kept.
+is_to_come() { is_asked_for "$1" && ! { may_be_kept "$1" && has_passed "$1" "$(inputs)" >/dev/null; }; }
 
 # built PRESET [TARGET...]: build_preset, with the time it took in the summary.
 built() {
   local started=$SECONDS
+  wait_for_build_beside "$1"
   build_preset "$@"
   built_s=$((built_s + SECONDS - started))
 }
@@ -177,7 +182,7 @@ reported() {
   count_report "$log" "$status"
 }
 
-# run_tests PRESET FOLDER [ctest arguments that select...]: counts each test, shows the failed ones. One more at a time
+# run_tests PRESET FOLDER [ctest arguments that select...]: counts each test, shows the failed ones. Two more at a time
 # than processors, because many tests wait. Tests share processes, and the slow ones start first.
 run_tests() {
   local preset=$1 folder=$2
@@ -185,7 +190,7 @@ run_tests() {
   # The allocator keeps freed memory: on some hosts a page fault costs more than the work on the page.
   MALLOC_MMAP_THRESHOLD_=1073741824 MALLOC_TRIM_THRESHOLD_=4294967296 MALLOC_TOP_PAD_=1048576 \
     counted_tests "$preset" "$folder" \
-    python3 "$root/tools/run_in_groups.py" "$(($(nproc) + 1))" "$build/$preset/$folder" "$(slow_tests)" "$@"
+    python3 "$root/tools/run_in_groups.py" "$(($(nproc) + 2))" "$build/$preset/$folder" "$(slow_tests)" "$@"
 }
 
 # counted_tests PRESET FOLDER COMMAND...: a command that prints a line for each test, as ctest does.
