@@ -18,7 +18,7 @@ stage_long_tests() {
 
 # Units hide a missing include; here every source stands for itself. Checked, not optimised.
 stage_alone() {
-  built alone all benchmarks
+  built alone all benchmarks diagnose_campaign diagnose_makers
   passed=$((passed + 1))
 }
 
@@ -66,7 +66,7 @@ stage_linuxcnc() {
 
 # Every effect under two seeds, hidden by another generator: named, and nothing else, in 19 of 20.
 stage_diagnosis() {
-  built release diagnose_campaign
+  built release diagnose_campaign diagnose_makers
   local log=$build/diagnosis_campaign.log right all
   "$build/release/tests/study/diagnose/diagnose_campaign" 2 2>&1 | tee "$log"
   read -r right all < <(sed -nE 's/^right and alone: ([0-9]+) of ([0-9]+)$/\1 \2/p' "$log")
