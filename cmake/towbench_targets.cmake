@@ -87,9 +87,9 @@ function(towbench_test name)
   endif()
   add_executable(${name} ${sources})
   set_target_properties(${name} PROPERTIES TOWBENCH_NOT_FUZZED ON)
-  # Test code is compiled often and run once; what it tests keeps its own optimisation.
+  # Test code is compiled often and run once; what it tests keeps its own optimisation and its line numbers.
   if(TOWBENCH_FUZZ OR TOWBENCH_SANITIZE)
-    target_compile_options(${name} PRIVATE -O0)
+    target_compile_options(${name} PRIVATE -O0 -g0)
   else()
     target_compile_options(${name} PRIVATE -O1)
   endif()
