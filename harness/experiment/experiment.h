@@ -10,7 +10,7 @@
 
 #include "emulator/faults/scheduled_event.h"
 #include "harness/experiment/board_plan.h"
-#include "harness/experiment/hand_act.h"
+#include "harness/experiment/operator_act.h"
 #include "harness/experiment/reference.h"
 #include "harness/fault_plan/fault.h"
 #include "harness/requirements/requirement.h"

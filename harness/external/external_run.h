@@ -16,7 +16,7 @@
 #include "harness/fault_cases/reference_run.h"
 #include "harness/judge/judge.h"
 #include "harness/link/link_faults.h"
-#include "harness/lockstep/hand.h"
+#include "harness/lockstep/operator.h"
 #include "harness/lockstep/script_loop.h"
 #include "harness/record/run_tap.h"
 

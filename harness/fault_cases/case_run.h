@@ -8,8 +8,8 @@
 #include "harness/experiment/experiment_fixture.h"
 #include "harness/fault_cases/case_link.h"
 #include "harness/fault_cases/case_record.h"
-#include "harness/lockstep/hand.h"
 #include "harness/lockstep/injection.h"
+#include "harness/lockstep/operator.h"
 
 namespace towbench::harness {
 

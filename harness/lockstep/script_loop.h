@@ -8,8 +8,8 @@
 #include <functional>
 
 #include "harness/experiment/experiment.h"
-#include "harness/lockstep/hand.h"
 #include "harness/lockstep/lockstep_bench.h"
+#include "harness/lockstep/operator.h"
 #include "harness/lockstep/run_outcome.h"
 
 namespace towbench::harness {

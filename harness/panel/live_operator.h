@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "harness/experiment/experiment_fixture.h"
-#include "harness/lockstep/hand.h"
+#include "harness/lockstep/operator.h"
 #include "harness/panel/run_operator.h"
 
 namespace towbench::harness {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/time.h"
-#include "harness/lockstep/hand.h"
+#include "harness/lockstep/operator.h"
 
 namespace towbench::harness {
 

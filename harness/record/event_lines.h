@@ -7,7 +7,7 @@
 #include "bbmc/host/controller_node.h"
 #include "core/time.h"
 #include "emulator/truth_row.h"
-#include "harness/experiment/hand_act.h"
+#include "harness/experiment/operator_act.h"
 
 namespace towbench::harness {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "harness/experiment/experiment_fixture.h"
-#include "harness/lockstep/hand.h"
+#include "harness/lockstep/operator.h"
 
 namespace towbench::harness {
 

@@ -13,7 +13,7 @@
 #include "harness/fault_cases/fault_case.h"
 #include "harness/fault_cases/reference_run.h"
 #include "harness/judge/judge.h"
-#include "harness/lockstep/hand.h"
+#include "harness/lockstep/operator.h"
 #include "harness/lockstep/script_loop.h"
 #include "harness/record/run_tap.h"
 #include "protocol/carriers/carrier_address.h"

@@ -15,7 +15,7 @@
 
 #include "harness/checks/check.h"
 #include "harness/fault_cases/case_run.h"
-#include "harness/lockstep/hand.h"
+#include "harness/lockstep/operator.h"
 
 namespace towbench::harness {
 namespace {

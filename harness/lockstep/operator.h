@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/time.h"
-#include "harness/experiment/hand_act.h"
+#include "harness/experiment/operator_act.h"
 #include "harness/fault_plan/fault.h"
 #include "harness/lockstep/steered_bench.h"
 
