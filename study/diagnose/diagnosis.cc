@@ -53,7 +53,7 @@ std::vector<Size> sizes_of(const State& state, std::size_t which) {
   const auto add = [&](const std::string& name, Key key) {
     const double value = state.fitted.model.parameters[key];
     const auto free = std::find_if(accepted.free.begin(), accepted.free.end(),
-                                   [&](const Freedom& f) { return f.key == key; });
+                                   [&](const FreeParameter& f) { return f.key == key; });
     if (free == accepted.free.end()) {
       sizes.push_back({name, {value, value, value}, true});
       return;

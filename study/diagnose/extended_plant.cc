@@ -122,45 +122,49 @@ class Writer {
     return true;
   }
 
-  // What pushes or plays. A ripple's force that the command must make is less of what it adds.
+  // What pushes or plays.
   bool disturbance(const std::string& name) {
-    const Context& c = d_.context;
-    const Parameters& p = d_.extended;
-    if (name == "cable_spring" && p[Key::kCable] >= 0) {
-      table("disturbances")
-          .insert_or_assign("cable",
-                            toml::table{{spelt("stiffness_N_per_m"), p[Key::kCable]},
-                                        {spelt("reference_m"), c.stroke_min_m + 0.5 * c.stroke_m}});
-      return true;
-    }
-    if (name == "gravity") {
-      // What the command must make: s sin q + c cos q = m g l sin(q + q0).
-      const double sine = p[Key::kGravitySine];
-      const double cosine = p[Key::kGravityCosine];
-      table("disturbances")
-          .insert_or_assign("gravity",
-                            toml::table{{"torque_Nm", std::hypot(sine, cosine)},
-                                        {"zero_at_deg", std::atan2(cosine, sine) * kDegrees}});
-      return true;
-    }
-    if (name == "torque_ripple" && r_ > 0) {
-      // -(a cos + b sin) = A sin(k theta + phi)
-      const double phase = std::atan2(-p[Key::kRippleCosine], -p[Key::kRippleSine]);
-      table("disturbances")
-          .insert_or_assign(
-              "torque_ripple",
-              toml::table{
-                  {"amplitude_Nm", std::hypot(p[Key::kRippleCosine], p[Key::kRippleSine]) * r_},
-                  {"periods_per_turn", p[Key::kRipplePerMetre] * 2 * std::numbers::pi * r_},
-                  {"phase_deg", phase * kDegrees}});
-      return true;
-    }
-    if (name == "backlash" && c.stated.output_radius_m > 0) {
-      table("gear").insert_or_assign("backlash_deg",
-                                     p[Key::kPlay] / c.stated.output_radius_m * kDegrees);
-      return true;
-    }
-    return false;
+    if (name == "cable_spring") return cable();
+    if (name == "gravity") return gravity();
+    if (name == "torque_ripple") return ripple();
+    return name == "backlash" && backlash();
+  }
+  void disturb(const char* key, toml::table by) {
+    table("disturbances").insert_or_assign(key, std::move(by));
+  }
+  bool cable() {
+    const double stiffness = d_.extended[Key::kCable];
+    if (stiffness < 0) return false;
+    const double middle_m = d_.context.stroke_min_m + 0.5 * d_.context.stroke_m;
+    disturb("cable",
+            toml::table{{spelt("stiffness_N_per_m"), stiffness}, {spelt("reference_m"), middle_m}});
+    return true;
+  }
+  // What the command must make: s sin q + c cos q = m g l sin(q + q0).
+  bool gravity() {
+    const double sine = d_.extended[Key::kGravitySine];
+    const double cosine = d_.extended[Key::kGravityCosine];
+    disturb("gravity", toml::table{{"torque_Nm", std::hypot(sine, cosine)},
+                                   {"zero_at_deg", std::atan2(cosine, sine) * kDegrees}});
+    return true;
+  }
+  // A ripple's force that the command must make is less of what it adds:
+  // -(a cos + b sin) = A sin(k theta + phi).
+  bool ripple() {
+    if (r_ <= 0) return false;
+    const double cosine = -d_.extended[Key::kRippleCosine];
+    const double sine = -d_.extended[Key::kRippleSine];
+    const double periods = d_.extended[Key::kRipplePerMetre] * 2 * std::numbers::pi * r_;
+    disturb("torque_ripple", toml::table{{"amplitude_Nm", std::hypot(cosine, sine) * r_},
+                                         {"periods_per_turn", periods},
+                                         {"phase_deg", std::atan2(cosine, sine) * kDegrees}});
+    return true;
+  }
+  bool backlash() {
+    const double radius_m = d_.context.stated.output_radius_m;
+    if (radius_m <= 0) return false;
+    table("gear").insert_or_assign("backlash_deg", d_.extended[Key::kPlay] / radius_m * kDegrees);
+    return true;
   }
 
   // The file has the transmission by its free mode and its damping ratio.
@@ -218,9 +222,7 @@ class Writer {
       at.push_back(x_m);
       torque.push_back(-force_N * r_);
     }
-    table("disturbances")
-        .insert_or_assign("position_force",
-                          toml::table{{spelt("position_m"), at}, {"torque_Nm", torque}});
+    disturb("position_force", toml::table{{spelt("position_m"), at}, {"torque_Nm", torque}});
     return true;
   }
   // Knots of sum_k beta_k cos(k pi x), force that the command must make in addition.

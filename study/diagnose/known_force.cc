@@ -19,7 +19,7 @@ Interval force_ratio(const NominalModel& model, const Run& run, const KnownForce
   const std::vector<Run> runs{run};
   Data data = make_data(runs, model);
   const Context context = make_context(model, data);
-  const auto free = base_freedoms(context, 1);
+  const auto free = base_free_parameters(context, 1);
   const Eigen::Index last = std::ssize(free);
   // The drive need not make what the push makes.
   Eigen::VectorXd push_N = Eigen::VectorXd::Zero(run.size());

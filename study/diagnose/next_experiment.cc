@@ -64,9 +64,9 @@ std::optional<NextExperiment> separate(const Search& search, const Model& cause,
                                              std::pow(rms(search.final.fitted.e), 2)))};
   const double brisk =
       kLoggedAcceleration * search.context.input_rms_N / cause.parameters[Key::kMass];
-  std::vector<Freedom> free;
-  for (const Freedom& f : other.free) {
-    if (f.of == Freedom::Of::kAll) free.push_back(f);
+  std::vector<FreeParameter> free;
+  for (const FreeParameter& f : other.free) {
+    if (f.of == FreeParameter::Of::kAll) free.push_back(f);
   }
   NominalModel stated = search.context.stated;
   stated.input_is_held = true;

@@ -42,9 +42,9 @@ Model calibrated(const Data& data, const Context& context, Parameters parameters
                  double bandwidth) {
   Model model{parameters, std::vector<OfRun>(data.scenes.size())};
   for (std::size_t run = 0; run < data.scenes.size(); ++run) {
-    std::vector<Freedom> free;
-    for (const Freedom& f : base_freedoms(context, data.scenes.size() + 1)) {
-      if (f.of != Freedom::Of::kAll && f.run == run) free.push_back(f);
+    std::vector<FreeParameter> free;
+    for (const FreeParameter& f : base_free_parameters(context, data.scenes.size() + 1)) {
+      if (f.of != FreeParameter::Of::kAll && f.run == run) free.push_back(f);
     }
     const VectorXd e = innovations(data, model, bandwidth);
     MatrixXd all(data.samples(), std::ssize(free) + 1);

@@ -27,9 +27,9 @@ Solved solve(const std::vector<LinePoint>& points, const std::vector<double>& kn
     const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, point.x);
     const auto k = static_cast<Eigen::Index>(above - knots.begin());
     const double share = (point.x - *(above - 1)) / (*above - *(above - 1));
-    hats(i, k - 1) = (1 - share) / point.deviation;
-    hats(i, k) = share / point.deviation;
-    y[i] = point.y / point.deviation;
+    hats(i, k - 1) = (1 - share) / point.standard_error;
+    hats(i, k) = share / point.standard_error;
+    y[i] = point.y / point.standard_error;
   }
   Solved solved;
   // The least-norm solution where a piece has no point of its own.
@@ -140,13 +140,13 @@ BentLine fit_bent_line(std::vector<LinePoint> points, int most_bends) {
     knots = more;
   }
   const auto solved = solve(points, knots, true);
-  const double freedom =
+  const double degrees_of_freedom =
       std::max(1.0, static_cast<double>(points.size()) - static_cast<double>(knots.size()));
-  const double unit = solved.square / freedom;
+  const double unit = solved.square / degrees_of_freedom;
   line.x = knots;
   for (Eigen::Index i = 0; i < solved.values.size(); ++i) {
     line.y.push_back(solved.values[i]);
-    line.deviation.push_back(std::sqrt(unit * solved.covariance(i, i)));
+    line.standard_error.push_back(std::sqrt(unit * solved.covariance(i, i)));
   }
   double square = 0;
   for (const auto& point : points) {

@@ -12,14 +12,14 @@ namespace towbench::study::identify {
 struct LinePoint {
   double x = 0;
   double y = 0;
-  double deviation = 1;  // of y, > 0: its weight among the others
+  double standard_error = 1;  // of y, > 0: its weight among the others
 };
 
 struct BentLine {
   std::vector<double> x;  // ascending: first point, bends, last point; empty: too few points
   std::vector<double> y;
-  std::vector<double> deviation;  // of y, by how far the points lie from the line
-  double residual_rms = 0;        // unweighted
+  std::vector<double> standard_error;  // of y, by how far the points lie from the line
+  double residual_rms = 0;             // unweighted
 
   [[nodiscard]] double at(double place) const noexcept;  // constant beyond the ends
 };

@@ -13,16 +13,16 @@ namespace {
 
 struct Slope {
   double value = 0;
-  double deviation = 0;
+  double standard_error = 0;
 };
 
 // Of one direction: y over x, a line for each stretch with a slope in common.
 struct Direction {
   double slope = 0;
-  double xx = 0;       // squares of x
-  double left = 0;     // squares of y left
-  double given = 0;    // mean square by the deviations given
-  double freedom = 0;  // degrees of
+  double xx = 0;     // squares of x
+  double left = 0;   // squares of y left
+  double given = 0;  // mean square by the standard errors given
+  double degrees_of_freedom = 0;
 };
 
 template <typename X, typename Y>
@@ -60,10 +60,12 @@ Direction direction_of(const std::vector<PushedRun>& runs, bool towards_max, X x
   direction.slope = xy / direction.xx;
   direction.left = std::max(0.0, yy - direction.slope * xy);
   for (const auto* run : own) {
-    const double e = std::hypot(y_of(*run).deviation, direction.slope * x_of(*run).deviation);
+    const double e =
+        std::hypot(y_of(*run).standard_error, direction.slope * x_of(*run).standard_error);
     direction.given += e * e / static_cast<double>(own.size());
   }
-  direction.freedom = static_cast<double>(own.size()) - static_cast<double>(stretches.size()) - 1;
+  direction.degrees_of_freedom =
+      static_cast<double>(own.size()) - static_cast<double>(stretches.size()) - 1;
   return direction;
 }
 
@@ -76,12 +78,12 @@ Slope common_slope(const std::vector<PushedRun>& runs, X x_of, Y y_of) {
     return {};
   }
   double square = 0.5 * (up.given + down.given);
-  const double freedom = up.freedom + down.freedom;
-  if (freedom >= 1) {
+  const double degrees_of_freedom = up.degrees_of_freedom + down.degrees_of_freedom;
+  if (degrees_of_freedom >= 1) {
     // As wide as Student's 95 %.
-    const double wider =
-        boost::math::quantile(boost::math::students_t(freedom), 0.975) / statistics::kNormal95;
-    square = wider * wider * (up.left + down.left) / freedom;
+    const double wider = boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.975) /
+                         statistics::kNormal95;
+    square = wider * wider * (up.left + down.left) / degrees_of_freedom;
   }
   return {0.5 * (up.slope + down.slope), 0.5 * std::sqrt(square * (1 / up.xx + 1 / down.xx))};
 }
@@ -130,19 +132,20 @@ DriveConstants find_drive_constants(const std::vector<PushedRun>& runs,
   const auto command_per_newton = common_slope(runs, force, command);
   const auto gain = common_slope(runs, command, current);
   constants.found = per_newton.value < 0 && command_per_newton.value < 0 && gain.value > 0 &&
-                    std::isfinite(per_newton.deviation) && std::isfinite(gain.deviation) &&
-                    std::isfinite(command_per_newton.deviation);
+                    std::isfinite(per_newton.standard_error) &&
+                    std::isfinite(gain.standard_error) &&
+                    std::isfinite(command_per_newton.standard_error);
   if (!constants.found) {
     return constants;
   }
   constants.torque_constant_Nm_per_A = -metres_per_motor_rad / per_newton.value;
-  constants.torque_constant_deviation =
-      constants.torque_constant_Nm_per_A * std::fabs(per_newton.deviation / per_newton.value);
+  constants.torque_constant_standard_error =
+      constants.torque_constant_Nm_per_A * std::fabs(per_newton.standard_error / per_newton.value);
   // So that the product of both is what force and command say.
   constants.amplifier_gain_A_per_V = per_newton.value / command_per_newton.value;
-  constants.amplifier_gain_deviation = gain.deviation;
-  constants.torque_per_volt_deviation =
-      std::fabs(command_per_newton.deviation / command_per_newton.value);
+  constants.amplifier_gain_standard_error = gain.standard_error;
+  constants.torque_per_volt_standard_error =
+      std::fabs(command_per_newton.standard_error / command_per_newton.value);
   return constants;
 }
 

@@ -10,7 +10,7 @@
 // over the same way in both.
 //
 // How far the stretches of one direction lie apart tells how sure a slope is; with one alone, the
-// deviations given. Torque over command is a slope of its own: of K_T and K_amp the current
+// standard errors given. Torque over command is a slope of its own: of K_T and K_amp the current
 // monitor's errors fall out.
 #pragma once
 
@@ -37,11 +37,11 @@ struct PushedRun {
 
 struct DriveConstants {
   double torque_constant_Nm_per_A = 0;
-  double torque_constant_deviation = 0;
+  double torque_constant_standard_error = 0;
   double amplifier_gain_A_per_V = 0;
-  double amplifier_gain_deviation = 0;
-  double torque_per_volt_deviation = 0;  // of K_T K_amp, relative
-  bool found = false;                    // false: pushes or currents do not differ
+  double amplifier_gain_standard_error = 0;
+  double torque_per_volt_standard_error = 0;  // of K_T K_amp, relative
+  bool found = false;                         // false: pushes or currents do not differ
 };
 
 [[nodiscard]] DriveConstants find_drive_constants(const std::vector<PushedRun>& runs,

@@ -26,9 +26,9 @@ const Estimate* find(const Estimates& estimates, std::string_view quantity,
   return found;
 }
 
-Estimate with_deviation(Estimate estimate, double deviation) {
-  estimate.low = estimate.value - statistics::kNormal95 * deviation;
-  estimate.high = estimate.value + statistics::kNormal95 * deviation;
+Estimate with_standard_error(Estimate estimate, double standard_error) {
+  estimate.low = estimate.value - statistics::kNormal95 * standard_error;
+  estimate.high = estimate.value + statistics::kNormal95 * standard_error;
   return estimate;
 }
 

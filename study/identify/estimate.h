@@ -35,8 +35,8 @@ using Estimates = std::vector<Estimate>;
 [[nodiscard]] const Estimate* find(const Estimates& estimates, std::string_view quantity,
                                    std::string_view axis) noexcept;
 
-// Value +- 1.96 deviations.
-[[nodiscard]] Estimate with_deviation(Estimate estimate, double deviation);
+// Value +- 1.96 standard errors.
+[[nodiscard]] Estimate with_standard_error(Estimate estimate, double standard_error);
 
 // Without an interval, for that reason.
 [[nodiscard]] Estimate withheld(Estimate estimate, std::string reason);

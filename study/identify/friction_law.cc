@@ -26,7 +26,7 @@ Linear fit_at(const std::vector<SteadyRun>& runs, double stribeck, bool lorentz,
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto& run = runs[static_cast<std::size_t>(i)];
     const double w = std::fabs(run.speed_rad_per_s);
-    const double weight = 1 / run.deviation_Nm;
+    const double weight = 1 / run.standard_error_Nm;
     x.row(i) << weight, weight * shape(w / stribeck, lorentz), weight * w;
     y[i] = weight * std::fabs(run.torque_Nm);
   }
@@ -63,8 +63,8 @@ double best_stribeck(const std::vector<SteadyRun>& runs, double first, bool lore
   return std::exp(0.5 * (low + high));
 }
 
-void add_deviations(const std::vector<SteadyRun>& runs, bool excess_is_known, FrictionLaw& law,
-                    double sum) {
+void add_standard_errors(const std::vector<SteadyRun>& runs, bool excess_is_known, FrictionLaw& law,
+                         double sum) {
   const auto n = static_cast<Eigen::Index>(runs.size());
   Eigen::MatrixXd jacobian(n, 4);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -76,17 +76,17 @@ void add_deviations(const std::vector<SteadyRun>& runs, bool excess_is_known, Fr
                          (shape(w / (v * (1 + kStep)), law.lorentz) - shape(w / v, law.lorentz)) /
                          (v * kStep);
     jacobian.row(i) << 1, shape(w / v, law.lorentz), w, slope;
-    jacobian.row(i) /= run.deviation_Nm;
+    jacobian.row(i) /= run.standard_error_Nm;
   }
   if (excess_is_known) {
     jacobian.col(1).setZero();
   }
   const Eigen::Matrix4d covariance = pseudo_inverse(jacobian.transpose() * jacobian) *
                                      std::max(1.0, sum / static_cast<double>(n - 4));
-  law.coulomb_deviation_Nm = std::sqrt(covariance(0, 0));
-  law.excess_deviation_Nm = std::sqrt(covariance(1, 1));
-  law.viscous_deviation = std::sqrt(covariance(2, 2));
-  law.stribeck_deviation = std::sqrt(covariance(3, 3));
+  law.coulomb_standard_error_Nm = std::sqrt(covariance(0, 0));
+  law.excess_standard_error_Nm = std::sqrt(covariance(1, 1));
+  law.viscous_standard_error = std::sqrt(covariance(2, 2));
+  law.stribeck_standard_error = std::sqrt(covariance(3, 3));
 }
 
 }  // namespace
@@ -122,7 +122,7 @@ FrictionLaw fit_friction_law(const std::vector<SteadyRun>& runs, double first_sp
     square += e * e / static_cast<double>(runs.size());
   }
   law.residual_rms_Nm = std::sqrt(square);
-  add_deviations(runs, excess_Nm.has_value(), law, best);
+  add_standard_errors(runs, excess_Nm.has_value(), law, best);
   return law;
 }
 

@@ -15,7 +15,7 @@ namespace towbench::study::identify {
 struct SteadyRun {
   double speed_rad_per_s = 0;  // of the motor, signed
   double torque_Nm = 0;        // mean, signed
-  double deviation_Nm = 0;
+  double standard_error_Nm = 0;
   double position_m = 0;  // middle of the stretch
 };
 
@@ -24,10 +24,10 @@ struct FrictionLaw {
   double excess_Nm = 0;
   double stribeck_rad_per_s = 0;
   double viscous_Nm_s_per_rad = 0;
-  double coulomb_deviation_Nm = 0;
-  double excess_deviation_Nm = 0;
-  double stribeck_deviation = 0;
-  double viscous_deviation = 0;
+  double coulomb_standard_error_Nm = 0;
+  double excess_standard_error_Nm = 0;
+  double stribeck_standard_error = 0;
+  double viscous_standard_error = 0;
   double residual_rms_Nm = 0;
   bool lorentz = false;
   bool found = false;

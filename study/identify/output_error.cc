@@ -45,9 +45,9 @@ class Problem {
   }
   [[nodiscard]] int first_place() const { return kKnots + knots(); }
   [[nodiscard]] int parameters() const { return first_place() + moving(); }
-  [[nodiscard]] int data_residuals() const { return static_cast<int>(rows_.size()); }
-  [[nodiscard]] int prior_residuals() const { return kFixedPriors + moving(); }
-  [[nodiscard]] int residuals() const { return data_residuals() + prior_residuals(); }
+  [[nodiscard]] int data_count() const { return static_cast<int>(rows_.size()); }
+  [[nodiscard]] int prior_count() const { return kFixedPriors + moving(); }
+  [[nodiscard]] int residual_count() const { return data_count() + prior_count(); }
   [[nodiscard]] Eigen::Index lags() const { return static_cast<Eigen::Index>(4 * span_ / every_); }
 
   [[nodiscard]] Eigen::VectorXd first() const {
@@ -129,7 +129,7 @@ class Problem {
     return simulate_counts(axis_of(p), path_of(p), data_, axis_);
   }
 
-  [[nodiscard]] bool leave(const double* p, double* out) const {
+  [[nodiscard]] bool residuals(const double* p, double* out) const {
     const auto simulated = simulate(p);
     if (!simulated) {
       return false;
@@ -144,21 +144,21 @@ class Problem {
     return true;
   }
 
-  // In counts: a deviation of one standard deviation weighs as much as a few hundred rows' noise.
+  // In counts: one standard deviation off a prior counts as the noise of a few hundred rows.
   void priors(const double* p, double* out) const {
     const auto guess = first();
-    const auto pull = [&](int i, double known) {
+    const auto prior = [&](int i, double known) {
       return known > 0 ? kPriorWeight * (p[i] - guess[i]) / known : 0.0;
     };
-    out[0] = pull(kStribeck, start_.stribeck_known);
-    out[1] = pull(kExcess, start_.excess_known);
-    out[2] = pull(kShare, start_.share_known);
-    out[3] = pull(kDelay, 3.0);
-    out[4] = pull(kPlace, 0.2);
-    // No guess but a measurement: as loud as one row.
-    out[5] = pull(kRotor, std::max(start_.rotor_known, kHeld)) / kPriorWeight;
+    out[0] = prior(kStribeck, start_.stribeck_known);
+    out[1] = prior(kExcess, start_.excess_known);
+    out[2] = prior(kShare, start_.share_known);
+    out[3] = prior(kDelay, 3.0);
+    out[4] = prior(kPlace, 0.2);
+    // No guess but a measurement: with the weight of one row.
+    out[5] = prior(kRotor, std::max(start_.rotor_known, kHeld)) / kPriorWeight;
     for (int i = 0; i < moving(); ++i) {
-      out[kFixedPriors + i] = pull(first_place() + i, start_.knots_known_m / kPlaceUnit_m);
+      out[kFixedPriors + i] = prior(first_place() + i, start_.knots_known_m / kPlaceUnit_m);
     }
   }
 
@@ -188,15 +188,15 @@ class Problem {
       bounds.high[i] = high;
     };
     for (int i = 0; i < first_place(); ++i) {
-      const double room = i == kViscous || i == kDamping || i == kExcess ? 3.0 : 1.6;
-      bound(i, p[i] - room, p[i] + room);
+      const double half_width = i == kViscous || i == kDamping || i == kExcess ? 3.0 : 1.6;
+      bound(i, p[i] - half_width, p[i] + half_width);
     }
     bound(kShare, 0.02, 0.98);
     bound(kDelay, 0.0, 9.9);
     bound(kPlace, 0.0, 0.7);
     const double rotor = std::log(start_.axis.rotor_inertia_kg_m2);
-    const double room = std::max(kHeld, kRotorRoom * start_.rotor_known);
-    bound(kRotor, rotor - room, rotor + room);
+    const double half_width = std::max(kHeld, kRotorBound * start_.rotor_known);
+    bound(kRotor, rotor - half_width, rotor + half_width);
     // No knot passes another one, whatever its neighbour does.
     for (int i = 0; i < moving(); ++i) {
       const auto knot = static_cast<std::size_t>(i) + 1;
@@ -210,7 +210,7 @@ class Problem {
  private:
   static constexpr double kPriorWeight = 10;
   static constexpr double kHeld = 1e-6;
-  static constexpr double kRotorRoom = 5;  // deviations
+  static constexpr double kRotorBound = 5;  // standard deviations
   static constexpr int kFixedPriors = 6;
   static constexpr double kPlaceUnit_m = 0.01;
   static constexpr double kNearer = 0.4;  // of the way to a neighbour
@@ -237,12 +237,12 @@ SecantCost cost_of(const Problem& problem, Way way) {
   for (int i = 0; i < problem.parameters(); ++i) {
     steps.push_back(problem.step_of(i));
   }
-  return {[&problem](const double* p, double* out) { return problem.leave(p, out); },
-          problem.residuals(), std::move(steps), way == Way::kQuick ? 0.5 : 0.0};
+  return {[&problem](const double* p, double* out) { return problem.residuals(p, out); },
+          problem.residual_count(), std::move(steps), way == Way::kQuick ? 0.5 : 0.0};
 }
 
 double cost_of_rms(const Problem& problem, double counts) {
-  return 0.5 * problem.data_residuals() * counts * counts;
+  return 0.5 * problem.data_count() * counts * counts;
 }
 
 TwoMassFit fit_from(const TwoMassStart& start, const Recording& data, core::Axis axis, Way way) {
@@ -267,36 +267,36 @@ TwoMassFit fit_from(const TwoMassStart& start, const Recording& data, core::Axis
   if (auto counts = fine.simulate(p.data())) {
     fit.simulated_counts = std::move(*counts);
   }
-  const int m = fine.data_residuals();
+  const int m = fine.data_count();
   if (!fit.converged) {
     return fit;
   }
   const auto& residual = cost.residual();
   const auto& jacobian = cost.jacobian();
-  const Eigen::MatrixXd priors = jacobian.bottomRows(fine.prior_residuals());
+  const Eigen::MatrixXd priors = jacobian.bottomRows(fine.prior_count());
   const Eigen::MatrixXd prior = priors.transpose() * priors;
   const Eigen::MatrixXd covariance =
       sandwich(jacobian.topRows(m), residual.head(m), prior, fine.lags());
   const Eigen::VectorXd bent =
       most_bent(jacobian.topRows(m), residual.head(m), prior, kRoundings_counts);
-  const auto deviation = [&](int i) {
+  const auto error_of = [&](int i) {
     return std::hypot(std::sqrt(std::max(0.0, covariance(i, i))),
                       kTakenIn * bent[i] / statistics::kNormal95);
   };
-  fit.inertia_deviation = fit.axis.inertia_kg_m2 * deviation(kInertia);
-  fit.viscous_deviation = fit.axis.viscous_friction_Nm_s_per_rad * deviation(kViscous);
-  fit.resonance_deviation_Hz = fit.axis.elasticity.resonance_Hz * deviation(kResonance);
-  fit.damping_deviation = fit.axis.elasticity.damping_ratio * deviation(kDamping);
-  fit.share_deviation = deviation(kShare);
-  fit.rotor_deviation = fit.axis.rotor_inertia_kg_m2 * deviation(kRotor);
-  fit.common_deviation_Nm = fit.axis.coulomb_friction_Nm / (1 - p[kPlace]) * deviation(kPlace);
+  fit.inertia_standard_error = fit.axis.inertia_kg_m2 * error_of(kInertia);
+  fit.viscous_standard_error = fit.axis.viscous_friction_Nm_s_per_rad * error_of(kViscous);
+  fit.resonance_standard_error_Hz = fit.axis.elasticity.resonance_Hz * error_of(kResonance);
+  fit.damping_standard_error = fit.axis.elasticity.damping_ratio * error_of(kDamping);
+  fit.share_standard_error = error_of(kShare);
+  fit.rotor_standard_error = fit.axis.rotor_inertia_kg_m2 * error_of(kRotor);
+  fit.common_standard_error_Nm = fit.axis.coulomb_friction_Nm / (1 - p[kPlace]) * error_of(kPlace);
   fit.excess_Nm = std::exp(p[kExcess]);
-  fit.excess_deviation_Nm = fit.excess_Nm * deviation(kExcess);
-  fit.stribeck_deviation = fit.axis.friction.stribeck_speed_rad_per_s * deviation(kStribeck);
+  fit.excess_standard_error_Nm = fit.excess_Nm * error_of(kExcess);
+  fit.stribeck_standard_error = fit.axis.friction.stribeck_speed_rad_per_s * error_of(kStribeck);
   fit.knots_m = fine.knots_of(p.data());
   for (int i = kKnots; i < fine.first_place(); ++i) {
     fit.coulomb_Nm.push_back(std::exp(p[i]));
-    fit.coulomb_deviation_Nm.push_back(std::exp(p[i]) * deviation(i));
+    fit.coulomb_standard_error_Nm.push_back(std::exp(p[i]) * error_of(i));
   }
   fit.residual_rms_counts = std::sqrt(residual.head(m).squaredNorm() / m);
   return fit;

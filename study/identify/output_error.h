@@ -40,17 +40,17 @@ struct TwoMassFit {
   DrivePath path;
   std::vector<double> knots_m;
   std::vector<double> coulomb_Nm;  // at each knot
-  std::vector<double> coulomb_deviation_Nm;
-  double inertia_deviation = 0;
-  double viscous_deviation = 0;
-  double resonance_deviation_Hz = 0;
-  double damping_deviation = 0;
-  double share_deviation = 0;
-  double rotor_deviation = 0;
-  double common_deviation_Nm = 0;  // of axis.coulomb_friction_Nm: what is not the place's
-  double excess_Nm = 0;            // break-away above sliding friction
-  double excess_deviation_Nm = 0;
-  double stribeck_deviation = 0;
+  std::vector<double> coulomb_standard_error_Nm;
+  double inertia_standard_error = 0;
+  double viscous_standard_error = 0;
+  double resonance_standard_error_Hz = 0;
+  double damping_standard_error = 0;
+  double share_standard_error = 0;
+  double rotor_standard_error = 0;
+  double common_standard_error_Nm = 0;  // of axis.coulomb_friction_Nm: what is not the place's
+  double excess_Nm = 0;                 // break-away above sliding friction
+  double excess_standard_error_Nm = 0;
+  double stribeck_standard_error = 0;
   double residual_rms_counts = 0;
   std::vector<double> simulated_counts;
   bool converged = false;

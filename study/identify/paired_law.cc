@@ -42,8 +42,8 @@ std::vector<SpeedPairs> by_speed(const std::vector<SteadyRun>& machine,
     if (speeds.empty() || std::fabs(speeds.back().speed - w) > kSame * w) {
       speeds.push_back({.speed = w});
     }
-    const double deviation = std::hypot(one.deviation_Nm, other->deviation_Nm);
-    const double weight = 1 / (deviation * deviation);
+    const double standard_error = std::hypot(one.standard_error_Nm, other->standard_error_Nm);
+    const double weight = 1 / (standard_error * standard_error);
     speeds.back().weight += weight;
     speeds.back().sum += weight * (std::fabs(one.torque_Nm) - std::fabs(other->torque_Nm));
   }
@@ -68,7 +68,7 @@ Pairs paired(const FrictionLaw& law, const std::vector<SpeedPairs>& speeds) {
 
 }  // namespace
 
-LawShift find_law_shift(const FrictionLaw& of_reference, double excess_deviation_Nm,
+LawShift find_law_shift(const FrictionLaw& of_reference, double excess_standard_error_Nm,
                         const std::vector<SteadyRun>& machine,
                         const std::vector<SteadyRun>& reference) {
   constexpr Eigen::Index kFewest = 6;
@@ -85,22 +85,22 @@ LawShift find_law_shift(const FrictionLaw& of_reference, double excess_deviation
   }
   const Eigen::Vector3d found = solved.x;
   const Eigen::Vector3d by_excess =
-      excess_deviation_Nm * least_squares(pairs.slopes, pairs.by_excess).x;
-  const auto freedom = static_cast<double>(n - kUnknown);
-  const double wider =
-      boost::math::quantile(boost::math::students_t(freedom), 0.975) / statistics::kNormal95;
+      excess_standard_error_Nm * least_squares(pairs.slopes, pairs.by_excess).x;
+  const auto degrees_of_freedom = static_cast<double>(n - kUnknown);
+  const double wider = boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.975) /
+                       statistics::kNormal95;
   const double noise =
-      wider * wider * (pairs.differences - pairs.slopes * found).squaredNorm() / freedom;
+      wider * wider * (pairs.differences - pairs.slopes * found).squaredNorm() / degrees_of_freedom;
   const Eigen::Matrix3d covariance = noise * inverse(pairs.slopes.transpose() * pairs.slopes);
-  const auto deviation = [&](Eigen::Index i) {
+  const auto standard_error = [&](Eigen::Index i) {
     return std::hypot(std::sqrt(covariance(i, i)), by_excess[i], kAnswer * found[i]);
   };
   shift.coulomb_Nm = found[0];
   shift.viscous_Nm_s_per_rad = found[1];
   shift.stribeck_rad_per_s = found[2];
-  shift.coulomb_deviation_Nm = deviation(0);
-  shift.viscous_deviation = deviation(1);
-  shift.stribeck_deviation = deviation(2);
+  shift.coulomb_standard_error_Nm = standard_error(0);
+  shift.viscous_standard_error = standard_error(1);
+  shift.stribeck_standard_error = standard_error(2);
   shift.found = true;
   return shift;
 }

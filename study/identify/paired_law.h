@@ -23,15 +23,16 @@ struct LawShift {
   double coulomb_Nm = 0;  // machine less simulated reference
   double viscous_Nm_s_per_rad = 0;
   double stribeck_rad_per_s = 0;
-  double coulomb_deviation_Nm = 0;
-  double viscous_deviation = 0;
-  double stribeck_deviation = 0;
+  double coulomb_standard_error_Nm = 0;
+  double viscous_standard_error = 0;
+  double stribeck_standard_error = 0;
   bool found = false;
 };
 
 // Runs of the same speed and direction are a pair, those of a speed follow one another; at least
-// six speeds. `excess_deviation_Nm`: of S - C, which must be known: it does what v does.
-[[nodiscard]] LawShift find_law_shift(const FrictionLaw& of_reference, double excess_deviation_Nm,
+// six speeds. `excess_standard_error_Nm`: of S - C, which must be known: it does what v does.
+[[nodiscard]] LawShift find_law_shift(const FrictionLaw& of_reference,
+                                      double excess_standard_error_Nm,
                                       const std::vector<SteadyRun>& machine,
                                       const std::vector<SteadyRun>& reference);
 

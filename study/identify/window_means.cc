@@ -12,7 +12,7 @@ Mean mean_of(const std::vector<double>& column, std::size_t from, std::size_t to
   to = std::min(to, column.size());
   Mean mean;
   if (to < from + 2 * kBlocks) {
-    mean.deviation = std::numeric_limits<double>::infinity();
+    mean.standard_error = std::numeric_limits<double>::infinity();
     return mean;
   }
   const std::size_t block = (to - from) / kBlocks;
@@ -26,7 +26,7 @@ Mean mean_of(const std::vector<double>& column, std::size_t from, std::size_t to
     mean.value += each / kBlocks;
     square += each * each / kBlocks;
   }
-  mean.deviation = std::sqrt(std::max(0.0, square - mean.value * mean.value) / (kBlocks - 1));
+  mean.standard_error = std::sqrt(std::max(0.0, square - mean.value * mean.value) / (kBlocks - 1));
   return mean;
 }
 

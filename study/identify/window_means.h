@@ -9,14 +9,14 @@ namespace towbench::study::identify {
 
 struct Mean {
   double value = 0;
-  double deviation = 0;  // of the mean, from ten blocks
+  double standard_error = 0;  // of the mean, from ten blocks
 };
 
-// Rows [from, to) of a column. Fewer than 20 rows: no deviation can be told, it is infinite.
+// Rows [from, to) of a column. Fewer than 20 rows: no standard error can be told, it is infinite.
 [[nodiscard]] Mean mean_of(const std::vector<double>& column, std::size_t from, std::size_t to);
 
 // Rows [from, to) weighed by a raised cosine, which a swing of two periods or more does not get
-// through (Harris 1978). How sure it is only its likes can tell: the deviation is left 0.
+// through (Harris 1978). How sure it is only its likes can tell: the standard error is left 0.
 [[nodiscard]] Mean smooth_mean_of(const std::vector<double>& column, std::size_t from,
                                   std::size_t to);
 

@@ -29,7 +29,7 @@ Candidate best_level(const Frame& frame, const Effect& effect, const Model& star
     effect.set(model.parameters, frame.context, scales);
     model.parameters[effect.amplitudes.front()] = effect.whole;
     const double cost = fit_model(*frame.data, frame.context, model,
-                                  base_freedoms(frame.context, frame.data->scenes.size()),
+                                  base_free_parameters(frame.context, frame.data->scenes.size()),
                                   frame.bandwidth, kFirstRounds)
                             .cost;
     if (chosen.scales.empty() || cost < least) {

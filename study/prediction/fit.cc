@@ -18,16 +18,17 @@ constexpr double kGoodEnough = 3e-5;  // relative fall of the cost that ends a f
 constexpr double kLargestFactor = 2;
 constexpr double kFastest_per_sample = 0.25;  // bandwidth times period
 
-double penalty(const std::vector<Freedom>& free, const VectorXd& ridge, Model& model) {
+double penalty(const std::vector<FreeParameter>& free, const VectorXd& ridge, Model& model) {
   double sum = 0;
   for (std::size_t j = 0; j < free.size(); ++j) {
     const double v = value_in(model, free[j]);
-    sum += free[j].of == Freedom::Of::kAll ? 0 : ridge[static_cast<Index>(j)] * v * v;
+    sum += free[j].of == FreeParameter::Of::kAll ? 0 : ridge[static_cast<Index>(j)] * v * v;
   }
   return sum;
 }
 
-Model moved(const Model& from, const std::vector<Freedom>& free, const VectorXd& by, double share) {
+Model moved(const Model& from, const std::vector<FreeParameter>& free, const VectorXd& by,
+            double share) {
   Model to = from;
   for (std::size_t j = 0; j < free.size(); ++j) {
     double& value = value_in(to, free[j]);
@@ -46,42 +47,43 @@ Model moved(const Model& from, const std::vector<Freedom>& free, const VectorXd&
 
 }  // namespace
 
-std::vector<Freedom> base_freedoms(const Context& c, std::size_t runs) {
+std::vector<FreeParameter> base_free_parameters(const Context& c, std::size_t runs) {
   const double force = 0.01 * c.input_rms_N;
   const double speed = std::max(1e-12, c.top_speed_m_per_s);
-  std::vector<Freedom> free{{.key = Key::kMass, .step = 0.01 * c.stated.mass_kg, .positive = true},
-                            {.key = Key::kViscous, .step = force / speed},
-                            {.key = Key::kCoulomb, .step = force},
-                            {.key = Key::kBias, .step = force}};
+  std::vector<FreeParameter> free{
+      {.key = Key::kMass, .step = 0.01 * c.stated.mass_kg, .positive = true},
+      {.key = Key::kViscous, .step = force / speed},
+      {.key = Key::kCoulomb, .step = force},
+      {.key = Key::kBias, .step = force}};
   for (std::size_t run = 0; run < runs && runs > 1; ++run) {
-    free.push_back({.of = Freedom::Of::kBiasOfRun, .run = run, .step = force});
-    free.push_back({.of = Freedom::Of::kCoulombOfRun, .run = run, .step = force});
+    free.push_back({.of = FreeParameter::Of::kBiasOfRun, .run = run, .step = force});
+    free.push_back({.of = FreeParameter::Of::kCoulombOfRun, .run = run, .step = force});
   }
   return free;
 }
 
-double& value_in(Model& model, const Freedom& f) {
+double& value_in(Model& model, const FreeParameter& f) {
   switch (f.of) {
-    case Freedom::Of::kBiasOfRun:
+    case FreeParameter::Of::kBiasOfRun:
       return model.of_run[f.run].bias_N;
-    case Freedom::Of::kCoulombOfRun:
+    case FreeParameter::Of::kCoulombOfRun:
       return model.of_run[f.run].coulomb_N;
-    case Freedom::Of::kAll:
+    case FreeParameter::Of::kAll:
       break;
   }
   return model.parameters[f.key];
 }
 
-MatrixXd derivatives(const Data& data, const Model& model, const std::vector<Freedom>& free,
+MatrixXd derivatives(const Data& data, const Model& model, const std::vector<FreeParameter>& free,
                      const VectorXd& e, double bandwidth) {
   MatrixXd x = MatrixXd::Zero(data.samples(), std::ssize(free));
   in_parallel(free.size(), [&](std::size_t j) {
-    const Freedom& f = free[j];
+    const FreeParameter& f = free[j];
     Model other = model;
     value_in(other, f) += f.step;
     const auto column = static_cast<Index>(j);
     for (std::size_t run = 0; run < data.scenes.size(); ++run) {
-      if (f.of == Freedom::Of::kAll || f.run == run) {
+      if (f.of == FreeParameter::Of::kAll || f.run == run) {
         const Index from = data.starts[run];
         const Index n = data.starts[run + 1] - from;
         x.col(column).segment(from, n) =
@@ -92,11 +94,11 @@ MatrixXd derivatives(const Data& data, const Model& model, const std::vector<Fre
   return x;
 }
 
-VectorXd ridge_of(const std::vector<Freedom>& free, const Context& c, double mean_square) {
+VectorXd ridge_of(const std::vector<FreeParameter>& free, const Context& c, double mean_square) {
   VectorXd ridge = VectorXd::Zero(std::ssize(free));
   const double usual = kRunsDiffer * std::max(c.stated.coulomb_N, 0.2 * c.input_rms_N);
   for (std::size_t j = 0; j < free.size(); ++j) {
-    if (free[j].of != Freedom::Of::kAll) {
+    if (free[j].of != FreeParameter::Of::kAll) {
       ridge[static_cast<Index>(j)] = mean_square / (usual * usual);
     }
   }
@@ -104,7 +106,7 @@ VectorXd ridge_of(const std::vector<Freedom>& free, const Context& c, double mea
 }
 
 Fitted fit_model(const Data& data, const Context& context, Model start,
-                 const std::vector<Freedom>& free, double bandwidth, int rounds) {
+                 const std::vector<FreeParameter>& free, double bandwidth, int rounds) {
   Fitted best{std::move(start), {}, 0};
   best.e = innovations(data, best.model, bandwidth);
   const double mean_square = best.e.squaredNorm() / static_cast<double>(best.e.size());
@@ -118,7 +120,8 @@ Fitted fit_model(const Data& data, const Context& context, Model start,
     for (std::size_t j = 0; j < free.size(); ++j) {
       const auto i = static_cast<Index>(j);
       a(i, i) += ridge[i];
-      b[i] -= ridge[i] * (free[j].of == Freedom::Of::kAll ? 0 : value_in(best.model, free[j]));
+      b[i] -=
+          ridge[i] * (free[j].of == FreeParameter::Of::kAll ? 0 : value_in(best.model, free[j]));
     }
     const VectorXd scale = a.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     const MatrixXd scaled = scale.asDiagonal() * a * scale.asDiagonal();

@@ -10,7 +10,7 @@
 namespace towbench::study::diagnose {
 
 // What a fit may move: a key, or what one run has of its own.
-struct Freedom {
+struct FreeParameter {
   enum class Of { kAll, kBiasOfRun, kCoulombOfRun };
   Of of = Of::kAll;
   Key key = Key::kMass;
@@ -20,17 +20,18 @@ struct Freedom {
 };
 
 // Mass, friction and offset, of all runs and of each where there are several.
-[[nodiscard]] std::vector<Freedom> base_freedoms(const Context& context, std::size_t runs);
+[[nodiscard]] std::vector<FreeParameter> base_free_parameters(const Context& context,
+                                                              std::size_t runs);
 
-[[nodiscard]] double& value_in(Model& model, const Freedom& freedom);
+[[nodiscard]] double& value_in(Model& model, const FreeParameter& free_parameter);
 
 // Columns -de/dp, so that e = X (p_true - p) + rest; on all processors.
 [[nodiscard]] Eigen::MatrixXd derivatives(const Data& data, const Model& model,
-                                          const std::vector<Freedom>& free,
+                                          const std::vector<FreeParameter>& free,
                                           const Eigen::VectorXd& e, double bandwidth);
 // One a freedom: what a run has of its own is held near zero by what runs usually differ by.
-[[nodiscard]] Eigen::VectorXd ridge_of(const std::vector<Freedom>& free, const Context& context,
-                                       double mean_square);
+[[nodiscard]] Eigen::VectorXd ridge_of(const std::vector<FreeParameter>& free,
+                                       const Context& context, double mean_square);
 
 struct Fitted {
   Model model;
@@ -38,7 +39,8 @@ struct Fitted {
   double cost = 0;  // sum of squares with the penalty
 };
 [[nodiscard]] Fitted fit_model(const Data& data, const Context& context, Model start,
-                               const std::vector<Freedom>& free, double bandwidth, int rounds);
+                               const std::vector<FreeParameter>& free, double bandwidth,
+                               int rounds);
 
 // Of the correction, where the innovations are least; rad/s.
 [[nodiscard]] double best_bandwidth(const Data& data, const Context& context, const Model& model);

@@ -35,7 +35,8 @@ class Searcher {
 
   Search run(const Model& start) {
     start_ = start;
-    const std::vector<Freedom> free = base_freedoms(frame_.context, data_.scenes.size());
+    const std::vector<FreeParameter> free =
+        base_free_parameters(frame_.context, data_.scenes.size());
     Model model = start;
     for (int round = 0; round < 2; ++round) {
       set_bandwidth(frame_, model);
@@ -230,7 +231,7 @@ class Searcher {
     if (effect.whole != 0) {
       return own.gain > kFresh && own.standard_errors > limits_.least_errors ? 0 : 1;
     }
-    Index at = std::ssize(base_freedoms(frame_.context, data_.scenes.size()));
+    Index at = std::ssize(base_free_parameters(frame_.context, data_.scenes.size()));
     for (std::size_t i = 0; i < which; ++i) at += std::ssize(s.accepted[i].free);
     const Index k = std::ssize(effect.amplitudes);
     VectorXd b(k);

@@ -25,7 +25,7 @@ void set_bandwidth(Frame& frame, const Model& model) {
 
 State make_state(const Frame& frame, std::vector<Accepted> accepted, const Model& from) {
   State s;
-  s.free = base_freedoms(frame.context, frame.data->scenes.size());
+  s.free = base_free_parameters(frame.context, frame.data->scenes.size());
   for (const Accepted& a : accepted) {
     s.free.insert(s.free.end(), a.free.begin(), a.free.end());
   }

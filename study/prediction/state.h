@@ -21,13 +21,13 @@ void set_bandwidth(Frame& frame, const Model& model);
 // An effect with its scales, as a model holds it.
 struct Accepted {
   const Effect* effect = nullptr;
-  std::vector<Freedom> free;
+  std::vector<FreeParameter> free;
   bool sought = false;  // at a frequency that was found in the innovations
 };
 
 struct State {
   std::vector<Accepted> accepted;
-  std::vector<Freedom> free;  // base first
+  std::vector<FreeParameter> free;  // base first
   Fitted fitted;
   Eigen::MatrixXd derivatives;
   Eigen::VectorXd ridge;

@@ -72,7 +72,7 @@ void tell_swing(const identify::Estimates& known, core::Axis which,
 }  // namespace
 
 bbmc::Configuration studied_configuration(const ProcedureContext& context) {
-  constexpr double kFrictionRoom = 1.6;  // *assumed*: no machine of a kind has more than that
+  constexpr double kMostFriction = 1.6;  // *assumed*: no machine of a kind has more than that
   auto configuration = context.machine.configuration();
   for (const auto which : core::kPlanarAxes) {
     auto& axis = configuration.axes[which];
@@ -83,7 +83,7 @@ bbmc::Configuration studied_configuration(const ProcedureContext& context) {
     };
     of("torque_constant_Nm_per_A", axis.drive.torque_constant_Nm_per_A);
     of("amplifier_gain_A_per_V", axis.drive.amplifier_gain_A_per_V);
-    axis.plausibility.worst_breakaway_Nm *= kFrictionRoom;
+    axis.plausibility.worst_breakaway_Nm *= kMostFriction;
     tell_swing(context.known, which, axis.braking);
     // With a weaker motor than believed the voltage is used up at a higher speed; the guard against
     // running away shall know of it.
@@ -105,7 +105,8 @@ TorqueScale torque_scale(const ProcedureContext& context) {
                              context.machine.nameplate(context.axis).pwm_amplitude_V / 100;
   if (const auto* measured = context.find("torque_per_volt_Nm_per_V")) {
     scale.measured = true;
-    scale.relative_deviation = measured->half_width() / measured->value / statistics::kNormal95;
+    scale.relative_standard_error =
+        measured->half_width() / measured->value / statistics::kNormal95;
   }
   return scale;
 }

@@ -18,7 +18,7 @@ namespace towbench::study::procedures {
 // K_T K_amp, 0 when nobody measured it.
 struct TorqueScale {
   double torque_per_duty_Nm = 0;
-  double relative_deviation = 0;
+  double relative_standard_error = 0;
   bool measured = false;
 };
 [[nodiscard]] TorqueScale torque_scale(const ProcedureContext& context);

@@ -146,7 +146,7 @@ class BreakAwayMap final : public Procedure {
       const double bracket = (1 + kSwingHelps) * step;
       const double value = sum / n + 0.5 * kSwingHelps * step;
       const double resolution = 0.5 * 0.95 * bracket / statistics::kNormal95;
-      outcome.estimates.push_back(identify::with_deviation(
+      outcome.estimates.push_back(identify::with_standard_error(
           {.quantity = "breakaway_Nm",
            .axis = std::string(core::name_of(context.axis)),
            .value = value,
@@ -156,7 +156,7 @@ class BreakAwayMap final : public Procedure {
                                    scale.measured ? "EXP-P-1" : "the believed K_T K_amp"),
            .procedure = "EXP-OL-1",
            .at = place / n},
-          std::hypot(std::hypot(spread, resolution), value * scale.relative_deviation)));
+          std::hypot(std::hypot(spread, resolution), value * scale.relative_standard_error)));
       const auto& e = outcome.estimates.back();
       map.x.push_back(place / n);
       map.y.push_back(1e3 * value);

@@ -161,30 +161,31 @@ class DriveCalibration final : public Procedure {
                                       "; the current is {:.1f} % off a straight line over "
                                       "the force: a loss that grows with the load",
                                       100 * bend);
-    const auto add = [&](const char* quantity, double value, double deviation, const char* unit,
-                         const std::string& rests_on, double model_error = 0) {
-      auto estimate = identify::with_deviation({.quantity = quantity,
-                                                .axis = std::string(core::name_of(context.axis)),
-                                                .value = value,
-                                                .unit = unit,
-                                                .rests_on = rests_on,
-                                                .procedure = "EXP-P-1"},
-                                               kOverlap * deviation);
+    const auto add = [&](const char* quantity, double value, double standard_error,
+                         const char* unit, const std::string& rests_on, double model_error = 0) {
+      auto estimate =
+          identify::with_standard_error({.quantity = quantity,
+                                         .axis = std::string(core::name_of(context.axis)),
+                                         .value = value,
+                                         .unit = unit,
+                                         .rests_on = rests_on,
+                                         .procedure = "EXP-P-1"},
+                                        kOverlap * standard_error);
       estimate.low -= model_error * value;
       estimate.high += model_error * value;
       outcome.estimates.push_back(std::move(estimate));
     };
-    add("torque_constant_Nm_per_A", found.torque_constant_Nm_per_A, found.torque_constant_deviation,
-        "N m/A",
+    add("torque_constant_Nm_per_A", found.torque_constant_Nm_per_A,
+        found.torque_constant_standard_error, "N m/A",
         "current monitor and force sensor at one speed under opposite pushes; gear and wheel by "
         "their drawings, no loss in the gear, sensors linear" +
             bent,
         loss);
-    add("amplifier_gain_A_per_V", found.amplifier_gain_A_per_V, found.amplifier_gain_deviation,
+    add("amplifier_gain_A_per_V", found.amplifier_gain_A_per_V, found.amplifier_gain_standard_error,
         "A/V", "current monitor over the mean of the duty written");
     add("torque_per_volt_Nm_per_V", found.torque_constant_Nm_per_A * found.amplifier_gain_A_per_V,
         found.torque_constant_Nm_per_A * found.amplifier_gain_A_per_V *
-            found.torque_per_volt_deviation,
+            found.torque_per_volt_standard_error,
         "N m/V", "force sensor over the mean of the duty written; no current monitor" + bent, loss);
     ResultTable table{.title = "Steady runs under a push, the middle stretch of each",
                       .head = {"direction", "force, N", "current, A", "command, V"}};

@@ -56,7 +56,7 @@ identify::TwoMassStart pulse_start(const ProcedureContext& context, const identi
       value_or(context, "swing_Hz", start.axis.elasticity.resonance_Hz);
   start.stribeck_known = 0.7;
   start.excess_known = 0.5;
-  start.rotor_known = torque_scale(context).relative_deviation;
+  start.rotor_known = torque_scale(context).relative_standard_error;
   const auto& counts = data.axes[context.axis].count;
   const auto [low, high] = std::minmax_element(counts.begin(), counts.end());
   const double from = static_cast<double>(*low) * data.metres_per_count[context.axis];

@@ -201,12 +201,12 @@ class RelayTuning final : public Procedure {
                                  const std::vector<std::string>& lost, const Critical& chosen,
                                  const Trial& trial) {
     // The controller ends its search within 5 % of the amplitude, and counts 8 periods in ticks.
-    constexpr double kGainDeviation = 0.02;
+    constexpr double kGainStandardError = 0.02;
     ProcedureOutcome outcome;
     const auto scale = torque_scale(context);
-    const auto add = [&](const char* quantity, double value, double deviation, const char* unit,
-                         double amplitude_m) {
-      outcome.estimates.push_back(identify::with_deviation(
+    const auto add = [&](const char* quantity, double value, double standard_error,
+                         const char* unit, double amplitude_m) {
+      outcome.estimates.push_back(identify::with_standard_error(
           {.quantity = quantity,
            .axis = std::string(core::name_of(context.axis)),
            .value = value,
@@ -217,15 +217,15 @@ class RelayTuning final : public Procedure {
                                    scale.measured ? "EXP-P-1" : "the believed K_T K_amp"),
            .procedure = "tuning",
            .at = amplitude_m},
-          deviation));
+          standard_error));
     };
     Curve gains{.name = "K_C", .mark = Mark::kDots};
     ResultTable table{.title = "Critical gain by amplitude",
                       .head = {"amplitude, mm", "K_C, N m/rad", "T_C, ms", "relay, mN m"}};
     for (const auto& each : curve) {
       add("critical_gain_Nm_per_rad", each.gain_Nm_per_rad,
-          each.gain_Nm_per_rad * std::hypot(kGainDeviation, scale.relative_deviation), "N m/rad",
-          each.amplitude_m);
+          each.gain_Nm_per_rad * std::hypot(kGainStandardError, scale.relative_standard_error),
+          "N m/rad", each.amplitude_m);
       add("critical_period_s", each.period_s, 0.01 * each.period_s, "s", each.amplitude_m);
       gains.x.push_back(1e3 * each.amplitude_m);
       gains.y.push_back(1e3 * each.gain_Nm_per_rad);

@@ -86,7 +86,7 @@ class SafeRange final : public Procedure {
       const auto weighed = edges.weighed();
       for (std::size_t k = 0; k < doubts.size(); ++k) {
         auto other = transmission;
-        other.*doubts[k].what += doubts[k].deviation;
+        other.*doubts[k].what += doubts[k].standard_error;
         doubted[k] += (study.edges(other).weighed().counts - weighed.counts) / settings.repeats;
       }
       all.push_back(weighed);
@@ -103,7 +103,7 @@ class SafeRange final : public Procedure {
 
  private:
   static std::string told(const Distance& distance) {
-    return fmt::format("{:.1f} +- {:.1f}", distance.counts, distance.deviation_counts);
+    return fmt::format("{:.1f} +- {:.1f}", distance.counts, distance.standard_error_counts);
   }
 
   static identify::Recording play(const ProcedureContext& context,
@@ -156,7 +156,7 @@ class SafeRange final : public Procedure {
     const double m = belief.m_per_count();
     ProcedureOutcome outcome;
     const auto add = [&](const char* quantity, double value) {
-      outcome.estimates.push_back(identify::with_deviation(
+      outcome.estimates.push_back(identify::with_standard_error(
           {.quantity = quantity,
            .axis = std::string(core::name_of(context.axis)),
            .value = value,

@@ -39,7 +39,7 @@ KnownTransmission known_transmission(const ProcedureContext& context) {
   transmission.torque_per_duty_Nm = scale.torque_per_duty_Nm;
   known.doubts.push_back(
       {&Transmission::torque_per_duty_Nm,
-       scale.torque_per_duty_Nm * (scale.measured ? scale.relative_deviation : kBelieved)});
+       scale.torque_per_duty_Nm * (scale.measured ? scale.relative_standard_error : kBelieved)});
   const auto take = [&](double Transmission::*what, const char* quantity, double belief) {
     const auto* found = context.find(quantity);
     known.identified = known.identified && found != nullptr;
@@ -67,12 +67,12 @@ SwitchStudy::SwitchStudy(const identify::Recording& data, core::Axis axis,
       counts_(identify::counts_in_one_frame(data, axis, approaches)) {}
 
 Distance Edges::weighed() const noexcept {
-  const double of_slow = 1 / (slow.deviation_counts * slow.deviation_counts);
-  const double of_fast = 1 / (fast.deviation_counts * fast.deviation_counts);
+  const double of_slow = 1 / (slow.standard_error_counts * slow.standard_error_counts);
+  const double of_fast = 1 / (fast.standard_error_counts * fast.standard_error_counts);
   const double all = of_slow + of_fast;
   return {
       .counts = (of_slow * slow.counts + of_fast * fast.counts) / all,
-      .deviation_counts = 1 / std::sqrt(all),
+      .standard_error_counts = 1 / std::sqrt(all),
       .alike_counts = std::hypot(of_slow * slow.alike_counts, of_fast * fast.alike_counts) / all};
 }
 
@@ -101,7 +101,7 @@ Distance SwitchStudy::between(const Transmission& transmission,
     square += way * way + ahead.rounding_counts * ahead.rounding_counts;
     alike_square += ahead.hidden_counts * ahead.hidden_counts;
   }
-  distance.deviation_counts = std::sqrt(square + alike_square);
+  distance.standard_error_counts = std::sqrt(square + alike_square);
   distance.alike_counts = std::sqrt(alike_square);
   return distance;
 }
@@ -167,7 +167,7 @@ SwitchStudy::Moment SwitchStudy::moment_at(const Transmission& transmission,
       .torque_Nm_per_s = approach.outward * duty.per_row * transmission.torque_per_duty_Nm * per_s,
       .speed_rad_per_s = last.per_row * rad_per_count * per_s + acceleration * since_s,
       .acceleration_rad_per_s2 = acceleration,
-      .acceleration_deviation =
+      .acceleration_standard_error =
           std::sqrt(2 / (n * n * n * n * n)) * data_.rad_per_count[axis_] * per_s * per_s};
 }
 
@@ -186,10 +186,10 @@ SwitchStudy::Lead SwitchStudy::lead(const Transmission& transmission,
   const double changes = moment.torque_Nm_per_s * counts_per_Nm;  // counts per s
   const double damping_s =
       transmission.damping_ratio / (std::numbers::pi * transmission.resonance_Hz);  // 2 zeta / w_0
-  return {
-      .counts = transmission_Nm * counts_per_Nm - damping_s * changes,
-      .rounding_counts = transmission.rotor_kg_m2 * moment.acceleration_deviation * counts_per_Nm,
-      .hidden_counts = std::hypot(kLeast_counts, kLeftOut_rows * data_.period_s * changes)};
+  return {.counts = transmission_Nm * counts_per_Nm - damping_s * changes,
+          .rounding_counts =
+              transmission.rotor_kg_m2 * moment.acceleration_standard_error * counts_per_Nm,
+          .hidden_counts = std::hypot(kLeast_counts, kLeftOut_rows * data_.period_s * changes)};
 }
 
 }  // namespace towbench::study::procedures

@@ -36,7 +36,7 @@ struct Transmission {
 // One of them that may be off, and by how much.
 struct Doubt {
   double Transmission::*what = nullptr;
-  double deviation = 0;
+  double standard_error = 0;
 };
 
 struct KnownTransmission {
@@ -49,7 +49,7 @@ struct KnownTransmission {
 // Distance between the switches by one kind of approach.
 struct Distance {
   double counts = 0;
-  double deviation_counts = 0;
+  double standard_error_counts = 0;
   double alike_counts = 0;  // the part of it that no repeat takes away: what the slip hides
 };
 
@@ -83,12 +83,12 @@ class SwitchStudy {
     double torque_Nm_per_s = 0;
     double speed_rad_per_s = 0;
     double acceleration_rad_per_s2 = 0;
-    double acceleration_deviation = 0;  // of it, by the encoder's rounding
+    double acceleration_standard_error = 0;  // of it, by the encoder's rounding
   };
   // By which the motor is ahead of the carriage.
   struct Lead {
     double counts = 0;
-    double rounding_counts = 0;  // deviations
+    double rounding_counts = 0;  // standard errors
     double hidden_counts = 0;
   };
   [[nodiscard]] Moment moment_at(const Transmission& transmission,

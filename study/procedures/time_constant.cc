@@ -102,9 +102,9 @@ class TimeConstant final : public Procedure {
  private:
   // Nine tenths of the speed whose back EMF the amplifier can just stand against.
   static double fastest_coast(const ProcedureContext& context) {
-    constexpr double kRoom = 0.9;
+    constexpr double kShare = 0.9;
     const auto& plate = context.machine.nameplate(context.axis);
-    return kRoom * plate.output_limit_V / believed_axis(context).torque_constant_Nm_per_A *
+    return kShare * plate.output_limit_V / believed_axis(context).torque_constant_Nm_per_A *
            plate.metres_per_motor_rad();
   }
 
@@ -141,7 +141,7 @@ class TimeConstant final : public Procedure {
     // A loss that grows with the load, which EXP-P-1 has seen, bends a coast as well.
     const double half =
         std::hypot(spread, kModelError95 * mean,
-                   statistics::kNormal95 * torque_scale(context).relative_deviation * mean);
+                   statistics::kNormal95 * torque_scale(context).relative_standard_error * mean);
     ProcedureOutcome outcome;
     outcome.estimates.push_back(
         {.quantity = "mechanical_time_constant_s",

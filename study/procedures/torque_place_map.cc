@@ -49,7 +49,7 @@ struct TorquePlaceMapSettings {
 struct Level {
   double place_m = 0;
   double torque_Nm = 0;
-  double deviation_Nm = 0;
+  double standard_error_Nm = 0;
 };
 
 class TorquePlaceMap final : public Procedure {
@@ -129,12 +129,12 @@ class TorquePlaceMap final : public Procedure {
         continue;
       }
       const auto mean = identify::mean_of(axis.duty_pct, begin, k);
-      if (bin >= 0 && std::isfinite(mean.deviation)) {
+      if (bin >= 0 && std::isfinite(mean.standard_error)) {
         auto& level = levels[static_cast<std::size_t>(bin)];
         level.place_m = from_m + edge_m + (static_cast<double>(bin) + 0.5) * settings.bin_m;
         level.torque_Nm += 0.5 * std::fabs(mean.value) * scale;
-        level.deviation_Nm =
-            std::hypot(level.deviation_Nm, 0.5 * std::max(mean.deviation, kRounding_pct) * scale);
+        level.standard_error_Nm = std::hypot(
+            level.standard_error_Nm, 0.5 * std::max(mean.standard_error, kRounding_pct) * scale);
         ++seen[static_cast<std::size_t>(bin)];
       }
       begin = k;
@@ -162,8 +162,8 @@ class TorquePlaceMap final : public Procedure {
     for (const auto& slow : levels[0]) {
       for (const auto& fast : levels[1]) {
         if (std::fabs(slow.place_m - fast.place_m) < 0.5 * settings.bin_m) {
-          const double w =
-              1 / (slow.deviation_Nm * slow.deviation_Nm + fast.deviation_Nm * fast.deviation_Nm);
+          const double w = 1 / (slow.standard_error_Nm * slow.standard_error_Nm +
+                                fast.standard_error_Nm * fast.standard_error_Nm);
           const double more = fast.torque_Nm - slow.torque_Nm;
           sum += w * more;
           square += w * more * more;
@@ -183,14 +183,14 @@ class TorquePlaceMap final : public Procedure {
     const double slow_tail_Nm = lorentz_tail_Nm(context, levels[0], viscous * slow_w, slow_w);
     const double fast_tail_Nm =
         lorentz_tail_Nm(context, levels[0], viscous * slow_w, speeds[1] * rad_per_m);
-    const double viscous_deviation =
+    const double viscous_standard_error =
         (std::sqrt(scatter / weight) + (slow_tail_Nm - fast_tail_Nm) / statistics::kNormal95) /
         apart;
     std::vector<identify::LinePoint> points;
     for (std::size_t i = 0; i < speeds.size(); ++i) {
       for (const auto& each : levels.at(i)) {
-        points.push_back(
-            {each.place_m, each.torque_Nm - viscous * speeds.at(i) * rad_per_m, each.deviation_Nm});
+        points.push_back({each.place_m, each.torque_Nm - viscous * speeds.at(i) * rad_per_m,
+                          each.standard_error_Nm});
       }
     }
     const auto map = identify::fit_bent_line(points, settings.most_bends);
@@ -198,8 +198,9 @@ class TorquePlaceMap final : public Procedure {
       return ProcedureOutcome::failed(fmt::format("{} bins are too few", points.size()));
     }
     ProcedureOutcome outcome;
-    const auto add = [&](const char* quantity, double value, double deviation, const char* unit) {
-      outcome.estimates.push_back(identify::with_deviation(
+    const auto add = [&](const char* quantity, double value, double standard_error,
+                         const char* unit) {
+      outcome.estimates.push_back(identify::with_standard_error(
           {.quantity = quantity,
            .axis = std::string(core::name_of(context.axis)),
            .value = value,
@@ -209,12 +210,12 @@ class TorquePlaceMap final : public Procedure {
                                    settings.bin_m, speeds[0], speeds[1],
                                    scale.measured ? "EXP-P-1" : "the believed K_T K_amp"),
            .procedure = "EXP-CL-2"},
-          std::hypot(deviation, value * scale.relative_deviation)));
+          std::hypot(standard_error, value * scale.relative_standard_error)));
     };
-    add("steady_viscous_Nm_s_per_rad", viscous, viscous_deviation, "N m s/rad");
+    add("steady_viscous_Nm_s_per_rad", viscous, viscous_standard_error, "N m s/rad");
     for (std::size_t i = 0; i < map.x.size(); ++i) {
       add("sliding_friction_Nm", map.y[i],
-          std::hypot(map.deviation[i], viscous_deviation * slow_w) +
+          std::hypot(map.standard_error[i], viscous_standard_error * slow_w) +
               slow_tail_Nm / statistics::kNormal95,
           "N m");
       outcome.estimates.back().at = map.x[i];

@@ -207,7 +207,7 @@ class TorqueSpeedMap final : public Procedure {
       }
       from += static_cast<std::size_t>(settle_m / speed / data.period_s);
       const auto torque = identify::mean_of(axis.duty_pct, from, to);
-      if (!std::isfinite(torque.deviation)) {
+      if (!std::isfinite(torque.standard_error)) {
         continue;
       }
       if (sticks(data, context.axis, from, to, speed)) {
@@ -216,13 +216,13 @@ class TorqueSpeedMap final : public Procedure {
       }
       // The speed itself may drift a little, and the mean of a rounded duty is that good at best.
       const double rounding = 0.1 / std::sqrt(12.0 * static_cast<double>(to - from) / 20);
-      runs.push_back(
-          {.speed_rad_per_s = sign * speed / data.metres_per_count[context.axis] *
-                              data.rad_per_count[context.axis],
-           .torque_Nm = torque.value * scale.torque_per_duty_Nm,
-           .deviation_Nm = std::hypot(torque.deviation, rounding) * scale.torque_per_duty_Nm,
-           .position_m =
-               0.5 * (data.position_m(context.axis, from) + data.position_m(context.axis, to))});
+      runs.push_back({.speed_rad_per_s = sign * speed / data.metres_per_count[context.axis] *
+                                         data.rad_per_count[context.axis],
+                      .torque_Nm = torque.value * scale.torque_per_duty_Nm,
+                      .standard_error_Nm =
+                          std::hypot(torque.standard_error, rounding) * scale.torque_per_duty_Nm,
+                      .position_m = 0.5 * (data.position_m(context.axis, from) +
+                                           data.position_m(context.axis, to))});
     }
     return stalled;
   }
@@ -242,9 +242,9 @@ class TorqueSpeedMap final : public Procedure {
     }
     const auto scale = torque_scale(context);
     ProcedureOutcome outcome;
-    const auto add = [&](const char* quantity, double value, double deviation, const char* unit,
-                         bool scales) {
-      outcome.estimates.push_back(identify::with_deviation(
+    const auto add = [&](const char* quantity, double value, double standard_error,
+                         const char* unit, bool scales) {
+      outcome.estimates.push_back(identify::with_standard_error(
           {.quantity = quantity,
            .axis = std::string(core::name_of(context.axis)),
            .value = value,
@@ -255,19 +255,19 @@ class TorqueSpeedMap final : public Procedure {
                                    law.lorentz ? "Lorentz (3.26)" : "Gaussian (3.25)",
                                    scale.measured ? "EXP-P-1" : "the believed K_T K_amp"),
            .procedure = "EXP-CL-1"},
-          std::hypot(deviation, scales ? value * scale.relative_deviation : 0.0)));
+          std::hypot(standard_error, scales ? value * scale.relative_standard_error : 0.0)));
     };
-    add("map_excess_Nm", law.excess_Nm, law.excess_deviation_Nm, "N m", true);
+    add("map_excess_Nm", law.excess_Nm, law.excess_standard_error_Nm, "N m", true);
     const auto corrected = beside_reference(context, settings, speeds, middle_m, runs);
     context.tell(1);
     if (corrected) {
       const auto& [shown, reference, shift] = *corrected;
       add("map_stribeck_rad_per_s", reference.stribeck_rad_per_s + shift.stribeck_rad_per_s,
-          shift.stribeck_deviation, "rad/s", false);
+          shift.stribeck_standard_error, "rad/s", false);
       add("map_viscous_Nm_s_per_rad", reference.viscous_Nm_s_per_rad + shift.viscous_Nm_s_per_rad,
-          shift.viscous_deviation, "N m s/rad", true);
-      add("map_coulomb_Nm", reference.coulomb_Nm + shift.coulomb_Nm, shift.coulomb_deviation_Nm,
-          "N m", true);
+          shift.viscous_standard_error, "N m s/rad", true);
+      add("map_coulomb_Nm", reference.coulomb_Nm + shift.coulomb_Nm,
+          shift.coulomb_standard_error_Nm, "N m", true);
       outcome.estimates.back().at = middle_m;
     }
     add_pictures(runs, law, stalled, corrected, outcome);
@@ -284,8 +284,9 @@ class TorqueSpeedMap final : public Procedure {
     for (const auto& run : runs) {
       measured.x.push_back(run.speed_rad_per_s);
       measured.y.push_back(1e3 * run.torque_Nm);
-      measured.low.push_back(1e3 * (run.torque_Nm - statistics::kNormal95 * run.deviation_Nm));
-      measured.high.push_back(1e3 * (run.torque_Nm + statistics::kNormal95 * run.deviation_Nm));
+      measured.low.push_back(1e3 * (run.torque_Nm - statistics::kNormal95 * run.standard_error_Nm));
+      measured.high.push_back(1e3 *
+                              (run.torque_Nm + statistics::kNormal95 * run.standard_error_Nm));
       places.x.push_back(run.position_m);
       places.y.push_back(1e3 * std::fabs(run.torque_Nm));
       top = std::max(top, std::fabs(run.speed_rad_per_s));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 #include <string_view>
 
@@ -23,67 +24,103 @@ constexpr double kMostLeft_counts = 2;
 constexpr double kWidest = 0.5;
 constexpr double kRight_counts = 0.5;  // as the search has it (identify/output_error.cc)
 
-void add_estimates(const TwoMassReport& report, ProcedureOutcome& outcome) {
-  const auto& context = report.context;
-  const auto& fit = report.fit;
-  const auto& knots = fit.knots_m;
-  const auto scale = torque_scale(context);
-  const auto rests = fmt::format(
-      "output error of the two-mass model over {} rows, residual {:.2f} counts; torque by {}",
-      report.data.rows(), fit.residual_rms_counts,
-      scale.measured ? "EXP-P-1" : "the believed K_T K_amp, whose error is not in the interval");
-  const bool right = fit.residual_rms_counts <= kRight_counts;
-  const auto add = [&](const char* quantity, double value, double deviation, const char* unit,
-                       bool scales, std::optional<double> at = std::nullopt) {
-    const double whole = std::hypot(deviation, scales ? value * scale.relative_deviation : 0.0);
-    auto estimate = identify::with_deviation({.quantity = quantity,
-                                              .axis = std::string(core::name_of(context.axis)),
-                                              .value = value,
-                                              .unit = unit,
-                                              .rests_on = rests,
-                                              .procedure = report.procedure,
-                                              .at = at},
-                                             whole);
+struct Found {
+  const char* quantity;
+  double value;
+  double standard_error;
+  const char* unit;
+  bool is_torque = false;  // known as well as the torque of a duty is, at best
+  std::optional<double> at = std::nullopt;
+};
+
+// Tells what was found, or withholds it where the model is wrong and the interval too wide.
+class EstimateWriter {
+ public:
+  EstimateWriter(const TwoMassReport& report, ProcedureOutcome& outcome)
+      : report_(report), outcome_(outcome), torque_(torque_scale(report.context)) {}
+
+  void add(const Found& found) {
+    auto estimate = identify::with_standard_error(estimate_of(found), whole_error_of(found));
     // A Stribeck speed means another one in each form of the law.
-    const bool formless = !right && quantity == std::string_view("stribeck_speed_rad_per_s");
-    if (formless || (!right && estimate.half_width() > kWidest * std::fabs(value))) {
-      const double half_pct = 100 * estimate.half_width() / std::fabs(value);
-      outcome.withheld.push_back(identify::withheld(
-          std::move(estimate),
-          fmt::format("{:.3g} {} +-{:.0f} %: the two-mass model leaves {:.1f} counts RMS of the "
-                      "pulses",
-                      value, unit, half_pct, fit.residual_rms_counts)));
+    const bool formless = found.quantity == std::string_view("stribeck_speed_rad_per_s");
+    const double share = estimate.half_width() / std::fabs(found.value);
+    if (report_.fit.residual_rms_counts <= kRight_counts || (!formless && share <= kWidest)) {
+      outcome_.estimates.push_back(std::move(estimate));
       return;
     }
-    outcome.estimates.push_back(std::move(estimate));
-  };
-  add("inertia_kg_m2", fit.axis.inertia_kg_m2, fit.inertia_deviation, "kg m2", true);
-  add("viscous_friction_Nm_s_per_rad", fit.axis.viscous_friction_Nm_s_per_rad,
-      fit.viscous_deviation, "N m s/rad", true);
-  add("rotor_inertia_kg_m2", fit.axis.rotor_inertia_kg_m2, fit.rotor_deviation, "kg m2", false);
-  add("transmission_resonance_Hz", fit.axis.elasticity.resonance_Hz, fit.resonance_deviation_Hz,
-      "Hz", false);
-  add("transmission_damping_ratio", fit.axis.elasticity.damping_ratio, fit.damping_deviation, "1",
-      false);
-  add("friction_common_Nm", fit.axis.coulomb_friction_Nm, fit.common_deviation_Nm, "N m", true);
-  add("friction_carriage_share", fit.axis.friction.carriage_share, fit.share_deviation, "1", false);
-  add("stribeck_speed_rad_per_s", fit.axis.friction.stribeck_speed_rad_per_s,
-      fit.stribeck_deviation, "rad/s", false);
-  add("stiction_excess_Nm", fit.excess_Nm, fit.excess_deviation_Nm, "N m", true);
-  add(kLeftByPulses, fit.residual_rms_counts, 0, "counts RMS", false);
+    outcome_.withheld.push_back(identify::withheld(
+        std::move(estimate),
+        fmt::format("{:.3g} {} +-{:.0f} %: the two-mass model leaves {:.1f} counts RMS of the "
+                    "pulses",
+                    found.value, found.unit, 100 * share, report_.fit.residual_rms_counts)));
+  }
+
+ private:
+  [[nodiscard]] double whole_error_of(const Found& found) const {
+    return std::hypot(found.standard_error,
+                      found.is_torque ? found.value * torque_.relative_standard_error : 0.0);
+  }
+  [[nodiscard]] identify::Estimate estimate_of(const Found& found) const {
+    return {
+        .quantity = found.quantity,
+        .axis = std::string(core::name_of(report_.context.axis)),
+        .value = found.value,
+        .unit = found.unit,
+        .rests_on = fmt::format(
+            "output error of the two-mass model over {} rows, residual {:.2f} counts; torque by {}",
+            report_.data.rows(), report_.fit.residual_rms_counts,
+            torque_.measured ? "EXP-P-1"
+                             : "the believed K_T K_amp, whose error is not in the interval"),
+        .procedure = report_.procedure,
+        .at = found.at};
+  }
+
+  const TwoMassReport& report_;
+  ProcedureOutcome& outcome_;
+  TorqueScale torque_;
+};
+
+void add_constants(const identify::TwoMassFit& fit, EstimateWriter& estimates) {
+  const auto& axis = fit.axis;
+  for (const Found& found : std::initializer_list<Found>{
+           {"inertia_kg_m2", axis.inertia_kg_m2, fit.inertia_standard_error, "kg m2", true},
+           {"viscous_friction_Nm_s_per_rad", axis.viscous_friction_Nm_s_per_rad,
+            fit.viscous_standard_error, "N m s/rad", true},
+           {"rotor_inertia_kg_m2", axis.rotor_inertia_kg_m2, fit.rotor_standard_error, "kg m2"},
+           {"transmission_resonance_Hz", axis.elasticity.resonance_Hz,
+            fit.resonance_standard_error_Hz, "Hz"},
+           {"transmission_damping_ratio", axis.elasticity.damping_ratio, fit.damping_standard_error,
+            "1"},
+           {"friction_common_Nm", axis.coulomb_friction_Nm, fit.common_standard_error_Nm, "N m",
+            true},
+           {"friction_carriage_share", axis.friction.carriage_share, fit.share_standard_error, "1"},
+           {"stribeck_speed_rad_per_s", axis.friction.stribeck_speed_rad_per_s,
+            fit.stribeck_standard_error, "rad/s"},
+           {"stiction_excess_Nm", fit.excess_Nm, fit.excess_standard_error_Nm, "N m", true},
+           {kLeftByPulses, fit.residual_rms_counts, 0, "counts RMS"}}) {
+    estimates.add(found);
+  }
+}
+
+// Its knots' places are known as well as the log's origin; between knots it may bend where no knot
+// is.
+void add_friction_map(const TwoMassReport& report, EstimateWriter& estimates) {
+  const auto& knots = report.fit.knots_m;
+  const auto& friction_Nm = report.fit.coulomb_Nm;
   const auto slope = [&](std::size_t i) {
-    return (fit.coulomb_Nm[i + 1] - fit.coulomb_Nm[i]) / (knots[i + 1] - knots[i]);
+    return (friction_Nm[i + 1] - friction_Nm[i]) / (knots[i + 1] - knots[i]);
   };
   for (std::size_t i = 0; i < knots.size(); ++i) {
-    const double steepest = std::max(i > 0 ? std::fabs(slope(i - 1)) : 0.0,
-                                     i + 1 < knots.size() ? std::fabs(slope(i)) : 0.0);
-    // Between knots the map may bend where no knot is.
+    const bool has_next = i + 1 < knots.size();
+    const double steepest =
+        std::max(i > 0 ? std::fabs(slope(i - 1)) : 0.0, has_next ? std::fabs(slope(i)) : 0.0);
     double bend = 0;
-    if (!report.knots_are_bends && i > 0 && i + 1 < knots.size()) {
-      bend = std::fabs(fit.coulomb_Nm[i - 1] - 2 * fit.coulomb_Nm[i] + fit.coulomb_Nm[i + 1]) / 8;
+    if (!report.knots_are_bends && i > 0 && has_next) {
+      bend = std::fabs(friction_Nm[i - 1] - 2 * friction_Nm[i] + friction_Nm[i + 1]) / 8;
     }
-    add("coulomb_friction_Nm", fit.coulomb_Nm[i],
-        std::hypot(fit.coulomb_deviation_Nm[i], bend, steepest * kOrigin_m), "N m", true, knots[i]);
+    estimates.add({"coulomb_friction_Nm", friction_Nm[i],
+                   std::hypot(report.fit.coulomb_standard_error_Nm[i], bend, steepest * kOrigin_m),
+                   "N m", true, knots[i]});
   }
 }
 
@@ -129,7 +166,9 @@ bool leaves_much(const identify::TwoMassFit& fit) {
 }
 
 void report_two_mass(const TwoMassReport& report, ProcedureOutcome& outcome) {
-  add_estimates(report, outcome);
+  EstimateWriter estimates(report, outcome);
+  add_constants(report.fit, estimates);
+  add_friction_map(report, estimates);
   report_least_squares(report, outcome);
   add_figures(report, outcome);
 }

@@ -11,7 +11,7 @@ namespace towbench::study::identify {
 
 UncertainMean mean_of_repeats(std::span<const double> repeats) {
   const auto n = static_cast<double>(repeats.size());
-  UncertainMean mean{.deviation = std::numeric_limits<double>::infinity()};
+  UncertainMean mean{.standard_error = std::numeric_limits<double>::infinity()};
   if (repeats.empty()) {
     return mean;
   }
@@ -25,8 +25,8 @@ UncertainMean mean_of_repeats(std::span<const double> repeats) {
   for (const double each : repeats) {
     squares += (each - mean.value) * (each - mean.value);
   }
-  mean.freedom = n - 1;
-  mean.deviation = std::sqrt(squares / mean.freedom / n);
+  mean.degrees_of_freedom = n - 1;
+  mean.standard_error = std::sqrt(squares / mean.degrees_of_freedom / n);
   return mean;
 }
 
@@ -67,8 +67,8 @@ UncertainMean mean_about_line(std::span<const double> values) {
     const double rest = values[i] - mean.value - cross / square * at;
     squares += rest * rest;
   }
-  mean.freedom = n - 2;
-  mean.deviation = std::sqrt(squares / mean.freedom / n);
+  mean.degrees_of_freedom = n - 2;
+  mean.standard_error = std::sqrt(squares / mean.degrees_of_freedom / n);
   return mean;
 }
 
@@ -93,7 +93,7 @@ constexpr std::size_t kFewestSamples = 8;
 
 UncertainMean block_mean(std::span<const double> samples, std::size_t block_rows) {
   if (samples.size() < kFewestSamples) {
-    return {.deviation = std::numeric_limits<double>::infinity()};
+    return {.standard_error = std::numeric_limits<double>::infinity()};
   }
   return mean_of_repeats(means_of_blocks(samples, block_rows));
 }
@@ -104,7 +104,7 @@ std::vector<double> without_swing(std::span<const double> samples, std::size_t r
 
 UncertainMean steady_mean(std::span<const double> samples, double period_s) {
   if (samples.size() < kFewestSamples) {
-    return {.deviation = std::numeric_limits<double>::infinity()};
+    return {.standard_error = std::numeric_limits<double>::infinity()};
   }
   constexpr std::size_t kFewest = 4;
   constexpr std::size_t kMost = 40;
@@ -129,31 +129,34 @@ UncertainMean steady_mean(std::span<const double> samples, double period_s) {
 
 UncertainMean combine(double share_a, const UncertainMean& a, double share_b,
                       const UncertainMean& b) {
-  const double variance_a = share_a * share_a * a.deviation * a.deviation;
-  const double variance_b = share_b * share_b * b.deviation * b.deviation;
+  const double variance_a = share_a * share_a * a.standard_error * a.standard_error;
+  const double variance_b = share_b * share_b * b.standard_error * b.standard_error;
   const double variance = variance_a + variance_b;
   UncertainMean sum{.value = share_a * a.value + share_b * b.value,
-                    .deviation = std::sqrt(variance),
-                    .freedom = a.freedom + b.freedom};
-  const double doubt = variance_a * variance_a / std::max(a.freedom, 1.0) +
-                       variance_b * variance_b / std::max(b.freedom, 1.0);
+                    .standard_error = std::sqrt(variance),
+                    .degrees_of_freedom = a.degrees_of_freedom + b.degrees_of_freedom};
+  const double doubt = variance_a * variance_a / std::max(a.degrees_of_freedom, 1.0) +
+                       variance_b * variance_b / std::max(b.degrees_of_freedom, 1.0);
   if (doubt > 0) {
-    sum.freedom = variance * variance / doubt;
+    sum.degrees_of_freedom = variance * variance / doubt;
   }
   return sum;
 }
 
-UncertainMean doubted(const UncertainMean& mean, double share, double freedom) {
+UncertainMean doubted(const UncertainMean& mean, double share, double degrees_of_freedom) {
   return combine(1.0, mean, 1.0,
-                 {.value = 0, .deviation = std::fabs(mean.value * share), .freedom = freedom});
+                 {.value = 0,
+                  .standard_error = std::fabs(mean.value * share),
+                  .degrees_of_freedom = degrees_of_freedom});
 }
 
-double student_factor(double freedom) {
+double student_factor(double degrees_of_freedom) {
   constexpr double kUpper = 0.975;
   // Beyond this Student's t is the normal distribution to four digits.
   constexpr double kMany = 1e5;
   return boost::math::quantile(
-      boost::math::students_t_distribution<double>(std::clamp(freedom, 1.0, kMany)), kUpper);
+      boost::math::students_t_distribution<double>(std::clamp(degrees_of_freedom, 1.0, kMany)),
+      kUpper);
 }
 
 }  // namespace towbench::study::identify

@@ -185,7 +185,8 @@ std::vector<WaterForce> water_forces(std::span<const CarriageTurn> axes, double 
 double doubt_by_transmission(const CarriageTransmission& transmission,
                              double rate_rad_per_s) noexcept {
   // Drag goes with (1 - w^2 M/k)^2.
-  return 4 * std::pow(rate_rad_per_s / transmission.rate_rad_per_s, 2) * transmission.deviation;
+  return 4 * std::pow(rate_rad_per_s / transmission.rate_rad_per_s, 2) *
+         transmission.standard_error;
 }
 
 }  // namespace towbench::study::identify

@@ -30,7 +30,7 @@ namespace towbench::study::identify {
 struct CarriageTransmission {
   double rate_rad_per_s = 0;  // > 0
   double mass_kg = 0;         // M, > 0; 10 % off changes drag by less than 1e-4 of it
-  double deviation = 0;       // standard deviation of the rate as a share of it
+  double standard_error = 0;  // of the rate, as a share of it
 
   [[nodiscard]] double stiffness_N_per_m() const noexcept {
     return mass_kg * rate_rad_per_s * rate_rad_per_s;
@@ -91,8 +91,8 @@ struct WaterForce {
 [[nodiscard]] std::vector<WaterForce> water_forces(std::span<const CarriageTurn> axes,
                                                    double period_s);
 
-// Of a transmission's deviation: it rests on some thousand rows of one swing.
-inline constexpr double kTransmissionFreedom = 100;
+// Of a transmission's standard error: it rests on some thousand rows of one swing.
+inline constexpr double kTransmissionDegreesOfFreedom = 100;
 // By how much drag is unsure because the transmission is, as a share of it. `rate_rad_per_s`: the
 // motion's.
 [[nodiscard]] double doubt_by_transmission(const CarriageTransmission& transmission,

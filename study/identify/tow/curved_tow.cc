@@ -261,11 +261,11 @@ std::optional<CurvedDrag> curved_force(
   for (const auto axis : core::kPlanarAxes) {
     const double doubt = doubt_by_transmission(transmission[axis], rate_rad_per_s);
     result.along_axis_N_s2_per_m2[axis] =
-        doubted(mean_of_repeats(along[axis]), doubt, kTransmissionFreedom);
+        doubted(mean_of_repeats(along[axis]), doubt, kTransmissionDegreesOfFreedom);
     all_doubt = std::hypot(all_doubt, 0.5 * doubt);  // each axis has half of the drag
   }
   result.quadratic_drag_N_s2_per_m2 =
-      doubted(mean_of_repeats(drags), all_doubt, kTransmissionFreedom);
+      doubted(mean_of_repeats(drags), all_doubt, kTransmissionDegreesOfFreedom);
   result.added_mass_kg = mean_of_repeats(masses);
   for (std::size_t bin = 0; bin < headings; ++bin) {
     const double middle = (static_cast<double>(bin) + 0.5) / static_cast<double>(headings);

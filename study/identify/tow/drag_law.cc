@@ -10,24 +10,24 @@ UncertainMean quadratic_drag(std::span<const DragPoint> points) {
   double squares = 0;
   for (const auto& [speed, force] : points) {
     const double square = speed * speed;
-    const double weight = 1.0 / (force.deviation * force.deviation);
+    const double weight = 1.0 / (force.standard_error * force.standard_error);
     forces += weight * square * force.value;
     squares += weight * square * square;
   }
-  UncertainMean drag{.value = forces / squares, .deviation = std::sqrt(1.0 / squares)};
+  UncertainMean drag{.value = forces / squares, .standard_error = std::sqrt(1.0 / squares)};
   double chi_squared = 0;
   double doubt = 0;
   for (const auto& [speed, force] : points) {
-    const double residual = (force.value - drag.value * speed * speed) / force.deviation;
+    const double residual = (force.value - drag.value * speed * speed) / force.standard_error;
     chi_squared += residual * residual;
     // Share of the variance that this point brings, for Welch and Satterthwaite.
-    const double share = std::pow(speed * speed / force.deviation, 2) / squares;
-    doubt += share * share / std::max(force.freedom, 1.0);
+    const double share = std::pow(speed * speed / force.standard_error, 2) / squares;
+    doubt += share * share / std::max(force.degrees_of_freedom, 1.0);
   }
-  drag.freedom = 1.0 / doubt;
+  drag.degrees_of_freedom = 1.0 / doubt;
   const auto free = static_cast<double>(points.size()) - 1;
   if (free > 0 && chi_squared > free) {
-    drag.deviation *= std::sqrt(chi_squared / free);
+    drag.standard_error *= std::sqrt(chi_squared / free);
   }
   return drag;
 }
@@ -46,7 +46,7 @@ UncertainMean quadratic_drag_unweighted(std::span<const DragPoint> points) {
 
 Estimate to_estimate(const UncertainMean& mean, std::string quantity, std::string axis,
                      std::string unit, std::string rests_on) {
-  const double half = student_factor(mean.freedom) * mean.deviation;
+  const double half = student_factor(mean.degrees_of_freedom) * mean.standard_error;
   Estimate estimate;
   estimate.quantity = std::move(quantity);
   estimate.axis = std::move(axis);

@@ -16,10 +16,10 @@ struct DragPoint {
 
 // D of (8.1) by least squares through the origin, each point weighted by what it is worth. Where
 // the points scatter about the parabola by more than their own doubt says (chi^2 above its degrees
-// of freedom), the deviation grows by that ratio (Birge): a law that does not fit is not sure.
+// of freedom), the standard error grows by that ratio (Birge): a law that does not fit is not sure.
 [[nodiscard]] UncertainMean quadratic_drag(std::span<const DragPoint> points);
 
-// The same with every point counted alike, as the thesis fits Table 8.4. The deviation is the
+// The same with every point counted alike, as the thesis fits Table 8.4. The standard error is the
 // points' own, carried through.
 [[nodiscard]] UncertainMean quadratic_drag_unweighted(std::span<const DragPoint> points);
 

@@ -50,7 +50,7 @@ std::optional<DriveScale> drive_scale(const Recording& pulled, const Recording& 
       change(pulled, pulled.axes[axis].duty_pct, plain, plain.axes[axis].duty_pct, times);
   constexpr double kClear = 10;  // standard deviations
   const auto is_clear = [](const UncertainMean& mean) {
-    return std::fabs(mean.value) > kClear * mean.deviation;
+    return std::fabs(mean.value) > kClear * mean.standard_error;
   };
   if (!force || !duty || !is_clear(*force) || !is_clear(*duty)) {
     return std::nullopt;
@@ -58,8 +58,8 @@ std::optional<DriveScale> drive_scale(const Recording& pulled, const Recording& 
   // The drive answers what the weight pulls: opposite signs.
   DriveScale scale{.force_per_duty_N = -force->value / duty->value};
   const auto relative = combine(1.0 / force->value, *force, 1.0 / duty->value, *duty);
-  scale.deviation_N = std::fabs(scale.force_per_duty_N) * relative.deviation;
-  scale.freedom = relative.freedom;
+  scale.standard_error_N = std::fabs(scale.force_per_duty_N) * relative.standard_error;
+  scale.degrees_of_freedom = relative.degrees_of_freedom;
   return scale;
 }
 

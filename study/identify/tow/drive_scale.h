@@ -16,8 +16,8 @@ namespace towbench::study::identify {
 // N / %, of an axis.
 struct DriveScale {
   double force_per_duty_N = 0;
-  double deviation_N = 0;
-  double freedom = 0;  // degrees of freedom behind `deviation_N`
+  double standard_error_N = 0;
+  double degrees_of_freedom = 0;  // behind `standard_error_N`
 };
 
 struct PullTimes {

@@ -117,7 +117,8 @@ double ExtendedModel::friction_N(double place_m, double speed_m_per_s) const {
   return row(place_m, speed_m_per_s).dot(solution_);
 }
 
-double ExtendedModel::deviation_N(std::span<const double> places_m, double speed_m_per_s) const {
+double ExtendedModel::standard_error_N(std::span<const double> places_m,
+                                       double speed_m_per_s) const {
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(solution_.size());
   for (const double place_m : places_m) {
     mean += row(place_m, speed_m_per_s) / static_cast<double>(places_m.size());
@@ -164,8 +165,8 @@ std::optional<DragPoint> predicted_drag(const Recording& tow, core::Axis axis, d
   }
   auto point = both_ways(tow, rest, axis, 1.0, settle_s);
   if (point) {
-    point->force_N.deviation =
-        std::hypot(point->force_N.deviation, model.deviation_N(places, speed));
+    point->force_N.standard_error =
+        std::hypot(point->force_N.standard_error, model.standard_error_N(places, speed));
   }
   return point;
 }

@@ -36,8 +36,9 @@ class ExtendedModel {
 
   // Against the motion, N; speed > 0.
   [[nodiscard]] double friction_N(double place_m, double speed_m_per_s) const;
-  // Its deviation for the mean over many places at one speed.
-  [[nodiscard]] double deviation_N(std::span<const double> places_m, double speed_m_per_s) const;
+  // Its standard error for the mean over many places at one speed.
+  [[nodiscard]] double standard_error_N(std::span<const double> places_m,
+                                        double speed_m_per_s) const;
   // c at the knots.
   [[nodiscard]] std::vector<double> places_m() const;
   [[nodiscard]] std::vector<double> levels_N() const;

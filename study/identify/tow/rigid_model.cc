@@ -13,7 +13,7 @@ namespace {
 struct SteadyForce {
   double speed_m_per_s;
   double force_N;
-  double deviation_N;
+  double standard_error_N;
 };
 
 std::vector<SteadyForce> steady_forces(const Recording& tow, core::Axis axis, double scale,
@@ -23,7 +23,7 @@ std::vector<SteadyForce> steady_forces(const Recording& tow, core::Axis axis, do
     const std::span<const double> duty = tow.axes[axis].duty_pct;
     const auto mean = steady_mean(duty.subspan(span.first, span.rows()), tow.period_s);
     forces.push_back({std::fabs(span.speed_m_per_s), span.direction() * scale * mean.value,
-                      scale * mean.deviation});
+                      scale * mean.standard_error});
   }
   return forces;
 }
@@ -92,14 +92,14 @@ std::optional<RigidModel> rigid_model(std::span<const Recording> tows, core::Axi
   // no noise here: it is the friction by place that the model leaves out.
   Eigen::VectorXd variance(rows);
   for (Eigen::Index i = 0; i < rows; ++i) {
-    variance(i) = std::pow(forces[static_cast<std::size_t>(i)].deviation_N, 2);
+    variance(i) = std::pow(forces[static_cast<std::size_t>(i)].standard_error_N, 2);
   }
   const Eigen::MatrixXd gain = normal.inverse() * a.transpose();
   const Eigen::Matrix2d covariance = gain * variance.asDiagonal() * gain.transpose();
   model.viscous_N_s_per_m = solution(0);
   model.coulomb_N = solution(1);
-  model.viscous_deviation = std::sqrt(covariance(0, 0));
-  model.coulomb_deviation = std::sqrt(covariance(1, 1));
+  model.viscous_standard_error = std::sqrt(covariance(0, 0));
+  model.coulomb_standard_error = std::sqrt(covariance(1, 1));
   model.covariance = covariance(0, 1);
   model.mass_kg = mass_from_ramps(tows, axis, scale, model);
   return model;
@@ -111,10 +111,10 @@ std::optional<DragPoint> predicted_drag(const Recording& tow, core::Axis axis, d
   if (point) {
     const double v = point->speed_m_per_s;
     point->force_N.value -= model.viscous_N_s_per_m * v + model.coulomb_N;
-    const double variance = std::pow(model.viscous_deviation * v, 2) +
-                            std::pow(model.coulomb_deviation, 2) + 2 * v * model.covariance;
-    point->force_N.deviation =
-        std::sqrt(std::pow(point->force_N.deviation, 2) + std::max(0.0, variance));
+    const double variance = std::pow(model.viscous_standard_error * v, 2) +
+                            std::pow(model.coulomb_standard_error, 2) + 2 * v * model.covariance;
+    point->force_N.standard_error =
+        std::sqrt(std::pow(point->force_N.standard_error, 2) + std::max(0.0, variance));
   }
   return point;
 }

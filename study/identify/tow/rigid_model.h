@@ -29,8 +29,8 @@ struct RigidModel {
   double mass_kg = 0;            // J / (R/n)^2
   double viscous_N_s_per_m = 0;  // B / (R/n)^2
   double coulomb_N = 0;          // C / (R/n)
-  double viscous_deviation = 0;
-  double coulomb_deviation = 0;
+  double viscous_standard_error = 0;
+  double coulomb_standard_error = 0;
   double covariance = 0;              // of viscous and coulomb
   std::vector<TowStretch> stretches;  // what b and c rest on
 };

@@ -91,7 +91,7 @@ std::vector<Piece> pieces_of(std::span<const double> samples, double period_s, d
 // Phase of the pieces over time.
 struct PhaseLine {
   double slope = 0;  // turns a second
-  double slope_deviation = 0;
+  double slope_standard_error = 0;
   double start = 0;  // turns at the record's start
 };
 
@@ -114,7 +114,7 @@ PhaseLine line_through(const std::vector<Piece>& pieces) {
   for (const auto& piece : pieces) {
     residual += std::pow(piece.phase_turns - phase - line.slope * (piece.middle_s - middle), 2);
   }
-  line.slope_deviation = std::sqrt(residual / (count - 2) / square);
+  line.slope_standard_error = std::sqrt(residual / (count - 2) / square);
   line.start = phase - line.slope * middle;
   return line;
 }
@@ -142,8 +142,8 @@ std::optional<SpectralLine> strongest_line(std::span<const double> samples, doub
     amplitudes.push_back(piece.amplitude);
   }
   SpectralLine line;
-  const double freedom = static_cast<double>(pieces.size()) - 2;
-  line.frequency_Hz = {near + found.slope, found.slope_deviation, freedom};
+  const double degrees_of_freedom = static_cast<double>(pieces.size()) - 2;
+  line.frequency_Hz = {near + found.slope, found.slope_standard_error, degrees_of_freedom};
   line.amplitude = mean_of_repeats(amplitudes);
   constexpr double kSineAfterCosine = 0.25;
   const double start = found.start + kSineAfterCosine;

@@ -18,7 +18,7 @@ namespace towbench::study::identify {
 
 struct TransmissionSwing {
   double rate_rad_per_s = 0;  // w
-  double deviation = 0;       // standard deviation of `rate_rad_per_s`
+  double standard_error = 0;  // of `rate_rad_per_s`
   double damping_per_s = 0;   // d
 };
 

@@ -33,15 +33,15 @@ std::optional<YawDrag> yaw_drag(std::span<const YawPoint> points, const CommonDo
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
   double squares = 0;
-  double freedom = 0;
+  double degrees_of_freedom = 0;
   const auto add = [&](const Eigen::Vector2d& a, const UncertainMean& y, int kind, double shared) {
-    const double own = y.deviation * y.deviation - shared * shared;
-    const double weight = 1.0 / std::max(own, 1e-2 * y.deviation * y.deviation);
+    const double own = y.standard_error * y.standard_error - shared * shared;
+    const double weight = 1.0 / std::max(own, 1e-2 * y.standard_error * y.standard_error);
     shift.col(kind) += weight * a;
     normal += weight * a * a.transpose();
     right += weight * y.value * a;
     squares += weight * y.value * y.value;
-    freedom += y.freedom;
+    degrees_of_freedom += y.degrees_of_freedom;
   };
   for (const auto& point : points) {
     const auto [sine, cosine] = direction_of(point.yaw_deg);
@@ -66,12 +66,12 @@ std::optional<YawDrag> yaw_drag(std::span<const YawPoint> points, const CommonDo
       moved * Eigen::Vector2d(common.along * common.along, common.side * common.side).asDiagonal() *
       moved.transpose();
   YawDrag drag;
-  drag.along_axis = {solution(0), std::sqrt(covariance(0, 0)), freedom};
-  drag.across_axis = {solution(1), std::sqrt(covariance(1, 1)), freedom};
+  drag.along_axis = {solution(0), std::sqrt(covariance(0, 0)), degrees_of_freedom};
+  drag.across_axis = {solution(1), std::sqrt(covariance(1, 1)), degrees_of_freedom};
   const double ratio = solution(1) / solution(0);
   // First order in both, with their covariance.
   const Eigen::Vector2d slope(-ratio / solution(0), 1.0 / solution(0));
-  drag.ratio = {ratio, std::sqrt(std::max(0.0, slope.dot(covariance * slope))), freedom};
+  drag.ratio = {ratio, std::sqrt(std::max(0.0, slope.dot(covariance * slope))), degrees_of_freedom};
   return drag;
 }
 

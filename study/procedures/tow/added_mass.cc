@@ -159,7 +159,7 @@ class AddedMass final : public TowProcedure {
         "transmission; "
         "scatter between frequencies";
     const auto drag = identify::doubted(identify::mean_of_repeats(repeats.drag), doubt,
-                                        identify::kTransmissionFreedom);
+                                        identify::kTransmissionDegreesOfFreedom);
     outcome.estimates = {
         identify::to_estimate(identify::mean_of_repeats(repeats.by_sensor), "fsm_added_mass_kg",
                               "y", "kg", by_sensor),

@@ -65,8 +65,8 @@ std::optional<identify::CommonDoubt> common_doubt(const std::vector<identify::Re
       points[axis].push_back(*point);
     }
   }
-  return identify::CommonDoubt{identify::quadratic_drag(points[Axis::kY]).deviation,
-                               identify::quadratic_drag(points[Axis::kX]).deviation};
+  return identify::CommonDoubt{identify::quadratic_drag(points[Axis::kY]).standard_error,
+                               identify::quadratic_drag(points[Axis::kX]).standard_error};
 }
 
 TowOutcome told(const std::vector<identify::YawPoint>& points, const identify::YawDrag& law) {

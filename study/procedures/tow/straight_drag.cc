@@ -171,8 +171,9 @@ class Exp1 {
       auto coefficient = method.coefficient();
       if (method.name != "fsm") {
         // The drive's scale is common to all points of a method.
-        coefficient = identify::doubted(coefficient, scale_.deviation_N / scale_.force_per_duty_N,
-                                        scale_.freedom);
+        coefficient =
+            identify::doubted(coefficient, scale_.standard_error_N / scale_.force_per_duty_N,
+                              scale_.degrees_of_freedom);
       }
       auto found =
           identify::drag_curve(method.points, method.name + "_drag_N", "y", method.rests_on);

@@ -26,8 +26,8 @@ identify::Estimate scale_estimate(const identify::DriveScale& scale, const Machi
   const double table_7_1 =
       believed.full_duty_torque_Nm() / machine.nameplate(Axis::kY).metres_per_motor_rad() / 100.0;
   return identify::to_estimate(
-      {scale.force_per_duty_N, scale.deviation_N, scale.freedom}, "force_per_duty_N_per_pct", "y",
-      "N/%",
+      {scale.force_per_duty_N, scale.standard_error_N, scale.degrees_of_freedom},
+      "force_per_duty_N_per_pct", "y", "N/%",
       fmt::format(
           "a known weight over a pulley, weighed by the force sensor; Table 7.1 gives {:.4f}",
           table_7_1));
@@ -36,7 +36,8 @@ identify::Estimate scale_estimate(const identify::DriveScale& scale, const Machi
 Curve curve_of(const std::string& name, std::span<const identify::DragPoint> points) {
   Curve curve{.name = name, .mark = Mark::kDots};
   for (const auto& point : points) {
-    const double half = identify::student_factor(point.force_N.freedom) * point.force_N.deviation;
+    const double half =
+        identify::student_factor(point.force_N.degrees_of_freedom) * point.force_N.standard_error;
     curve.x.push_back(point.speed_m_per_s);
     curve.y.push_back(point.force_N.value);
     curve.low.push_back(point.force_N.value - half);

@@ -128,7 +128,7 @@ WeighedDrive weigh_drive(const Machine& machine, core::Axis axis, const WeighSet
     return found;
   }
   found.transmission = {swing->rate_rad_per_s, moved_mass_kg(machine, axis),
-                        swing->deviation / swing->rate_rad_per_s};
+                        swing->standard_error / swing->rate_rad_per_s};
   return found;
 }
 

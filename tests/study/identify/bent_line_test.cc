@@ -37,7 +37,7 @@ TEST(BentLine, BendsNotWhereThePointsAreStraight) {
   const auto line = fit_bent_line(points_of([](double x) { return 3 - 0.2 * x; }, 1e-2), 8);
   ASSERT_EQ(line.x.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_NEAR(line.y[i], 3 - 0.2 * line.x[i], 3 * line.deviation[i]);
+    EXPECT_NEAR(line.y[i], 3 - 0.2 * line.x[i], 3 * line.standard_error[i]);
   }
 }
 
@@ -46,12 +46,12 @@ TEST(BentLine, IsAsSureAsItsPointsAgree) {
   auto points = points_of([](double x) { return 3 - 0.2 * x; }, 1e-2);
   const auto right = fit_bent_line(points, 0);
   for (auto& point : points) {
-    point.deviation *= 5;
+    point.standard_error *= 5;
   }
   const auto doubted = fit_bent_line(points, 0);
-  EXPECT_NEAR(doubted.deviation[0], right.deviation[0], 1e-9);
+  EXPECT_NEAR(doubted.standard_error[0], right.standard_error[0], 1e-9);
   // Of the value at the end of a line: 2 sigma / sqrt(n).
-  EXPECT_NEAR(right.deviation[0], 2 * 1e-2 / std::sqrt(3.0 * 60), 3e-4);
+  EXPECT_NEAR(right.standard_error[0], 2 * 1e-2 / std::sqrt(3.0 * 60), 3e-4);
 }
 
 TEST(BentLine, FollowsACurveWithSeveralBends) {

@@ -31,7 +31,7 @@ TEST(DriveConstants, AreTheSlopesWhateverFrictionAndBiasAre) {
   ASSERT_TRUE(found.found);
   EXPECT_NEAR(found.torque_constant_Nm_per_A, 0.03, 1e-9);
   EXPECT_NEAR(found.amplifier_gain_A_per_V, 0.4, 1e-9);
-  EXPECT_GT(found.torque_constant_deviation, 0);
+  EXPECT_GT(found.torque_constant_standard_error, 0);
 }
 
 // Friction of the place would look like noise of the current, twenty times what is there.
@@ -55,10 +55,11 @@ TEST(DriveConstants, AreAsSureAsStretchesOfTheSameWayAgree) {
   const auto found = find_drive_constants(runs, kRadius);
   ASSERT_TRUE(found.found);
   // 1e-4 A over sqrt(40) x 0.715 A of current from the push.
-  EXPECT_NEAR(found.torque_constant_deviation / 0.03, 1e-4 / std::sqrt(40.0) / 0.715, 1e-5);
-  EXPECT_NEAR(found.torque_per_volt_deviation, found.torque_constant_deviation / 0.03, 1e-9);
-  EXPECT_NEAR(found.torque_constant_Nm_per_A, 0.03, 3 * found.torque_constant_deviation);
-  EXPECT_LT(found.amplifier_gain_deviation, 1e-9);  // the current is the command's
+  EXPECT_NEAR(found.torque_constant_standard_error / 0.03, 1e-4 / std::sqrt(40.0) / 0.715, 1e-5);
+  EXPECT_NEAR(found.torque_per_volt_standard_error, found.torque_constant_standard_error / 0.03,
+              1e-9);
+  EXPECT_NEAR(found.torque_constant_Nm_per_A, 0.03, 3 * found.torque_constant_standard_error);
+  EXPECT_LT(found.amplifier_gain_standard_error, 1e-9);  // the current is the command's
 }
 
 // Of a push that moves the carriage to where friction is 2e-5 N m less or more, which one direction
@@ -82,7 +83,7 @@ TEST(DriveConstants, DoNotSeeWhereThePushMovesTheCarriage) {
   const auto found = find_drive_constants(runs, kRadius);
   ASSERT_TRUE(found.found);
   EXPECT_NEAR(found.torque_constant_Nm_per_A, 0.03, 1e-9);
-  EXPECT_LT(found.torque_constant_deviation, 1e-9);
+  EXPECT_LT(found.torque_constant_standard_error, 1e-9);
 }
 
 TEST(DriveConstants, KnowTheTorqueOfACommandPastANoisyCurrentMonitor) {
@@ -103,9 +104,9 @@ TEST(DriveConstants, KnowTheTorqueOfACommandPastANoisyCurrentMonitor) {
   }
   const auto found = find_drive_constants(runs, kRadius);
   ASSERT_TRUE(found.found);
-  EXPECT_GT(found.torque_constant_deviation / 0.03, 1e-3);
+  EXPECT_GT(found.torque_constant_standard_error / 0.03, 1e-3);
   EXPECT_NEAR(found.torque_constant_Nm_per_A * found.amplifier_gain_A_per_V, 0.03 * 0.4, 1e-9);
-  EXPECT_LT(found.torque_per_volt_deviation, 1e-9);
+  EXPECT_LT(found.torque_per_volt_standard_error, 1e-9);
 }
 
 TEST(WindowMeans, OfASwingAreItsMiddle) {
@@ -132,7 +133,7 @@ TEST(FrictionLaw, OfGaussianFormIsFoundAndTakenForWhatItIs) {
     for (const double sign : {1.0, -1.0}) {
       const double torque = 2e-3 + 1e-3 * std::exp(-(w / 6) * (w / 6)) + 1e-5 * w;
       runs.push_back(
-          {.speed_rad_per_s = sign * w, .torque_Nm = sign * torque, .deviation_Nm = 1e-6});
+          {.speed_rad_per_s = sign * w, .torque_Nm = sign * torque, .standard_error_Nm = 1e-6});
     }
   }
   const auto law = fit_friction_law(runs, 10);

@@ -28,7 +28,7 @@ std::vector<SteadyRun> runs_of(const FrictionLaw& law, core::Random& random, dou
     for (const double sign : {1.0, -1.0}) {
       runs.push_back({.speed_rad_per_s = sign * w,
                       .torque_Nm = sign * (law.at(w) - stuck_Nm + noise_Nm * random.gaussian()),
-                      .deviation_Nm = 1e-5});
+                      .standard_error_Nm = 1e-5});
     }
   }
   return runs;
@@ -58,16 +58,16 @@ TEST(PairedLaw, IsAsSureAsTheDifferencesAgree) {
   const auto noisy = find_law_shift(reference_law(), 0, runs_of(reference_law(), random, 1e-5),
                                     runs_of(reference_law(), random, 1e-5));
   ASSERT_TRUE(quiet.found && noisy.found);
-  EXPECT_GT(noisy.stribeck_deviation, 20 * quiet.stribeck_deviation);
-  EXPECT_LT(std::fabs(noisy.stribeck_rad_per_s), 4 * noisy.stribeck_deviation);
+  EXPECT_GT(noisy.stribeck_standard_error, 20 * quiet.stribeck_standard_error);
+  EXPECT_LT(std::fabs(noisy.stribeck_rad_per_s), 4 * noisy.stribeck_standard_error);
 }
 
 TEST(PairedLaw, IsLessSureWhereTheRiseToStandstillIs) {
   core::Random random(6);
   const auto machine = runs_of(reference_law(), random, 1e-7);
   const auto reference = runs_of(reference_law(), random, 1e-7);
-  EXPECT_GT(find_law_shift(reference_law(), 1e-5, machine, reference).stribeck_deviation,
-            5 * find_law_shift(reference_law(), 0, machine, reference).stribeck_deviation);
+  EXPECT_GT(find_law_shift(reference_law(), 1e-5, machine, reference).stribeck_standard_error,
+            5 * find_law_shift(reference_law(), 0, machine, reference).stribeck_standard_error);
 }
 
 TEST(PairedLaw, IsNotFoundInFewerThanSixSpeeds) {

@@ -23,7 +23,7 @@ std::vector<Span> equal_spans(Index blocks, Index length) {
   return spans;
 }
 
-// Columns and an error, all noise of deviation 1.
+// Columns and an error, all noise of standard deviation 1.
 MatrixXd all_noise(Index rows, Index columns, core::Random& random) {
   MatrixXd all(rows, columns);
   for (Index j = 0; j < columns; ++j) {

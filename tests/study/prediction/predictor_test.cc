@@ -75,7 +75,7 @@ TEST(FitModel, FindsTheParametersThatMadeTheRun) {
   const Data data = make_data(runs, stated);
   const Context context = make_context(stated, data);
   const Fitted fitted = fit_model(data, context, {parameters_of(stated), std::vector<OfRun>(1)},
-                                  base_freedoms(context, 1), kBandwidth, 20);
+                                  base_free_parameters(context, 1), kBandwidth, 20);
   for (const Key key : {Key::kMass, Key::kViscous, Key::kCoulomb, Key::kBias}) {
     EXPECT_NEAR(fitted.model.parameters[key], truth[key], 2e-3 * std::abs(truth[key]));
   }

@@ -27,13 +27,13 @@ Drawn drawn(std::uint64_t machine) {
 }
 
 Estimate within(const char* quantity, Axis axis, double value, double share) {
-  return identify::with_deviation({.quantity = quantity,
-                                   .axis = std::string(core::name_of(axis)),
-                                   .value = value,
-                                   .unit = {},
-                                   .rests_on = "the machine's own, for this test",
-                                   .procedure = {}},
-                                  share * value);
+  return identify::with_standard_error({.quantity = quantity,
+                                        .axis = std::string(core::name_of(axis)),
+                                        .value = value,
+                                        .unit = {},
+                                        .rests_on = "the machine's own, for this test",
+                                        .procedure = {}},
+                                       share * value);
 }
 
 // What EXP-P-1 finds.

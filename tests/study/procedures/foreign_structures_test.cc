@@ -73,8 +73,8 @@ TEST_P(ForeignPulses, LeaveInertiaAndFrictionWithinTheirIntervals) {
   const auto fit = identify::fit_two_mass(start, data, Axis::kY);
   ASSERT_TRUE(fit.converged);
   EXPECT_GT(fit.residual_rms_counts, 0.5);
-  const Interval inertia{fit.axis.inertia_kg_m2, 1.96 * fit.inertia_deviation};
-  const Interval viscous{fit.axis.viscous_friction_Nm_s_per_rad, 1.96 * fit.viscous_deviation};
+  const Interval inertia{fit.axis.inertia_kg_m2, 1.96 * fit.inertia_standard_error};
+  const Interval viscous{fit.axis.viscous_friction_Nm_s_per_rad, 1.96 * fit.viscous_standard_error};
   EXPECT_TRUE(inertia.holds(nominal_axis().inertia_kg_m2))
       << inertia.value << " +- " << inertia.half;
   EXPECT_TRUE(viscous.holds(nominal_axis().viscous_friction_Nm_s_per_rad))

@@ -38,8 +38,8 @@ TEST(SpectralLine, FindsFrequencyAmplitudeAndMeanInNoise) {
   const auto line = strongest_line(samples, kPeriod_s, 0.2, 10.0);
   ASSERT_TRUE(line);
   EXPECT_NEAR(line->frequency_Hz.value, 2.137, 5e-4);
-  EXPECT_LT(line->frequency_Hz.deviation, 5e-4);
-  EXPECT_GT(line->frequency_Hz.deviation, 1e-6);
+  EXPECT_LT(line->frequency_Hz.standard_error, 5e-4);
+  EXPECT_GT(line->frequency_Hz.standard_error, 1e-6);
   EXPECT_NEAR(line->amplitude.value, 0.6, 0.01);
   EXPECT_NEAR(line->phase_turns, 0.7 / kTurn, 0.01);
   const auto mean = mean_over_periods(samples, kPeriod_s, line->frequency_Hz.value);
@@ -185,7 +185,7 @@ TEST(CurvedForce, KnowsThatTheCarriageGoesFurtherThanItsMotor) {
   ASSERT_TRUE(drag);
   EXPECT_EQ(drag->turns, 8U);
   EXPECT_NEAR(drag->quadratic_drag_N_s2_per_m2.value, 8.78, 0.002 * 8.78);
-  EXPECT_GT(drag->quadratic_drag_N_s2_per_m2.deviation, 1e-4);
+  EXPECT_GT(drag->quadratic_drag_N_s2_per_m2.standard_error, 1e-4);
   for (const auto axis : core::kPlanarAxes) {
     EXPECT_NEAR(drag->along_axis_N_s2_per_m2[axis].value, 8.78, 0.003 * 8.78);
   }
@@ -260,8 +260,8 @@ TEST(TransmissionSwing, IsThatOfAHeldMotorThoughTheMotorGivesWay) {
   const auto found = transmission_swing(run, Axis::kY, 0.03, 2.0);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->rate_rad_per_s, kRate, 0.1);
-  EXPECT_NEAR(found->rate_rad_per_s, kRate, 4 * found->deviation);
-  EXPECT_LT(found->deviation, 0.1);
+  EXPECT_NEAR(found->rate_rad_per_s, kRate, 4 * found->standard_error);
+  EXPECT_LT(found->standard_error, 0.1);
   EXPECT_FALSE(transmission_swing(run, Axis::kY, 1.9, 2.5)) << "too short";
 }
 
@@ -276,8 +276,8 @@ TEST(YawDrag, KnowsThatAllAnglesShareTheRunsOutOfTheWater) {
   const auto apart = yaw_drag(points);
   const auto shared = yaw_drag(points, {.along = 0.008, .side = 0.008});
   ASSERT_TRUE(apart && shared);
-  EXPECT_GT(shared->along_axis.deviation, 1.1 * apart->along_axis.deviation);
-  EXPECT_LT(shared->along_axis.deviation, 0.012);
+  EXPECT_GT(shared->along_axis.standard_error, 1.1 * apart->along_axis.standard_error);
+  EXPECT_LT(shared->along_axis.standard_error, 0.012);
 }
 
 TEST(DriveScale, IsTheWeightOverTheChangeOfDuty) {

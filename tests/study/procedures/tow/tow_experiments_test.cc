@@ -79,8 +79,8 @@ TEST(WeighedDrive, TellsTheTransmissionOfALightCarriageThatSwingsFar) {
     const auto weighed = procedures::weigh_drive(loads.with({}), core::Axis::kY, {});
     ASSERT_EQ(weighed.trouble, "");
     EXPECT_NEAR(weighed.transmission.rate_rad_per_s / held_rad_per_s, 1.0, 0.03);
-    EXPECT_GT(weighed.transmission.deviation, 0.005);
-    EXPECT_LT(weighed.transmission.deviation, 0.03);
+    EXPECT_GT(weighed.transmission.standard_error, 0.005);
+    EXPECT_LT(weighed.transmission.standard_error, 0.03);
   }
 }
 
