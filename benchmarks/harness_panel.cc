@@ -1,6 +1,6 @@
 // What it costs a run at full speed that a panel observes and may steer: the loop's own time with
-// the panel's tap, hand and frames (made twenty times a second on another thread, as for an open
-// page) over the loop's time without, in alternation.
+// the panel's tap, operator and frames (made twenty times a second on another thread, as for an
+// open page) over the loop's time without, in alternation.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -101,7 +101,7 @@ class ThreadTime {
 double thread_s(const ExperimentFixture& fixture, const fs::path& out, LiveTap* tap) {
   ThreadTime time;
   const std::atomic<bool> stop{false};
-  LiveOperator hand(fixture, 1, {.speed = 0, .paused = false}, false, stop);
+  LiveOperator run_operator(fixture, 1, {.speed = 0, .paused = false}, false, stop);
   RunOptions options;
   options.out = out;
   options.watchers = time.watchers();
@@ -110,7 +110,7 @@ double thread_s(const ExperimentFixture& fixture, const fs::path& out, LiveTap* 
     tap->clear(towbench::bbmc::exchange_period_ns(controller.control_period_ns()),
                LiveTap::Histogram::kTook, fixture.rig.parameters.force_sensor.fitted);
     options.tap = tap;
-    options.hand = &hand;
+    options.run_operator = &run_operator;
   }
   std::thread([&] { (void)run_experiment(fixture, options); }).join();
   return time.passed_s();

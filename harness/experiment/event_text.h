@@ -1,4 +1,4 @@
-// [[event]] of an experiment file, read and written: what a hand does to the machine, and the
+// [[event]] of an experiment file, read and written: what a person does to the machine, and the
 // operator to its controller.
 #pragma once
 

@@ -59,8 +59,8 @@ struct Experiment {
   std::vector<emulator::ScheduledEvent> events;  // sorted by time
   FaultPlan faults;
   BoardPlan board;
-  std::vector<HandAct> hand;              // sorted by time; empty: nobody interfered
-  std::vector<EvaluationWindow> windows;  // the first is "whole"
+  std::vector<OperatorAct> operator_acts;  // sorted by time; empty: nobody interfered
+  std::vector<EvaluationWindow> windows;   // the first is "whole"
   std::vector<Budget> budgets;
   std::vector<Requirement> requirements;
   bool budgets_apply = true;  // not to a machine that was broken on the command line or by hand

@@ -41,12 +41,12 @@ ConsoleStep read_console_step(TableReader& reader) {
   return step;
 }
 
-HandAct read_hand_act(TableReader& reader) {
-  HandAct act;
+OperatorAct read_operator_act(TableReader& reader) {
+  OperatorAct act;
   reader.value("at_ns", act.time_ns, core::between(0, kLongestRun_s * 1e9), "when it was done");
   std::size_t kind = 0;
-  reader.choice("did", kind, {std::begin(kHandActNames), std::end(kHandActNames)});
-  act.kind = static_cast<HandAct::Kind>(kind);
+  reader.choice("did", kind, {std::begin(kOperatorActNames), std::end(kOperatorActNames)});
+  act.kind = static_cast<OperatorAct::Kind>(kind);
   reader.text("text", act.text, "what was typed, broken, changed or done to the clock");
   reader.require("at_ns");
   reader.require("did");
@@ -156,11 +156,12 @@ Experiment read_script(TableReader& reader) {
   for (auto& budget : reader.tables("board_budget")) {
     experiment.board.budgets.push_back(read_board_budget(budget));
   }
-  for (auto& act : reader.tables("hand")) {
-    experiment.hand.push_back(read_hand_act(act));
-    experiment.budgets_apply = experiment.budgets_apply && !experiment.hand.back().disturbs();
+  for (auto& act : reader.tables("operator")) {
+    experiment.operator_acts.push_back(read_operator_act(act));
+    experiment.budgets_apply =
+        experiment.budgets_apply && !experiment.operator_acts.back().disturbs();
   }
-  std::stable_sort(experiment.hand.begin(), experiment.hand.end(),
+  std::stable_sort(experiment.operator_acts.begin(), experiment.operator_acts.end(),
                    [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; });
   experiment.windows.emplace_back();
   for (auto& window : reader.tables("window")) {

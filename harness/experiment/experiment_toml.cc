@@ -26,8 +26,8 @@ std::string console_toml(const ConsoleStep& step) {
   return text + "timeout_s = " + toml_number(step.timeout_s) + '\n';
 }
 
-std::string hand_toml(const HandAct& act) {
-  return fmt::format("\n[[hand]]\nat_ns = {}\ndid = \"{}\"\ntext = {}\n", act.time_ns,
+std::string operator_act_toml(const OperatorAct& act) {
+  return fmt::format("\n[[operator]]\nat_ns = {}\ndid = \"{}\"\ntext = {}\n", act.time_ns,
                      name_of(act.kind), toml_string(act.text));
 }
 
@@ -79,7 +79,7 @@ std::string to_toml(const ExperimentFixture& fixture, const std::string& rig,
   const bool has_faults = !experiment.faults.empty() || !experiment.board.faults.empty();
   text += has_faults && !experiment.budgets_apply ? kBudgetsDoNotApply : "";
   append(text, experiment.board.budgets, [](const BoardBudget& budget) { return to_toml(budget); });
-  append(text, experiment.hand, hand_toml);
+  append(text, experiment.operator_acts, operator_act_toml);
   append(text, std::span(experiment.windows).subspan(1), window_toml);  // "whole" always exists
   append(text, experiment.budgets, budget_toml);
   append(text, experiment.requirements,

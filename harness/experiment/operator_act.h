@@ -10,7 +10,7 @@
 
 namespace towbench::harness {
 
-struct HandAct {
+struct OperatorAct {
   // What is broken and cleared stands in the experiment's faults too; those make it happen.
   enum class Kind : std::uint8_t { kTyped, kFault, kCleared, kChanged, kClock, kHolds, kFinished };
   core::Nanoseconds time_ns = 0;  // of the exchange before which it was done
@@ -23,10 +23,10 @@ struct HandAct {
   [[nodiscard]] bool disturbs() const noexcept { return kind < Kind::kClock; }
 };
 
-inline constexpr std::string_view kHandActNames[] = {"typed", "fault", "cleared", "changed",
-                                                     "clock", "holds", "finished"};
-[[nodiscard]] inline std::string_view name_of(HandAct::Kind kind) noexcept {
-  return kHandActNames[static_cast<std::size_t>(kind)];
+inline constexpr std::string_view kOperatorActNames[] = {"typed", "fault", "cleared", "changed",
+                                                         "clock", "holds", "finished"};
+[[nodiscard]] inline std::string_view name_of(OperatorAct::Kind kind) noexcept {
+  return kOperatorActNames[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace towbench::harness

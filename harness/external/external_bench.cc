@@ -35,12 +35,12 @@ double duty_of(const protocol::PwmDuty& duty) {
 
 ExternalBench::ExternalBench(const ExperimentFixture& fixture, const ExternalPlant& plant,
                              protocol::TurnLink& link, const std::vector<LinkFault>& faults,
-                             const ExternalRecord& record, Hand* hand)
+                             const ExternalRecord& record, Operator* run_operator)
     : fixture_(fixture),
       plant_(plant),
       link_(link),
       record_(record),
-      hand_(hand),
+      operator_(run_operator),
       schedule_(fixture.experiment.reference),
       to_plant_(*this, faults),
       to_controller_(*this, faults) {
@@ -121,8 +121,8 @@ void ExternalBench::exchange_until_over(const LoopWatchers& watchers) {
       const auto before = std::exchange(host, HostClock::now());
       record_.tap->exchange(std::chrono::nanoseconds(host - before).count());
     }
-    if (hand_ != nullptr && !ended_) {
-      take_hand(plant_.node.now_ns());
+    if (operator_ != nullptr && !ended_) {
+      take_operator_acts(plant_.node.now_ns());
     }
     if (watchers.progress && turns % kTurnsBetween == 0) {
       watchers.progress(plant_.node.now_ns());
@@ -132,20 +132,20 @@ void ExternalBench::exchange_until_over(const LoopWatchers& watchers) {
   (void)link_.wait(to_plant_);
 }
 
-void ExternalBench::take_hand(Nanoseconds now_ns) {
-  for (const auto& act : hand_->at(now_ns, *this)) {
-    record_.recorder.hand(act);
+void ExternalBench::take_operator_acts(Nanoseconds now_ns) {
+  for (const auto& act : operator_->at(now_ns, *this)) {
+    record_.recorder.operator_acted(act);
     if (record_.tap != nullptr) {
-      record_.tap->event(hand_line(act));
+      record_.tap->event(operator_act_line(act));
     }
-    finished_ = finished_ || act.kind == HandAct::Kind::kFinished;
+    finished_ = finished_ || act.kind == OperatorAct::Kind::kFinished;
     disturbed_ = disturbed_ || act.disturbs();
     // All that an operator has to say here; of a run that is repeated it is an event.
-    if (act.kind == HandAct::Kind::kTyped && !is_planned(now_ns)) {
+    if (act.kind == OperatorAct::Kind::kTyped && !is_planned(now_ns)) {
       plant_.node.add_event({.time_ns = now_ns, .kind = emulator::ScheduledEventKind::kReset});
     }
   }
-  advanced_ = HostClock::now();  // a hand may have held the run
+  advanced_ = HostClock::now();  // an operator may have held the run
 }
 
 bool ExternalBench::is_planned(Nanoseconds reset_ns) const {
@@ -273,7 +273,7 @@ bool ExternalBench::over(Nanoseconds time_ns) noexcept {
     return true;
   }
   const auto after_ns = time_ns - schedule_.end_ns();
-  const bool held = hand_ != nullptr && hand_->holds() && !finished_;
+  const bool held = operator_ != nullptr && operator_->holds() && !finished_;
   return !held && (after_ns >= kLongestSettling_ns || (after_ns >= kHold_ns && stands));
 }
 

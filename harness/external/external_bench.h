@@ -52,10 +52,10 @@ struct ExternalRecord {
 
 class ExternalBench final : public SteeredBench {
  public:
-  // `faults` strike what crosses; `hand` may be null.
+  // `faults` strike what crosses; `run_operator` may be null.
   ExternalBench(const ExperimentFixture& fixture, const ExternalPlant& plant,
                 protocol::TurnLink& link, const std::vector<LinkFault>& faults,
-                const ExternalRecord& record, Hand* hand = nullptr);
+                const ExternalRecord& record, Operator* run_operator = nullptr);
 
   // From the greeting that has come to Bye. A controller that is lost or ends by itself is told in
   // RunOutcome::script_failure: the run is complete, and the drive is off.
@@ -65,7 +65,7 @@ class ExternalBench final : public SteeredBench {
                                                  AnswerWatch& answers,
                                                  const LoopWatchers& watchers);
 
-  // ---- what the hand may do ----
+  // ---- what the operator may do ----
   [[nodiscard]] core::Nanoseconds now_ns() const noexcept override { return plant_.node.now_ns(); }
   [[nodiscard]] core::Nanoseconds exchange_ns() const noexcept override {
     return outcome_.exchange_ns;
@@ -128,7 +128,7 @@ class ExternalBench final : public SteeredBench {
   void lose(core::ErrorCode why, const std::string& words);
   // True when it is said.
   [[nodiscard]] bool said_too_much();
-  void take_hand(core::Nanoseconds now_ns);
+  void take_operator_acts(core::Nanoseconds now_ns);
   // Whether the experiment itself has the operator's reset then.
   [[nodiscard]] bool is_planned(core::Nanoseconds reset_ns) const;
   void interrupt_if_asked(const LoopWatchers& watchers);
@@ -143,7 +143,7 @@ class ExternalBench final : public SteeredBench {
   ExternalPlant plant_;
   protocol::TurnLink& link_;
   ExternalRecord record_;
-  Hand* hand_;
+  Operator* operator_;
   ReferenceSchedule schedule_;
   ToPlant to_plant_;
   ToController to_controller_;

@@ -115,10 +115,12 @@ RunOutcome play_external(const Play& what, const std::filesystem::path& folder) 
   StandstillWatch standstill(thinned);
   Refusals refusals(standstill, [&](const std::string& line) { what.refused.push_back(line); });
   emulator::PlantNode node(fixture.rig.parameters, how.seed, fixture.experiment.events, refusals);
-  RepeatedHand repeated(fixture.experiment.hand);
-  Hand* const hand = how.hand == nullptr && !fixture.experiment.hand.empty() ? &repeated : how.hand;
+  ReplayedOperator repeated(fixture.experiment.operator_acts);
+  Operator* const run_operator =
+      how.run_operator == nullptr && !fixture.experiment.operator_acts.empty() ? &repeated
+                                                                               : how.run_operator;
   ExternalBench bench(fixture, {node, standstill, refusals.heard()}, arrival.link(),
-                      what.link_faults, {recorder, what.record, how.tap}, hand);
+                      what.link_faults, {recorder, what.record, how.tap}, run_operator);
   outcome = how.by_wall_clock ? run_by_the_clock(bench, arrival, what)
                               : bench.run(arrival.hello(), how.watchers);
   if (const auto dropped = Refusals::dropped(arrival.link().counts()); !dropped.empty()) {

@@ -28,8 +28,8 @@ struct ExternalPlay {
   std::uint64_t seed = 0;
   const LoopWatchers& watchers;  // outlives the run
   bool by_wall_clock = false;    // not with faults
-  RunTap* tap = nullptr;         // may be null, as may the hand; both outlive the run
-  Hand* hand = nullptr;
+  RunTap* tap = nullptr;         // may be null, as may the operator; both outlive the run
+  Operator* run_operator = nullptr;
 };
 
 class ExternalRun {

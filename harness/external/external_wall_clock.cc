@@ -48,8 +48,8 @@ void ExternalBench::tick_until_over(TickLoop& loop, AnswerWatch& answers,
       if (ended_) {
         break;
       }
-      if (hand_ != nullptr) {
-        take_hand(now_ns);
+      if (operator_ != nullptr) {
+        take_operator_acts(now_ns);
       }
       record_.recorder.row(take_row(now_ns));
     }

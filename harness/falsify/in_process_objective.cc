@@ -58,7 +58,7 @@ class InProcess final : public Objective {
  public:
   InProcess(const ExperimentFixture& fixture, Asked asked, std::size_t snapshots)
       : fixture_(fixture), asked_(std::move(asked)), nominal_(fixture) {
-    if (snapshots > 0 && nominal_.plain.experiment.hand.empty()) {
+    if (snapshots > 0 && nominal_.plain.experiment.operator_acts.empty()) {
       snapshots_ = std::make_unique<Snapshots>(
           nominal_.plain, nominal_.seed,
           even_moments(nominal_.reference->outcome.end_ns, snapshots),

@@ -51,10 +51,10 @@ void type(Experiment& experiment, const Setup& setup) {
   for (auto& step : experiment.console) {
     step.expect.clear();
   }
-  experiment.hand.push_back({.time_ns = core::nanoseconds(setup.typed_at_s),
-                             .kind = HandAct::Kind::kTyped,
-                             .text = setup.typed + '\r'});
-  std::stable_sort(experiment.hand.begin(), experiment.hand.end(),
+  experiment.operator_acts.push_back({.time_ns = core::nanoseconds(setup.typed_at_s),
+                                      .kind = OperatorAct::Kind::kTyped,
+                                      .text = setup.typed + '\r'});
+  std::stable_sort(experiment.operator_acts.begin(), experiment.operator_acts.end(),
                    [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; });
 }
 

@@ -11,7 +11,7 @@ namespace towbench::harness {
 
 ExperimentFixture without_expectations(const ExperimentFixture& fixture) {
   ExperimentFixture plain = fixture;
-  if (!fixture.experiment.hand.empty()) {
+  if (!fixture.experiment.operator_acts.empty()) {
     return plain;  // its acts have times of a run in which the script waited for its answers
   }
   for (auto& step : plain.experiment.console) {
@@ -48,7 +48,7 @@ std::unique_ptr<CaseRecord> run_case(const ExperimentFixture& fixture,
   LockstepBench bench(fixture.controller.configuration, fixture.rig.hash, link, record.get());
   bench.run_on(injection.host);
   record->keep_time_of(&injection.host);
-  record->outcome = play(experiment, bench, *record, {}, RunEnd::kUndriven, options.hand);
+  record->outcome = play(experiment, bench, *record, {}, RunEnd::kUndriven, options.run_operator);
   record->keep_time_of(nullptr);
   record->outcome.control_period_ns = fixture.controller.configuration.control_period_ns();
   return record;

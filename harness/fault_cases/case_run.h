@@ -20,8 +20,8 @@ namespace towbench::harness {
 struct CaseOptions {
   std::uint64_t seed = 1;
   std::optional<FullReverse> reverse{};
-  std::optional<double> until_s{};  // instead of the experiment's own limit
-  Hand* hand = nullptr;             // null: the experiment's own, if it has one
+  std::optional<double> until_s{};   // instead of the experiment's own limit
+  Operator* run_operator = nullptr;  // null: the experiment's own, if it has one
 };
 
 // `built` is the fixture's rig with what the plan builds in.

@@ -26,7 +26,7 @@ Injection injection_of(const FaultPlan& plan, const std::vector<core::Nanosecond
       // A welded contact shows only when somebody presses it: the sound one is pressed too.
       auto pressed = plan[i];
       pressed.kind = FaultKind::kPressed;
-      inject(pressed, onsets_ns[i] + kHandComes_ns, reference, end_ns, injection);
+      inject(pressed, onsets_ns[i] + kOperatorReaction_ns, reference, end_ns, injection);
     }
     if (i != without && plan[i].row().start == FaultStart::kAnyTime) {
       inject(plan[i], onsets_ns[i], reference, end_ns, injection);

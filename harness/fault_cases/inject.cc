@@ -108,7 +108,7 @@ class Injector : FaultSchedule {
         return hold_line(InputLine::kKillSwitch, WireCondition::kStuckHigh);
       case kWelded:
         hold_line(InputLine::kKillSwitch, WireCondition::kStuckLow);
-        return press(at_ns_ + kHandComes_ns, true);
+        return press(at_ns_ + kOperatorReaction_ns, true);
       case kReleased:
         press(at_ns_, true);
         return press(at_ns_ + core::nanoseconds(parameter(0)), false);

@@ -222,7 +222,7 @@ std::optional<ExperimentFixture> pressed_where_welded(const ExperimentFixture& s
       if (!pressed) {
         pressed = sound;
       }
-      add_events(*pressed, {{.time_ns = prepared.onsets_ns[i] + kHandComes_ns,
+      add_events(*pressed, {{.time_ns = prepared.onsets_ns[i] + kOperatorReaction_ns,
                              .kind = emulator::ScheduledEventKind::kPressKillSwitch}});
     }
   }

@@ -24,7 +24,7 @@ class BenchRecorder {
   // What the operator sent, as the controller took it; before what it prints in answer.
   virtual void typed(core::Nanoseconds /*time_ns*/, std::string_view /*text*/) noexcept {}
   // What a person did; before it takes effect.
-  virtual void hand(const HandAct& /*act*/) noexcept {}
+  virtual void operator_acted(const OperatorAct& /*act*/) noexcept {}
   virtual void wire_event(core::Nanoseconds time_ns, std::string_view kind) noexcept = 0;
   // `host_ns` since the start of the run.
   virtual void timing(core::Nanoseconds time_ns, core::Nanoseconds host_ns,

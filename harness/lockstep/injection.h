@@ -11,7 +11,7 @@
 namespace towbench::harness {
 
 // After a kill switch has welded somebody presses it.
-inline constexpr core::Nanoseconds kHandComes_ns = 50 * core::kNanosecondsPerMillisecond;
+inline constexpr core::Nanoseconds kOperatorReaction_ns = 50 * core::kNanosecondsPerMillisecond;
 
 struct Injection {
   bool over_can = false;                         // what a bus does to the data, too

@@ -23,8 +23,8 @@ std::string told(core::ErrorCode code) {
 class Loop {
  public:
   Loop(const Experiment& experiment, LockstepBench& bench, BenchRecorder& recorder,
-       const LoopWatchers& watchers, RunEnd end, Hand* hand)
-      : hand_(hand),
+       const LoopWatchers& watchers, RunEnd end, Operator* run_operator)
+      : operator_(run_operator),
         end_(end),
         bench_(bench),
         recorder_(recorder),
@@ -96,7 +96,7 @@ class Loop {
 
   bool script_ends() {
     const auto now_ns = bench_.now_ns();
-    const bool finished = take_hand(now_ns);
+    const bool finished = take_operator_acts(now_ns);
     type(now_ns);
     script_.hear(bench_.serve());
     const auto progress = script_.update(now_ns, bench_.controller().idle());
@@ -104,7 +104,7 @@ class Loop {
       return true;
     }
     const bool scripted = progress == ConsoleScript::Progress::kRunning;
-    const bool goes_on = scripted || (hand_ != nullptr && hand_->holds());
+    const bool goes_on = scripted || (operator_ != nullptr && operator_->holds());
     if (goes_on && !finished && now_ns < limit_ns_) {
       return false;
     }
@@ -121,16 +121,16 @@ class Loop {
   }
 
   // True when the run is to end.
-  bool take_hand(core::Nanoseconds now_ns) {
+  bool take_operator_acts(core::Nanoseconds now_ns) {
     bool finished = false;
-    if (hand_ != nullptr) {
-      for (const auto& act : hand_->at(now_ns, bench_)) {
-        recorder_.hand(act);
-        const bool of_machine = act.disturbs() || act.kind == HandAct::Kind::kFinished;
+    if (operator_ != nullptr) {
+      for (const auto& act : operator_->at(now_ns, bench_)) {
+        recorder_.operator_acted(act);
+        const bool of_machine = act.disturbs() || act.kind == OperatorAct::Kind::kFinished;
         end_ = of_machine ? RunEnd::kUndriven : end_;
         disturbed_ = disturbed_ || act.disturbs();
-        by_hand_ += act.kind == HandAct::Kind::kTyped ? act.text : "";
-        finished = finished || act.kind == HandAct::Kind::kFinished;
+        by_hand_ += act.kind == OperatorAct::Kind::kTyped ? act.text : "";
+        finished = finished || act.kind == OperatorAct::Kind::kFinished;
       }
     }
     return finished;
@@ -158,7 +158,7 @@ class Loop {
     }
   }
 
-  Hand* hand_;  // null: nobody
+  Operator* operator_;  // null: nobody
   RunEnd end_;
   bool script_is_over_ = false;
   core::Nanoseconds script_over_ns_ = -1;
@@ -177,12 +177,12 @@ class Loop {
 }  // namespace
 
 RunOutcome play(const Experiment& experiment, LockstepBench& bench, BenchRecorder& recorder,
-                const LoopWatchers& watchers, RunEnd end, Hand* hand) {
-  std::optional<RepeatedHand> repeated;
-  if (hand == nullptr && !experiment.hand.empty()) {
-    hand = &repeated.emplace(experiment.hand);
+                const LoopWatchers& watchers, RunEnd end, Operator* run_operator) {
+  std::optional<ReplayedOperator> repeated;
+  if (run_operator == nullptr && !experiment.operator_acts.empty()) {
+    run_operator = &repeated.emplace(experiment.operator_acts);
   }
-  auto outcome = Loop(experiment, bench, recorder, watchers, end, hand).run();
+  auto outcome = Loop(experiment, bench, recorder, watchers, end, run_operator).run();
   recorder.flush();
   outcome.log_rows = recorder.rows();
   outcome.writes_succeeded = recorder.good();

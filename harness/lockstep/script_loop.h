@@ -35,10 +35,10 @@ struct LoopWatchers {
   std::function<void(const std::string& path)> terminal{};
 };
 
-// Without `hand` the experiment's own is repeated, if it has one. Whoever acts by hand makes the
-// run end as RunEnd::kUndriven.
+// Without `run_operator` the experiment's own is repeated, if it has one. Whoever acts by hand
+// makes the run end as RunEnd::kUndriven.
 [[nodiscard]] RunOutcome play(const Experiment& experiment, LockstepBench& bench,
                               BenchRecorder& recorder, const LoopWatchers& watchers,
-                              RunEnd end = RunEnd::kIdle, Hand* hand = nullptr);
+                              RunEnd end = RunEnd::kIdle, Operator* run_operator = nullptr);
 
 }  // namespace towbench::harness

@@ -1,4 +1,4 @@
-// What a hand may do to a run under way, whoever controls.
+// What an operator may do to a run under way, whoever controls.
 #pragma once
 
 #include "core/time.h"
@@ -17,7 +17,7 @@ class SteeredBench {
   [[nodiscard]] virtual core::Nanoseconds exchange_ns() const noexcept = 0;
   // What nobody had planned, from the next exchange on. False when it cannot be done here.
   [[nodiscard]] virtual bool inject(const Injection& injection) = 0;
-  // The hand holds the run back, and does so for some time yet.
+  // The operator holds the run back, and does so for some time yet.
   virtual void wait_a_little() noexcept {}
 };
 

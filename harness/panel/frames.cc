@@ -187,8 +187,8 @@ void FrameMaker::take_words() {
     untold_.events += tail_->events();
   }
   untold_.console += session_.tap().take_console();
-  if (auto* const hand = session_.hand_if_running()) {
-    if (auto trouble = hand->take_trouble(); !trouble.empty()) {
+  if (auto* const run_operator = session_.operator_if_running()) {
+    if (auto trouble = run_operator->take_trouble(); !trouble.empty()) {
       untold_.trouble = std::move(trouble);
     }
   }
@@ -265,12 +265,12 @@ std::string FrameMaker::state_text() {
                  {"reason", state.reason},
                  {"dropped", session_.tap().dropped() + missed_},
                  {"trouble", untold_.trouble}};
-  if (auto* const hand = session_.hand_if_running()) {
-    const auto pace = hand->pace();
+  if (auto* const run_operator = session_.operator_if_running()) {
+    const auto pace = run_operator->pace();
     object["speed"] = pace.speed;
     object["paused"] = pace.paused;
-    object["holds"] = hand->holds();
-    object["broken"] = hand->broken();
+    object["holds"] = run_operator->holds();
+    object["active_faults"] = run_operator->active_faults();
   }
   if (const auto* const fixture = session_.fixture()) {
     auto& limits = object["limits"];
@@ -302,9 +302,9 @@ std::string FrameMaker::state_text() {
 // What begins, pauses or ends is told at once.
 bool FrameMaker::holds_back() {
   const auto state = session_.state();
-  auto* const hand = session_.hand_if_running();
-  const bool at_full_speed = hand != nullptr && state.clock == RunClock::kLockstep &&
-                             hand->pace().speed == 0 && !hand->pace().paused;
+  auto* const run_operator = session_.operator_if_running();
+  const bool at_full_speed = run_operator != nullptr && state.clock == RunClock::kLockstep &&
+                             run_operator->pace().speed == 0 && !run_operator->pace().paused;
   if (at_full_speed && told_at_full_speed_ == state.number && ++held_back_ < kHeldBack) {
     return true;
   }

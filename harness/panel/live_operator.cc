@@ -49,7 +49,7 @@ LiveOperator::LiveOperator(const ExperimentFixture& fixture, std::uint64_t seed,
       holds_(holds),
       stop_(stop),
       pace_(pace),
-      done_(fixture.experiment.hand) {}
+      done_(fixture.experiment.operator_acts) {}
 
 void LiveOperator::give(Command command) {
   {
@@ -61,19 +61,19 @@ void LiveOperator::give(Command command) {
 }
 
 void LiveOperator::type(std::string bytes) {
-  give({.kind = HandAct::Kind::kTyped, .text = std::move(bytes), .fault = {}});
+  give({.kind = OperatorAct::Kind::kTyped, .text = std::move(bytes), .fault = {}});
 }
 
-void LiveOperator::break_now(Fault fault) {
+void LiveOperator::inject_now(Fault fault) {
   refuse_unless_possible(fault, fixture_);
-  give({.kind = HandAct::Kind::kFault, .text = {}, .fault = std::move(fault)});
+  give({.kind = OperatorAct::Kind::kFault, .text = {}, .fault = std::move(fault)});
 }
 
 void LiveOperator::clear(const FaultPlace& place, FaultKind kind) {
   Fault fault;
   fault.place = place;
   fault.kind = kind;
-  give({.kind = HandAct::Kind::kCleared, .text = {}, .fault = std::move(fault)});
+  give({.kind = OperatorAct::Kind::kCleared, .text = {}, .fault = std::move(fault)});
 }
 
 void LiveOperator::set_speed(double speed) {
@@ -106,7 +106,7 @@ void LiveOperator::step(core::Nanoseconds length_ns) {
 }
 
 void LiveOperator::finish() {
-  give({.kind = HandAct::Kind::kFinished, .text = "finish", .fault = {}});
+  give({.kind = OperatorAct::Kind::kFinished, .text = "finish", .fault = {}});
 }
 
 LiveOperator::Pace LiveOperator::pace() const {
@@ -114,10 +114,10 @@ LiveOperator::Pace LiveOperator::pace() const {
   return pace_;
 }
 
-std::vector<std::string> LiveOperator::broken() const {
+std::vector<std::string> LiveOperator::active_faults() const {
   const std::lock_guard lock(mutex_);
   std::vector<std::string> words;
-  for (const auto& fault : broke_) {
+  for (const auto& fault : injected_) {
     if (!fault.duration_s) {
       words.push_back(name_of(fault.place) + " " + std::string(fault.row().name));
     }
@@ -130,7 +130,7 @@ std::string LiveOperator::take_trouble() {
   return std::exchange(trouble_, {});
 }
 
-std::span<const HandAct> LiveOperator::at(core::Nanoseconds now_ns, SteeredBench& bench) {
+std::span<const OperatorAct> LiveOperator::at(core::Nanoseconds now_ns, SteeredBench& bench) {
   now_ns_.store(now_ns, std::memory_order_relaxed);
   if (!wanted_.load(std::memory_order_acquire) && !stop_.load(std::memory_order_relaxed)) {
     return {};
@@ -142,7 +142,7 @@ std::span<const HandAct> LiveOperator::at(core::Nanoseconds now_ns, SteeredBench
       commands_.pop_front();
       carry_out(command, now_ns, bench);
     }
-    const bool finished = !done_.empty() && done_.back().kind == HandAct::Kind::kFinished;
+    const bool finished = !done_.empty() && done_.back().kind == OperatorAct::Kind::kFinished;
     if (finished || stop_.load(std::memory_order_relaxed)) {
       break;
     }
@@ -158,7 +158,7 @@ std::span<const HandAct> LiveOperator::at(core::Nanoseconds now_ns, SteeredBench
       bench.wait_a_little();
     }
   }
-  const auto fresh = std::span<const HandAct>(done_).subspan(told_);
+  const auto fresh = std::span<const OperatorAct>(done_).subspan(told_);
   told_ = done_.size();
   wanted_.store(pace_.paused || pace_.speed > 0, std::memory_order_relaxed);
   return fresh;
@@ -186,7 +186,7 @@ std::optional<LiveOperator::HostClock::time_point> LiveOperator::due(core::Nanos
   return target > host ? std::optional(target) : std::nullopt;
 }
 
-void LiveOperator::note(HandAct::Kind kind, std::string text) {
+void LiveOperator::note(OperatorAct::Kind kind, std::string text) {
   done_.push_back({.time_ns = now_ns(), .kind = kind, .text = std::move(text)});
 }
 
@@ -194,17 +194,17 @@ void LiveOperator::carry_out(const Command& command, core::Nanoseconds /*now_ns*
                              SteeredBench& bench) {
   std::string refusal;
   switch (command.kind) {
-    case HandAct::Kind::kFault:
-      refusal = make_broken(*command.fault, bench);
+    case OperatorAct::Kind::kFault:
+      refusal = start_fault(*command.fault, bench);
       break;
-    case HandAct::Kind::kCleared:
-      refusal = make_cleared(*command.fault, bench);
+    case OperatorAct::Kind::kCleared:
+      refusal = end_fault(*command.fault, bench);
       break;
-    case HandAct::Kind::kTyped:
-    case HandAct::Kind::kChanged:
-    case HandAct::Kind::kClock:
-    case HandAct::Kind::kHolds:
-    case HandAct::Kind::kFinished:
+    case OperatorAct::Kind::kTyped:
+    case OperatorAct::Kind::kChanged:
+    case OperatorAct::Kind::kClock:
+    case OperatorAct::Kind::kHolds:
+    case OperatorAct::Kind::kFinished:
       note(command.kind, command.text);
       break;
   }
@@ -213,8 +213,8 @@ void LiveOperator::carry_out(const Command& command, core::Nanoseconds /*now_ns*
   }
 }
 
-std::string LiveOperator::make_broken(const Fault& fault, SteeredBench& bench) {
-  for (const auto& other : broke_) {
+std::string LiveOperator::start_fault(const Fault& fault, SteeredBench& bench) {
+  for (const auto& other : injected_) {
     if (is_same_place(other, fault) && !other.duration_s) {
       return fmt::format("{} {} already", name_of(fault.place), fault.row().name);
     }
@@ -231,22 +231,22 @@ std::string LiveOperator::make_broken(const Fault& fault, SteeredBench& bench) {
   if (!bench.inject(injection)) {
     return fmt::format("\"{}\" cannot be made here", describe(now));
   }
-  broke_.push_back(now);
-  note(HandAct::Kind::kFault, describe(now));
+  injected_.push_back(now);
+  note(OperatorAct::Kind::kFault, describe(now));
   return {};
 }
 
-std::string LiveOperator::make_cleared(const Fault& fault, SteeredBench& bench) {
-  const auto broken = std::find_if(broke_.begin(), broke_.end(), [&](const Fault& other) {
+std::string LiveOperator::end_fault(const Fault& fault, SteeredBench& bench) {
+  const auto active = std::find_if(injected_.begin(), injected_.end(), [&](const Fault& other) {
     return is_same_place(other, fault) && !other.duration_s;
   });
-  if (broken == broke_.end()) {
+  if (active == injected_.end()) {
     return fmt::format("{} is not {} by hand", name_of(fault.place), fault.row().name);
   }
-  Fault over = *broken;
+  Fault over = *active;
   const auto until_ns = bench.now_ns() + bench.exchange_ns();
   over.duration_s = core::seconds(until_ns) - over.trigger.value;
-  const auto before = injection_of(*broken);
+  const auto before = injection_of(*active);
   auto after = injection_of(over);
   // What has been given to the machine cannot be taken back: only an end can be added.
   const bool adds = before.link.empty() && before.host.stalls.empty() &&
@@ -256,15 +256,15 @@ std::string LiveOperator::make_cleared(const Fault& fault, SteeredBench& bench) 
                                  return a.time_ns == b.time_ns && a.kind == b.kind;
                                });
   if (!adds) {
-    return fmt::format("\"{}\" lasts to the end of the run", describe(*broken));
+    return fmt::format("\"{}\" lasts to the end of the run", describe(*active));
   }
   after.events.erase(after.events.begin(),
                      after.events.begin() + static_cast<std::ptrdiff_t>(before.events.size()));
   if (!bench.inject(after)) {
-    return fmt::format("\"{}\" cannot be cleared here", describe(*broken));
+    return fmt::format("\"{}\" cannot be cleared here", describe(*active));
   }
-  *broken = over;
-  note(HandAct::Kind::kCleared, describe(over));
+  *active = over;
+  note(OperatorAct::Kind::kCleared, describe(over));
   return {};
 }
 
@@ -272,7 +272,7 @@ Injection LiveOperator::injection_of(const Fault& fault) const {
   const auto end_ns = core::nanoseconds(fixture_.experiment.duration_limit_s);
   const auto onset_ns = core::nanoseconds(fault.trigger.value);
   auto so_far = fixture_;
-  so_far.experiment.hand = done_;
+  so_far.experiment.operator_acts = done_;
   so_far.experiment.faults = {};
   // Only these look at what the undisturbed run would do.
   const bool looks_ahead = fault.kind == FaultKind::kBounce || fault.place.part == FaultPart::kHost;

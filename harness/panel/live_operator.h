@@ -1,5 +1,5 @@
-// The panel's hand on a run: commands come from the server's thread, take effect on the bench's
-// thread between two exchanges, and are written down with the exchange's virtual time.
+// The operator at the panel of a run: commands come from the server's thread, take effect on the
+// bench's thread between two exchanges, and are written down with the exchange's virtual time.
 //
 // Also holds the run back to a pace: paused, step by step, slow motion, real time, or not at all.
 // That is host time, which the run does not see.
@@ -28,9 +28,9 @@ class LiveOperator final : public RunOperator {
 
   // ---- from any thread ----
   void type(std::string bytes) override;
-  // Throws for what the machine has not, what is built in from the start, and what is broken so
+  // Throws for what the machine has not, what is built in from the start, and what is injected so
   // already.
-  void break_now(Fault fault) override;
+  void inject_now(Fault fault) override;
   void clear(const FaultPlace& place, FaultKind kind) override;
   void set_speed(double speed) override;
   void pause(bool paused) override;
@@ -42,30 +42,31 @@ class LiveOperator final : public RunOperator {
   [[nodiscard]] core::Nanoseconds now_ns() const noexcept {
     return now_ns_.load(std::memory_order_relaxed);
   }
-  [[nodiscard]] std::vector<std::string> broken() const override;
+  [[nodiscard]] std::vector<std::string> active_faults() const override;
   [[nodiscard]] std::string take_trouble() override;
 
   // ---- on the bench's thread ----
-  [[nodiscard]] std::span<const HandAct> at(core::Nanoseconds now_ns, SteeredBench& bench) override;
+  [[nodiscard]] std::span<const OperatorAct> at(core::Nanoseconds now_ns,
+                                                SteeredBench& bench) override;
   [[nodiscard]] bool holds() const override { return holds_; }
   // Both when the run is over.
-  [[nodiscard]] const std::vector<HandAct>& done() const override { return done_; }
-  [[nodiscard]] const FaultPlan& broke() const override { return broke_; }
+  [[nodiscard]] const std::vector<OperatorAct>& done() const override { return done_; }
+  [[nodiscard]] const FaultPlan& injected() const override { return injected_; }
 
  private:
   using HostClock = std::chrono::steady_clock;
   struct Command {
-    HandAct::Kind kind = HandAct::Kind::kClock;
+    OperatorAct::Kind kind = OperatorAct::Kind::kClock;
     std::string text;
     std::optional<Fault> fault;
   };
 
   void give(Command command);
   void carry_out(const Command& command, core::Nanoseconds now_ns, SteeredBench& bench);
-  [[nodiscard]] std::string make_broken(const Fault& fault, SteeredBench& bench);
-  [[nodiscard]] std::string make_cleared(const Fault& fault, SteeredBench& bench);
+  [[nodiscard]] std::string start_fault(const Fault& fault, SteeredBench& bench);
+  [[nodiscard]] std::string end_fault(const Fault& fault, SteeredBench& bench);
   [[nodiscard]] Injection injection_of(const Fault& fault) const;
-  void note(HandAct::Kind kind, std::string text);
+  void note(OperatorAct::Kind kind, std::string text);
   // Until when the pace says to wait; none: not at all.
   [[nodiscard]] std::optional<HostClock::time_point> due(core::Nanoseconds now_ns);
 
@@ -87,9 +88,9 @@ class LiveOperator final : public RunOperator {
   core::Nanoseconds anchor_ns_ = -1;  // none: to be taken at the next exchange
   std::string trouble_;
 
-  std::vector<HandAct> done_;
+  std::vector<OperatorAct> done_;
   std::size_t told_ = 0;  // acts of done_ that the loop has had
-  FaultPlan broke_;
+  FaultPlan injected_;
 };
 
 }  // namespace towbench::harness

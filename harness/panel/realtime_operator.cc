@@ -14,7 +14,7 @@ namespace {
 
 }  // namespace
 
-RealtimeOperator::RealtimeOperator(std::vector<HandAct> before, bool holds)
+RealtimeOperator::RealtimeOperator(std::vector<OperatorAct> before, bool holds)
     : holds_(holds), done_(std::move(before)) {
   done_.reserve(done_.size() + kMostActs);  // not while the clock runs
 }
@@ -33,22 +33,23 @@ void RealtimeOperator::type(std::string bytes) {
 }
 
 void RealtimeOperator::finish() {
-  Keys keys{.kind = HandAct::Kind::kFinished};
+  Keys keys{.kind = OperatorAct::Kind::kFinished};
   keys.size = static_cast<std::uint8_t>(std::string_view("finish").copy(keys.bytes.data(), 6));
   (void)keys_.push(keys);  // full: pressed again
 }
 
-std::span<const HandAct> RealtimeOperator::at(core::Nanoseconds now_ns, SteeredBench& /*bench*/) {
+std::span<const OperatorAct> RealtimeOperator::at(core::Nanoseconds now_ns,
+                                                  SteeredBench& /*bench*/) {
   Keys keys;
   while (done_.size() < done_.capacity() && keys_.pop(keys)) {
     done_.push_back({.time_ns = now_ns, .kind = keys.kind, .text = std::string(keys.text())});
   }
-  const auto fresh = std::span<const HandAct>(done_).subspan(told_);
+  const auto fresh = std::span<const OperatorAct>(done_).subspan(told_);
   told_ = done_.size();
   return fresh;
 }
 
-void RealtimeOperator::break_now(Fault /*fault*/) {
+void RealtimeOperator::inject_now(Fault /*fault*/) {
   refuse("breaking something");
 }
 void RealtimeOperator::clear(const FaultPlace& /*place*/, FaultKind /*kind*/) {

@@ -19,31 +19,32 @@ namespace towbench::harness {
 class RealtimeOperator final : public RunOperator {
  public:
   // `before`: what was done before the start.
-  RealtimeOperator(std::vector<HandAct> before, bool holds);
+  RealtimeOperator(std::vector<OperatorAct> before, bool holds);
 
   void type(std::string bytes) override;
   void finish() override;
   void wake() override {}
-  [[noreturn]] void break_now(Fault fault) override;
+  [[noreturn]] void inject_now(Fault fault) override;
   [[noreturn]] void clear(const FaultPlace& place, FaultKind kind) override;
   [[noreturn]] void set_speed(double speed) override;
   [[noreturn]] void pause(bool paused) override;
   [[noreturn]] void step(core::Nanoseconds length_ns) override;
 
   [[nodiscard]] Pace pace() const override { return {}; }
-  [[nodiscard]] std::vector<std::string> broken() const override { return {}; }
+  [[nodiscard]] std::vector<std::string> active_faults() const override { return {}; }
   [[nodiscard]] std::string take_trouble() override { return {}; }
 
   // ---- on the bench's thread ----
-  [[nodiscard]] std::span<const HandAct> at(core::Nanoseconds now_ns, SteeredBench& bench) override;
+  [[nodiscard]] std::span<const OperatorAct> at(core::Nanoseconds now_ns,
+                                                SteeredBench& bench) override;
   [[nodiscard]] bool holds() const override { return holds_; }
-  [[nodiscard]] const std::vector<HandAct>& done() const override { return done_; }
-  [[nodiscard]] const FaultPlan& broke() const override { return broke_; }
+  [[nodiscard]] const std::vector<OperatorAct>& done() const override { return done_; }
+  [[nodiscard]] const FaultPlan& injected() const override { return injected_; }
 
  private:
   static constexpr std::size_t kMostActs = 4096;
   struct Keys {
-    HandAct::Kind kind = HandAct::Kind::kTyped;
+    OperatorAct::Kind kind = OperatorAct::Kind::kTyped;
     std::uint8_t size = 0;
     std::array<char, 118> bytes{};
     [[nodiscard]] std::string_view text() const noexcept { return {bytes.data(), size}; }
@@ -51,9 +52,9 @@ class RealtimeOperator final : public RunOperator {
 
   const bool holds_;
   core::SpscQueue<Keys, 64> keys_;
-  std::vector<HandAct> done_;
+  std::vector<OperatorAct> done_;
   std::size_t told_ = 0;
-  FaultPlan broke_;  // nothing, ever
+  FaultPlan injected_;  // nothing, ever
 };
 
 }  // namespace towbench::harness

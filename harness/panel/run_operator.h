@@ -10,7 +10,7 @@
 
 namespace towbench::harness {
 
-class RunOperator : public FreeHand {
+class RunOperator : public InteractiveOperator {
  public:
   struct Pace {
     double speed = 1;  // virtual over host time; 0: as fast as it goes
@@ -19,9 +19,9 @@ class RunOperator : public FreeHand {
 
   // All throw FixtureError when they cannot be done.
   virtual void type(std::string bytes) = 0;
-  // Breaks from the next exchange on; the fault's own trigger is not used.
-  virtual void break_now(Fault fault) = 0;
-  // Ends what break_now() began.
+  // Injects from the next exchange on; the fault's own trigger is not used.
+  virtual void inject_now(Fault fault) = 0;
+  // Ends what inject_now() began.
   virtual void clear(const FaultPlace& place, FaultKind kind) = 0;
   virtual void set_speed(double speed) = 0;
   virtual void pause(bool paused) = 0;
@@ -31,8 +31,8 @@ class RunOperator : public FreeHand {
   virtual void wake() = 0;
 
   [[nodiscard]] virtual Pace pace() const = 0;
-  // What is broken by hand at present, in words, and why the last command came to nothing.
-  [[nodiscard]] virtual std::vector<std::string> broken() const = 0;
+  // What is injected at present, in words, and why the last command came to nothing.
+  [[nodiscard]] virtual std::vector<std::string> active_faults() const = 0;
   [[nodiscard]] virtual std::string take_trouble() = 0;
 };
 

@@ -43,12 +43,14 @@ void change(ExperimentFixture& fixture, const SessionStart& wanted) {
     }
     experiment.duration_limit_s = *wanted.duration_limit_s;
   }
-  experiment.hand = {{.text = "by hand"}};
+  experiment.operator_acts = {{.text = "by hand"}};
   if (changed) {
-    experiment.hand.push_back({.kind = HandAct::Kind::kChanged, .text = "lines of the script"});
+    experiment.operator_acts.push_back(
+        {.kind = OperatorAct::Kind::kChanged, .text = "lines of the script"});
   }
   if (wanted.holds) {
-    experiment.hand.push_back({.kind = HandAct::Kind::kHolds, .text = "goes on after its script"});
+    experiment.operator_acts.push_back(
+        {.kind = OperatorAct::Kind::kHolds, .text = "goes on after its script"});
   }
   fixture.sources.front().text = to_toml(fixture);
   CanonicalHash hash;
@@ -102,7 +104,7 @@ void Session::start(const SessionStart& wanted) {
   change(*fixture, wanted);
   const auto seed = wanted.seed.value_or(fixture->experiment.seed);
   cut_short();  // joins the thread of the last one
-  hand_.reset();
+  operator_.reset();
   fixture_ = std::move(fixture);
   const auto& controller = fixture_->controller.configuration;
   const bool real = wanted.clock == RunClock::kReal;
@@ -112,9 +114,10 @@ void Session::start(const SessionStart& wanted) {
              emulator::has_further_axes(fixture_->rig.parameters));
   stop_ = false;
   if (real) {
-    hand_ = std::make_unique<RealtimeOperator>(fixture_->experiment.hand, wanted.holds);
+    operator_ =
+        std::make_unique<RealtimeOperator>(fixture_->experiment.operator_acts, wanted.holds);
   } else {
-    hand_ = std::make_unique<LiveOperator>(*fixture_, seed, wanted.pace, wanted.holds, stop_);
+    operator_ = std::make_unique<LiveOperator>(*fixture_, seed, wanted.pace, wanted.holds, stop_);
   }
   {
     const std::lock_guard lock(mutex_);
@@ -132,7 +135,7 @@ RunResult Session::run_by_its_clock(std::uint64_t seed) {
   RunOptions options;
   options.out = runs_;
   options.seed = seed;
-  options.hand = hand_.get();
+  options.run_operator = operator_.get();
   options.tap = &tap_;
   options.watchers.stop = &stop_;
   options.clock = state().clock;
@@ -197,8 +200,8 @@ void Session::set(Phase phase) {
 
 void Session::cut_short() {
   stop_ = true;
-  if (hand_ != nullptr) {
-    hand_->wake();
+  if (operator_ != nullptr) {
+    operator_->wake();
   }
   if (thread_.joinable()) {
     thread_.join();
@@ -210,12 +213,12 @@ Session::State Session::state() const {
   return state_;
 }
 
-RunOperator* Session::hand_if_running() noexcept {
-  return state().phase == Phase::kRunning ? hand_.get() : nullptr;
+RunOperator* Session::operator_if_running() noexcept {
+  return state().phase == Phase::kRunning ? operator_.get() : nullptr;
 }
 
 void Session::type(const std::string& text) {
-  auto& operator_here = hand();
+  auto& operator_here = run_operator();
   if (!fixture_->experiment.reference.empty()) {
     const auto line = text.substr(0, text.find_last_not_of(" \r\n") + 1);
     if (line != "reset") {
@@ -226,9 +229,9 @@ void Session::type(const std::string& text) {
   operator_here.type(text);
 }
 
-RunOperator& Session::hand() {
-  if (auto* const hand = hand_if_running()) {
-    return *hand;
+RunOperator& Session::run_operator() {
+  if (auto* const run_operator = operator_if_running()) {
+    return *run_operator;
   }
   throw FixtureError({.file = "panel"}, "a command to a run", "a run under way; there is none");
 }

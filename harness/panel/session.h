@@ -63,12 +63,12 @@ class Session {
   [[nodiscard]] State state() const;
   [[nodiscard]] LiveTap& tap() noexcept { return tap_; }
   // Of the run under way. Throws FixtureError when there is none.
-  [[nodiscard]] RunOperator& hand();
+  [[nodiscard]] RunOperator& run_operator();
   // On the console of the run under way; where there is none, the operator's `reset` alone. Throws
   // FixtureError.
   void type(const std::string& text);
   // Null when none is under way.
-  [[nodiscard]] RunOperator* hand_if_running() noexcept;
+  [[nodiscard]] RunOperator* operator_if_running() noexcept;
   // Of the last run started; null before.
   [[nodiscard]] const ExperimentFixture* fixture() const noexcept { return fixture_.get(); }
   [[nodiscard]] const std::filesystem::path& runs() const noexcept { return runs_; }
@@ -86,7 +86,7 @@ class Session {
   std::filesystem::path program_;
   LiveTap tap_;
   std::unique_ptr<ExperimentFixture> fixture_;
-  std::unique_ptr<RunOperator> hand_;
+  std::unique_ptr<RunOperator> operator_;
   std::atomic<bool> stop_{false};
   mutable std::mutex mutex_;
   State state_;

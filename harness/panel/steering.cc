@@ -82,13 +82,13 @@ SessionStart start_of(const json& message) {
   return wanted;
 }
 
-// "PART KIND parameters" with a beginning, which the hand sets itself.
+// "PART KIND parameters" with a beginning, which the operator sets.
 Fault fault_of(const json& message) {
   const auto words = text(message, "fault");
   return parse_fault(words + (words.find(" at=") == std::string::npos ? " at=0s" : ""));
 }
 
-// A fault that is built in has no beginning: the hand refuses it by name.
+// A fault that is built in has no beginning: it is refused by name.
 Fault any_fault_of(const json& message) {
   try {
     return fault_of(message);
@@ -104,21 +104,21 @@ void carry_out(Session& session, const json& message) {
   } else if (what == "cut") {
     session.cut_short();
   } else if (what == "finish") {
-    session.hand().finish();
+    session.run_operator().finish();
   } else if (what == "pause" || what == "resume") {
-    session.hand().pause(what == "pause");
+    session.run_operator().pause(what == "pause");
   } else if (what == "step") {
     const auto ms = number(message, "ms", 0.1, kLongestStep_ms);
-    session.hand().step(core::nanoseconds(ms * 1e-3));
+    session.run_operator().step(core::nanoseconds(ms * 1e-3));
   } else if (what == "speed") {
-    session.hand().set_speed(number(message, "speed", 0, kFastest));
+    session.run_operator().set_speed(number(message, "speed", 0, kFastest));
   } else if (what == "type") {
     session.type(text(message, "text"));
   } else if (what == "break") {
-    session.hand().break_now(any_fault_of(message));
+    session.run_operator().inject_now(any_fault_of(message));
   } else if (what == "clear") {
     const auto fault = any_fault_of(message);
-    session.hand().clear(fault.place, fault.kind);
+    session.run_operator().clear(fault.place, fault.kind);
   } else {
     throw bad("do", '"' + what + '"', "start cut finish pause resume step speed type break clear");
   }

@@ -75,8 +75,8 @@ void ControllerRecorder::console(std::string_view text) noexcept {
   }
 }
 
-void ControllerRecorder::hand(const HandAct& act) noexcept {
-  event(hand_line(act));
+void ControllerRecorder::operator_acted(const OperatorAct& act) noexcept {
+  event(operator_act_line(act));
 }
 
 void ControllerRecorder::drain(bbmc::ControllerNode& controller) noexcept {

@@ -25,7 +25,7 @@ class ControllerRecorder final : public BenchRecorder {
   void drain(bbmc::ControllerNode& controller) noexcept override;
   void drain(bbmc::LinuxNode& controller) noexcept;
   void console(std::string_view text) noexcept override;
-  void hand(const HandAct& act) noexcept override;
+  void operator_acted(const OperatorAct& act) noexcept override;
   void wire_event(core::Nanoseconds time_ns, std::string_view kind) noexcept override;
   void timing(core::Nanoseconds time_ns, core::Nanoseconds host_ns,
               core::Nanoseconds exchange_ns) noexcept override;

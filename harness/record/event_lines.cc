@@ -85,8 +85,8 @@ std::string wire_event_line(core::Nanoseconds time_ns, std::string_view kind) {
   return head(time_ns, "wire", kind) + "}\n";
 }
 
-std::string hand_line(const HandAct& act) {
-  return head(act.time_ns, "hand", name_of(act.kind)) +
+std::string operator_act_line(const OperatorAct& act) {
+  return head(act.time_ns, "operator", name_of(act.kind)) +
          fmt::format(R"(,"text":{}}})"
                      "\n",
                      nlohmann::json(act.text).dump(-1, ' ', true,

@@ -16,8 +16,8 @@ namespace towbench::harness {
 // What crossed between the two sides: {"side":"wire"}.
 [[nodiscard]] std::string wire_event_line(core::Nanoseconds time_ns, std::string_view kind);
 
-// What a person did: {"side":"hand"}.
-[[nodiscard]] std::string hand_line(const HandAct& act);
+// What a person did: {"side":"operator"}.
+[[nodiscard]] std::string operator_act_line(const OperatorAct& act);
 
 inline constexpr const char* kPlantEventsFile = "plant_events.jsonl";
 inline constexpr const char* kControllerEventsFile = "controller_events.jsonl";

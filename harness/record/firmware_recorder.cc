@@ -21,8 +21,8 @@ void FirmwareRecorder::event(const bbmc::SystemEvent& event) noexcept {
   events_.write(event_line(event));
 }
 
-void FirmwareRecorder::hand(const HandAct& act) noexcept {
-  events_.write(hand_line(act));
+void FirmwareRecorder::operator_acted(const OperatorAct& act) noexcept {
+  events_.write(operator_act_line(act));
 }
 
 void FirmwareRecorder::wire_event(core::Nanoseconds time_ns, std::string_view kind) noexcept {

@@ -25,7 +25,7 @@ class FirmwareRecorder final : public BenchRecorder {
 
   void drain(bbmc::ControllerNode& /*controller*/) noexcept override {}  // there is none
   void console(std::string_view text) noexcept override { console_.write(text); }
-  void hand(const HandAct& act) noexcept override;
+  void operator_acted(const OperatorAct& act) noexcept override;
   void wire_event(core::Nanoseconds time_ns, std::string_view kind) noexcept override;
   void timing(core::Nanoseconds time_ns, core::Nanoseconds host_ns,
               core::Nanoseconds exchange_ns) noexcept override;

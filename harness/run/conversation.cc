@@ -18,7 +18,7 @@ RunOutcome play_script(const RunPlan& plan, PlantEnd& plant, const HostSchedule&
   bench.run_on(host);
   const auto end = plan.has_faults() ? RunEnd::kUndriven : RunEnd::kIdle;
   return play(plan.fixture.experiment, bench, recorder, plan.options.watchers, end,
-              plan.options.hand);
+              plan.options.run_operator);
 }
 
 // With whoever observes listening to the plant.

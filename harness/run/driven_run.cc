@@ -21,8 +21,8 @@ void plan_resets(Experiment& experiment) {
   if (experiment.reference.empty()) {
     return;
   }
-  for (const auto& act : experiment.hand) {
-    if (act.kind == HandAct::Kind::kTyped) {
+  for (const auto& act : experiment.operator_acts) {
+    if (act.kind == OperatorAct::Kind::kTyped) {
       experiment.events.push_back(
           {.time_ns = act.time_ns, .kind = emulator::ScheduledEventKind::kReset});
     }
@@ -34,9 +34,10 @@ void plan_resets(Experiment& experiment) {
 }  // namespace
 
 ExperimentFixture as_driven(const ExperimentFixture& fixture,
-                            const std::vector<core::Nanoseconds>& onsets_ns, const FreeHand& hand) {
+                            const std::vector<core::Nanoseconds>& onsets_ns,
+                            const InteractiveOperator& run_operator) {
   ExperimentFixture driven = fixture;
-  if (hand.done().empty()) {
+  if (run_operator.done().empty()) {
     return driven;
   }
   auto& experiment = driven.experiment;
@@ -46,9 +47,10 @@ ExperimentFixture as_driven(const ExperimentFixture& fixture,
       experiment.faults[i].trigger = {.value = core::seconds(onsets_ns[i])};
     }
   }
-  experiment.faults.insert(experiment.faults.end(), hand.broke().begin(), hand.broke().end());
-  experiment.hand = hand.done();
-  for (const auto& act : experiment.hand) {
+  experiment.faults.insert(experiment.faults.end(), run_operator.injected().begin(),
+                           run_operator.injected().end());
+  experiment.operator_acts = run_operator.done();
+  for (const auto& act : experiment.operator_acts) {
     experiment.budgets_apply = experiment.budgets_apply && !act.disturbs();
   }
   plan_resets(experiment);

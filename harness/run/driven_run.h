@@ -12,6 +12,6 @@ namespace towbench::harness {
 // `onsets_ns`: when the experiment's own faults began in that run, in their order.
 [[nodiscard]] ExperimentFixture as_driven(const ExperimentFixture& fixture,
                                           const std::vector<core::Nanoseconds>& onsets_ns,
-                                          const FreeHand& hand);
+                                          const InteractiveOperator& run_operator);
 
 }  // namespace towbench::harness

@@ -35,8 +35,8 @@ RunResult run_experiment(const ExperimentFixture& fixture, const RunOptions& opt
     outcome.control_period_ns = plan.fixture.controller.configuration.control_period_ns();
   }
   outcome.complete = outcome.complete || plan.may_end_early();
-  if (options.hand != nullptr) {
-    plan.take_over(*options.hand);
+  if (options.run_operator != nullptr) {
+    plan.take_over(*options.run_operator);
   }
   RunResult result;
   result.folder = plan.folder;

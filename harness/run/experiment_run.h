@@ -51,9 +51,9 @@ struct RunOptions {
   RunClock clock = RunClock::kLockstep;              // kReal needs two processes: not kInProcess
   std::filesystem::path program = "/proc/self/exe";  // for the emulator's process
   LoopWatchers watchers;
-  // Both may be null and outlive the run; not with `firmware`. What the hand did is in the folder's
-  // copy of the experiment; it can break nothing in another process.
-  FreeHand* hand = nullptr;
+  // Both may be null and outlive the run; not with `firmware`. What the operator did is in the
+  // folder's copy of the experiment; it can break nothing in another process.
+  InteractiveOperator* run_operator = nullptr;
   RunTap* tap = nullptr;
 };
 

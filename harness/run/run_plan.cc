@@ -44,7 +44,7 @@ void plan_external(RunPlan& plan) {
                                                  .watchers = options.watchers,
                                                  .by_wall_clock = options.clock == RunClock::kReal,
                                                  .tap = options.tap,
-                                                 .hand = options.hand},
+                                                 .run_operator = options.run_operator},
                                     options.reference);
   plan.fixture = plan.external->fixture();
 }
@@ -98,8 +98,8 @@ RunPlan plan_run(const ExperimentFixture& fixture, const RunOptions& options) {
   }
   if (!fixture.experiment.faults.empty()) {
     plan_faults(plan);
-  } else if (options.hand != nullptr && options.clock == RunClock::kLockstep) {
-    // By the wall clock a hand only types: there is nothing to disturb between the two.
+  } else if (options.run_operator != nullptr && options.clock == RunClock::kLockstep) {
+    // By the wall clock an operator only types: there is nothing to disturb between the two.
     plan.disturbance = Disturbance::kByHand;
   }
   refuse_board_plan(fixture);
@@ -135,10 +135,10 @@ bool RunPlan::may_end_early() const noexcept {
   return has_faults() && faults->may_end_run();
 }
 
-void RunPlan::take_over(const FreeHand& hand) {
-  auto driven =
-      as_driven(given, has_faults() ? faults->onsets_ns() : std::vector<core::Nanoseconds>{}, hand);
-  if (driven.experiment.hand.empty()) {
+void RunPlan::take_over(const InteractiveOperator& run_operator) {
+  auto driven = as_driven(
+      given, has_faults() ? faults->onsets_ns() : std::vector<core::Nanoseconds>{}, run_operator);
+  if (driven.experiment.operator_acts.empty()) {
     return;
   }
   write_atomically(folder / identity.experiment_copy, driven.sources.front().text);

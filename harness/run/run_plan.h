@@ -52,7 +52,7 @@ struct RunPlan {
   // A run that ends because the two sides do not hear each other any more ends as it should.
   [[nodiscard]] bool may_end_early() const noexcept;
   // From here on the experiment is the one that was driven, with what was broken by hand.
-  void take_over(const FreeHand& hand);
+  void take_over(const InteractiveOperator& run_operator);
 };
 
 // Runs the reference that faults are judged beside. Throws FixtureError for what cannot be run so.

@@ -74,7 +74,7 @@ constexpr char kEnded = 'e';  // the process of the run ended without an answer
 
 // At each moment the process forks: the parent stays there and serves requests, the child runs on
 // to the next moment.
-class Snapshots::HeldRun final : public Hand {
+class Snapshots::HeldRun final : public Operator {
  public:
   HeldRun(const std::vector<core::Nanoseconds>& moments_ns, const std::vector<int>& sockets,
           int ready, const SnapshotWork& work, Injection& injection)
@@ -84,8 +84,8 @@ class Snapshots::HeldRun final : public Hand {
         work_(work),
         injection_(injection) {}
 
-  [[nodiscard]] std::span<const HandAct> at(core::Nanoseconds now_ns,
-                                            SteeredBench& bench) override {
+  [[nodiscard]] std::span<const OperatorAct> at(core::Nanoseconds now_ns,
+                                                SteeredBench& bench) override {
     while (!goes_on_ && next_ < moments_ns_.size() && now_ns >= moments_ns_[next_]) {
       const auto child = fork_bound();
       if (child == 0) {
@@ -165,7 +165,8 @@ void Snapshots::hold(const ExperimentFixture& plain, std::uint64_t seed,
   try {
     Injection injection;
     HeldRun held(moments_ns, sockets, ready, work, injection);
-    auto run = run_case(plain, plain.rig.parameters, injection, {.seed = seed, .hand = &held});
+    auto run =
+        run_case(plain, plain.rig.parameters, injection, {.seed = seed, .run_operator = &held});
     if (held.goes_on()) {
       held.answer(std::move(run));
     } else {

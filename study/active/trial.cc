@@ -186,7 +186,7 @@ Site find_site(const std::filesystem::path& run_folder, const std::filesystem::p
   } else {
     refuse_another_machine(site.recorded, rig);
   }
-  if (!site.recorded.experiment.faults.empty() || !site.recorded.experiment.hand.empty()) {
+  if (!site.recorded.experiment.faults.empty() || !site.recorded.experiment.operator_acts.empty()) {
     throw unfit(run_folder, "a run in which something was broken or done by hand",
                 "a run of the machine as its rig file has it");
   }

@@ -94,7 +94,7 @@ export async function driveRuns({ checks, person, page, bench, root, runs, shots
   await checks.run("what was done by hand is in events.jsonl and replays bit for bit", async () => {
     const events = readFileSync(join(runs, driven, "events.jsonl"), "utf8");
     for (const kind of ["fault", "cleared", "typed", "clock", "holds", "finished"]) {
-      assert.ok(events.includes(`"side":"hand","kind":"${kind}"`), `no ${kind} in events.jsonl`);
+      assert.ok(events.includes(`"side":"operator","kind":"${kind}"`), `no ${kind} in events.jsonl`);
     }
     const said = replay(driven);
     assert.equal(said.match(/identical/g)?.length, 4, said);
@@ -124,7 +124,7 @@ export async function driveRuns({ checks, person, page, bench, root, runs, shots
     await page.click("#finish");
     await person.over();
     const events = readFileSync(join(runs, await person.folder(), "events.jsonl"), "utf8");
-    assert.match(events, /"side":"hand","kind":"fault"[^\n]*encoder\.y frozen/);
+    assert.match(events, /"side":"operator","kind":"fault"[^\n]*encoder\.y frozen/);
     assert.equal(replay(await person.folder()).match(/identical/g)?.length, 4);
   });
 

@@ -1,4 +1,4 @@
-// The hand on the run: its pace, the kill switch, the end-stops, any fault, its end.
+// What the operator may do to the run: its pace, the kill switch, the end-stops, any fault, its end.
 import { element, setText } from "../dom";
 import type { Catalogue, FaultKind } from "./catalogue";
 import { button, labelled, select, setOptions, textField } from "./form";
@@ -117,7 +117,7 @@ export class SteeringBar {
   }
 
   private isBroken(words: string): boolean {
-    return this.state?.broken?.includes(words) ?? false;
+    return this.state?.active_faults?.includes(words) ?? false;
   }
 
   private toggle(words: string): void {

@@ -29,7 +29,7 @@ export interface State {
   speed?: number;
   paused?: boolean;
   holds?: boolean;
-  broken?: string[];
+  active_faults?: string[];
   trouble?: string;
   limits?: Limits; // y, x, and the further axes that the machine has
   followed?: Partial<Record<AxisName, Estimator>>; // by the control law

@@ -68,9 +68,9 @@ TEST(InSetup, WritesWhatWasChosenAndReadsItAgain) {
   EXPECT_THAT(typed, ::testing::HasSubstr("reset poscalib y 0.499092m"));
   EXPECT_THAT(typed, ::testing::HasSubstr("reset poscalib x 0.336819m"));
   EXPECT_THAT(typed, ::testing::HasSubstr("--speed 0.2m/s"));
-  ASSERT_EQ(made.experiment.hand.size(), 1U);
-  EXPECT_EQ(made.experiment.hand.front().time_ns, 1'250'000'000);
-  EXPECT_EQ(made.experiment.hand.front().text, "stop\r");
+  ASSERT_EQ(made.experiment.operator_acts.size(), 1U);
+  EXPECT_EQ(made.experiment.operator_acts.front().time_ns, 1'250'000'000);
+  EXPECT_EQ(made.experiment.operator_acts.front().text, "stop\r");
 }
 
 Requirement tracking() {

@@ -44,10 +44,10 @@ class DrivenExternal : public ::testing::Test {
   }
   // Lets the paused run go on to that time.
   void step_to(double time_s) {
-    auto& hand = dynamic_cast<LiveOperator&>(session_.hand());
+    auto& run_operator = dynamic_cast<LiveOperator&>(session_.run_operator());
     const auto until_ns = core::nanoseconds(time_s);
-    hand.step(until_ns - hand.now_ns());
-    while (hand.now_ns() < until_ns) {
+    run_operator.step(until_ns - run_operator.now_ns());
+    while (run_operator.now_ns() < until_ns) {
       std::this_thread::yield();
     }
   }
@@ -82,7 +82,7 @@ TEST_F(DrivenExternal, IsKilledAndResetByHandJudgedAndReplayed) {
   const auto events = whole_text(folder / "events.jsonl");
   for (const char* part :
        {R"("kind":"operator_reset","axis":"y","lines":0,"value":1)",
-        R"("side":"hand","kind":"cleared")", R"("side":"hand","kind":"typed")"}) {
+        R"("side":"operator","kind":"cleared")", R"("side":"operator","kind":"typed")"}) {
     EXPECT_THAT(events, HasSubstr(part));
   }
   RunOptions again;

@@ -18,19 +18,19 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Does what it is told to the hand at set virtual times, on the bench's own thread: a person
+// Tells the operator what to do at set virtual times, on the bench's own thread: a person
 // without a thread, and the same every time.
 class Person final : public RunTap {
  public:
   using Deed = std::function<void(LiveOperator&)>;
-  explicit Person(LiveOperator& hand) : hand_(hand) {}
+  explicit Person(LiveOperator& run_operator) : operator_(run_operator) {}
   void at(double time_s, Deed deed) {
     deeds_.emplace_back(core::nanoseconds(time_s), std::move(deed));
   }
 
   void row(const LogRow& row, const core::PerAxis<bbmc::EdgeTimes>& /*edges*/) noexcept override {
     while (next_ < deeds_.size() && row.time_ns >= deeds_[next_].first) {
-      deeds_[next_++].second(hand_);
+      deeds_[next_++].second(operator_);
     }
   }
   void truth(const emulator::TruthRow& /*row*/) noexcept override {}
@@ -39,7 +39,7 @@ class Person final : public RunTap {
   void console(std::string_view /*text*/) noexcept override {}
 
  private:
-  LiveOperator& hand_;
+  LiveOperator& operator_;
   std::vector<std::pair<core::Nanoseconds, Deed>> deeds_;
   std::size_t next_ = 0;
 };
@@ -55,15 +55,15 @@ class DrivenRun : public ::testing::Test {
  protected:
   DrivenRun() {
     fixture_ = load_experiment("fixtures/experiments/circle.toml");
-    fixture_.experiment.hand = {{.text = "by hand"},
-                                {.kind = HandAct::Kind::kHolds, .text = "goes on"}};
+    fixture_.experiment.operator_acts = {{.text = "by hand"},
+                                         {.kind = OperatorAct::Kind::kHolds, .text = "goes on"}};
   }
   ~DrivenRun() override { std::filesystem::remove_all(out_); }
 
-  RunResult run(LiveOperator& hand, Person& person) {
+  RunResult run(LiveOperator& run_operator, Person& person) {
     RunOptions options;
     options.out = out_;
-    options.hand = &hand;
+    options.run_operator = &run_operator;
     options.tap = &person;
     return run_experiment(fixture_, options);
   }
@@ -94,14 +94,14 @@ Fault fault_in(const char* words) {
 }
 
 TEST_F(DrivenRun, AKillThatIsPressedAndReleasedReplaysBitForBitAndIsJudged) {
-  LiveOperator hand(fixture_, 1, as_fast_as_it_goes_, true, stop_);
-  Person person(hand);
+  LiveOperator run_operator(fixture_, 1, as_fast_as_it_goes_, true, stop_);
+  Person person(run_operator);
   const auto kill = fault_in("kill_switch pressed");
-  person.at(3.0, [&](LiveOperator& it) { it.break_now(kill); });
+  person.at(3.0, [&](LiveOperator& it) { it.inject_now(kill); });
   person.at(4.0, [&](LiveOperator& it) { it.clear(kill.place, kill.kind); });
   person.at(4.2, [](LiveOperator& it) { it.type("reset systate\r"); });
   person.at(4.5, [](LiveOperator& it) { it.finish(); });
-  const auto first = run(hand, person);
+  const auto first = run(run_operator, person);
   ASSERT_TRUE(first.complete) << first.reason;
   EXPECT_EQ(first.judgement.verdict, Verdict::kPass);
   // The script ends at 4.5 s; nothing is driven from 3 s on.
@@ -116,15 +116,15 @@ TEST_F(DrivenRun, AKillThatIsPressedAndReleasedReplaysBitForBitAndIsJudged) {
 
 TEST_F(DrivenRun, LinkHostAndBouncingContactsReplayToo) {
   fixture_.experiment.duration_limit_s = 6;
-  LiveOperator hand(fixture_, 1, as_fast_as_it_goes_, true, stop_);
-  Person person(hand);
+  LiveOperator run_operator(fixture_, 1, as_fast_as_it_goes_, true, stop_);
+  Person person(run_operator);
   person.at(1.5, [](LiveOperator& it) {
-    it.break_now(fault_in("link.to_controller delay delay_s=0.002 for=0.2s"));
+    it.inject_now(fault_in("link.to_controller delay delay_s=0.002 for=0.2s"));
   });
   person.at(2.0, [](LiveOperator& it) {
-    it.break_now(fault_in("encoder.y noise_burst seed=3 for=0.05s"));
+    it.inject_now(fault_in("encoder.y noise_burst seed=3 for=0.05s"));
   });
-  const auto first = run(hand, person);
+  const auto first = run(run_operator, person);
   ASSERT_TRUE(first.complete) << first.reason;
   EXPECT_NE(first.judgement.verdict, Verdict::kInvalid);
   expect_same_bits(first, run_again(first));
@@ -132,20 +132,20 @@ TEST_F(DrivenRun, LinkHostAndBouncingContactsReplayToo) {
 
 TEST_F(DrivenRun, WhatIsOnlyTypedMakesTheRunProveNothing) {
   fixture_.experiment.duration_limit_s = 2;
-  LiveOperator hand(fixture_, 1, as_fast_as_it_goes_, true, stop_);
-  Person person(hand);
+  LiveOperator run_operator(fixture_, 1, as_fast_as_it_goes_, true, stop_);
+  Person person(run_operator);
   person.at(0.5, [](LiveOperator& it) { it.type("status\r"); });
-  const auto first = run(hand, person);
+  const auto first = run(run_operator, person);
   ASSERT_TRUE(first.complete) << first.reason;
   EXPECT_EQ(first.judgement.verdict, Verdict::kInvalid);
   expect_same_bits(first, run_again(first));
 }
 
 TEST_F(DrivenRun, AHandThatDoesNothingLeavesTheVerdictOfTheBudgets) {
-  fixture_.experiment.hand.pop_back();  // does not hold
-  LiveOperator hand(fixture_, 1, as_fast_as_it_goes_, false, stop_);
-  Person person(hand);
-  const auto first = run(hand, person);
+  fixture_.experiment.operator_acts.pop_back();  // does not hold
+  LiveOperator run_operator(fixture_, 1, as_fast_as_it_goes_, false, stop_);
+  Person person(run_operator);
+  const auto first = run(run_operator, person);
   EXPECT_EQ(first.judgement.verdict, Verdict::kPass);
   RunOptions options;
   options.out = out_;
@@ -155,15 +155,15 @@ TEST_F(DrivenRun, AHandThatDoesNothingLeavesTheVerdictOfTheBudgets) {
 }
 
 TEST_F(DrivenRun, WhatCannotBeDoneIsRefusedInWords) {
-  LiveOperator hand(fixture_, 1, as_fast_as_it_goes_, true, stop_);
-  EXPECT_THROW(hand.break_now(parse_fault("endstop.y_max missing")), FixtureError);
-  Person person(hand);
+  LiveOperator run_operator(fixture_, 1, as_fast_as_it_goes_, true, stop_);
+  EXPECT_THROW(run_operator.inject_now(parse_fault("endstop.y_max missing")), FixtureError);
+  Person person(run_operator);
   const auto kill = fault_in("kill_switch pressed");
   std::string already;
   std::string unknown;
   person.at(1.0, [&](LiveOperator& it) {
-    it.break_now(kill);
-    it.break_now(kill);
+    it.inject_now(kill);
+    it.inject_now(kill);
   });
   person.at(1.1, [&](LiveOperator& it) {
     already = it.take_trouble();
@@ -173,7 +173,7 @@ TEST_F(DrivenRun, WhatCannotBeDoneIsRefusedInWords) {
     unknown = it.take_trouble();
     it.finish();
   });
-  (void)run(hand, person);
+  (void)run(run_operator, person);
   EXPECT_THAT(already, HasSubstr("already"));
   EXPECT_THAT(unknown, HasSubstr("is not frozen by hand"));
 }
@@ -184,11 +184,12 @@ TEST(ExperimentToml, EveryExperimentReadsBackAsItself) {
       continue;
     }
     auto fixture = load_experiment(entry.path());
-    fixture.experiment.hand = {
-        {.time_ns = 1, .kind = HandAct::Kind::kTyped, .text = "a \"quoted\" \\ \r\n\x7f\t end"}};
+    fixture.experiment.operator_acts = {{.time_ns = 1,
+                                         .kind = OperatorAct::Kind::kTyped,
+                                         .text = "a \"quoted\" \\ \r\n\x7f\t end"}};
     const auto text = to_toml(fixture);
     const auto again = read_experiment(FixtureFile::parse(text, entry.path()));
-    EXPECT_EQ(again.hand.at(0).text, fixture.experiment.hand[0].text);
+    EXPECT_EQ(again.operator_acts.at(0).text, fixture.experiment.operator_acts[0].text);
     EXPECT_EQ(again.console.size(), fixture.experiment.console.size());
     EXPECT_EQ(again.budgets.size(), fixture.experiment.budgets.size());
     EXPECT_EQ(again.windows.size(), fixture.experiment.windows.size());

@@ -134,7 +134,7 @@ TEST_F(Frames, BelowFullSpeedWhatIsNewIsToldWithTheNextQuestion) {
   session_->start({.experiment = "circle", .pace = {.speed = 0.001, .paused = true}});
   EXPECT_FALSE(frames_.next().empty());
   for (const double speed : {0.002, 0.003, 0.004}) {
-    session_->hand().set_speed(speed);
+    session_->run_operator().set_speed(speed);
     EXPECT_FALSE(frames_.next().empty()) << speed;
   }
 }

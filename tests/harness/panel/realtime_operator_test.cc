@@ -25,16 +25,16 @@ using ::testing::HasSubstr;
 // Presses keys when the run has come so far; otherwise the panel's own tap.
 class Typist final : public RunTap {
  public:
-  explicit Typist(RunOperator& hand) : hand_(hand) {}
+  explicit Typist(RunOperator& run_operator) : operator_(run_operator) {}
   void begins(const fs::path& folder) override { tap_->begins(folder); }
   [[nodiscard]] protocol::MessageSink* witness() noexcept override { return tap_->witness(); }
   void row(const LogRow& row, const core::PerAxis<bbmc::EdgeTimes>& edges) noexcept override {
     tap_->row(row, edges);
     if (stage_ == 0 && row.time_ns >= core::nanoseconds(0.2)) {
-      hand_.type("status\r");
+      operator_.type("status\r");
       ++stage_;
     } else if (stage_ == 1 && row.time_ns >= core::nanoseconds(2.2)) {
-      hand_.finish();
+      operator_.finish();
       ++stage_;
     }
   }
@@ -46,7 +46,7 @@ class Typist final : public RunTap {
 
  private:
   std::unique_ptr<LiveTap> tap_ = std::make_unique<LiveTap>();
-  RunOperator& hand_;
+  RunOperator& operator_;
   int stage_ = 0;
 };
 
@@ -62,17 +62,17 @@ TEST(RealtimeOperator, WhatIsTypedByTheWallClockIsWrittenDownAndReplaysToTheLast
   auto pattern = (fs::temp_directory_path() / "towbench-typed-XXXXXX").string();
   const fs::path out = mkdtemp(pattern.data());
   auto fixture = load_experiment("fixtures/experiments/wall-clock-window.toml");
-  fixture.experiment.hand = {{.text = "by hand"},
-                             {.kind = HandAct::Kind::kHolds, .text = "goes on"}};
+  fixture.experiment.operator_acts = {{.text = "by hand"},
+                                      {.kind = OperatorAct::Kind::kHolds, .text = "goes on"}};
   const auto seed = fixture.experiment.seed;
-  RealtimeOperator hand(fixture.experiment.hand, true);
-  Typist typist(hand);
+  RealtimeOperator run_operator(fixture.experiment.operator_acts, true);
+  Typist typist(run_operator);
   RunOptions options;
   options.out = out;
   options.clock = RunClock::kReal;
   options.carrier = Carrier::kLocal;
   options.program = TOWBENCH_PROGRAM;
-  options.hand = &hand;
+  options.run_operator = &run_operator;
   options.tap = &typist;
   RunResult result;
   std::thread([&] { result = run_experiment(fixture, options); }).join();  // keeps its own rights
@@ -80,8 +80,8 @@ TEST(RealtimeOperator, WhatIsTypedByTheWallClockIsWrittenDownAndReplaysToTheLast
   EXPECT_EQ(typist.tap().folder(), result.folder);
   EXPECT_THAT(typist.tap().take_console(), HasSubstr("amplifier"));
   const auto events = written_in(result.folder / "events.jsonl");
-  EXPECT_THAT(events, HasSubstr(R"("side":"hand","kind":"typed")"));
-  EXPECT_THAT(events, HasSubstr(R"("side":"hand","kind":"finished")"));
+  EXPECT_THAT(events, HasSubstr(R"("side":"operator","kind":"typed")"));
+  EXPECT_THAT(events, HasSubstr(R"("side":"operator","kind":"finished")"));
 
   const auto written = load_experiment(result.folder / "inputs/experiments/wall-clock-window.toml");
   const auto again = replay_by_inputs(written, seed, result.folder, out);
@@ -92,18 +92,18 @@ TEST(RealtimeOperator, WhatIsTypedByTheWallClockIsWrittenDownAndReplaysToTheLast
 }
 
 TEST(RealtimeOperator, BreaksPausesAndStepsNothing) {
-  RealtimeOperator hand({}, false);
-  EXPECT_THROW(hand.break_now(parse_fault("kill_switch pressed at=0s")), FixtureError);
-  EXPECT_THROW(hand.clear({}, FaultKind::kPressed), FixtureError);
-  EXPECT_THROW(hand.set_speed(0.1), FixtureError);
-  EXPECT_THROW(hand.pause(true), FixtureError);
-  EXPECT_THROW(hand.step(1), FixtureError);
+  RealtimeOperator run_operator({}, false);
+  EXPECT_THROW(run_operator.inject_now(parse_fault("kill_switch pressed at=0s")), FixtureError);
+  EXPECT_THROW(run_operator.clear({}, FaultKind::kPressed), FixtureError);
+  EXPECT_THROW(run_operator.set_speed(0.1), FixtureError);
+  EXPECT_THROW(run_operator.pause(true), FixtureError);
+  EXPECT_THROW(run_operator.step(1), FixtureError);
 }
 
 TEST(RealtimeOperator, MoreThanTheQueueHoldsIsRefusedWhole) {
-  RealtimeOperator hand({}, false);
-  hand.type(std::string(4000, 'x'));
-  EXPECT_THROW(hand.type(std::string(4000, 'y')), FixtureError);
+  RealtimeOperator run_operator({}, false);
+  run_operator.type(std::string(4000, 'x'));
+  EXPECT_THROW(run_operator.type(std::string(4000, 'y')), FixtureError);
 }
 
 }  // namespace
