@@ -1,6 +1,7 @@
 #!/bin/sh
 # Length and form of the pages: README.md at most 90 lines, a folder's README at most 40, no table cell that holds a
-# paragraph, no link and no named page that is not there, each library of dependencies.md in README's table.
+# paragraph, no link, no named page and no file of a recipe that is not there, each library of dependencies.md in
+# README's table.
 # usage: check_pages.sh ROOT
 set -eu
 cd "${1:?usage: check_pages.sh ROOT}"
@@ -49,6 +50,17 @@ for named in $( (git grep -IhoE 'docs/[a-z0-9/-]+\.md' -- ':!tests/architecture'
   grep -rhoE 'docs/[a-z0-9/-]+\.md' .) | sort -u); do
   [ -e "$named" ] || complain "$named is named and not there: $(git grep -Il "$named" 2>/dev/null | head -n 3 | tr '\n' ' ')"
 done
+
+# Files that CONTRIBUTING.md names; one in capitals (NAME) is yet to be written.
+if [ -f CONTRIBUTING.md ]; then
+  # shellcheck disable=SC2016  # the backticks are Markdown
+  gone=$(perl -lne 'while (/`([\w.\/{},*-]+\/[\w.\/{},*-]*)`/g) {
+    next if $1 =~ /[A-Z]{4}/;
+    my @files = glob $1;
+    print for @files ? grep { !-e } @files : $1;
+  }' CONTRIBUTING.md)
+  [ -z "$gone" ] || complain "CONTRIBUTING.md names what is not there: $(echo "$gone" | tr '\n' ' ')"
+fi
 
 # A library by the last part of its name: Boost.Asio is Asio in README.md's table.
 libraries=docs/reference/dependencies.md

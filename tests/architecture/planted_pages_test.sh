@@ -1,6 +1,6 @@
 #!/bin/sh
-# A README that is too long, a cell that holds a paragraph, a dead link, a library that README.md does not name
-# and a long commit subject must be found.
+# A README that is too long, a cell that holds a paragraph, a dead link, a recipe's file that is not there, a library
+# that README.md does not name and a long commit subject must be found.
 # shellcheck disable=SC2016  # the backticks are Markdown
 set -u
 root=${1:?usage: planted_pages_test.sh ROOT}
@@ -32,6 +32,11 @@ fresh && printf '| a | %s |\n' "$(long 330)" >"$scratch/tree/docs/there.md" && e
 fresh && printf '[gone](gone.md)\n' >"$scratch/tree/docs/there.md" && expect fail "a dead link"
 fresh && printf 'see docs/guide/gone.md\n' >"$scratch/tree/docs/there.md" && expect fail "a page that is not there"
 
+recipe() { fresh && printf '1. `%s`\n' "$1" >"$scratch/tree/CONTRIBUTING.md"; }
+recipe 'docs/{there,guide/page}.md' && expect pass "a recipe of files that are there"
+recipe 'docs/NAME_view.ts' && expect pass "a recipe of a file to be written"
+recipe 'docs/{there,gone}.md' && expect fail "a recipe of a file that is not there"
+recipe 'folder/*.cc' && expect fail "a recipe of files of which there is none"
 library() { # library TABLE: README.md has Asio, and the page of dependencies TABLE
   fresh && mkdir "$scratch/tree/docs/reference" && printf '%s\n' "$1" >"$scratch/tree/docs/reference/dependencies.md" &&
     printf '## Dependencies\n| library | version |\n| --- | --- |\n| Boost: Asio | 1.74 |\n## Reading\n' >"$scratch/tree/README.md"
