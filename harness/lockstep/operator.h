@@ -30,7 +30,7 @@ class Operator {
   [[nodiscard]] virtual bool holds() const = 0;
 };
 
-// One that does something of its own will; when the run is over it tells what.
+// One that acts while the run is under way, and reports its acts when the run is over.
 class InteractiveOperator : public Operator {
  public:
   [[nodiscard]] virtual const std::vector<OperatorAct>& done() const = 0;
@@ -38,7 +38,7 @@ class InteractiveOperator : public Operator {
   [[nodiscard]] virtual const FaultPlan& injected() const = 0;
 };
 
-// Does again what was done. Faults are the bench's to make: they stand in the experiment.
+// Repeats recorded acts. Faults are the bench's to make: they stand in the experiment.
 class ReplayedOperator final : public Operator {
  public:
   // In order of time.

@@ -114,13 +114,13 @@ void carry_out(Session& session, const json& message) {
     session.run_operator().set_speed(number(message, "speed", 0, kFastest));
   } else if (what == "type") {
     session.type(text(message, "text"));
-  } else if (what == "break") {
+  } else if (what == "inject") {
     session.run_operator().inject_now(any_fault_of(message));
   } else if (what == "clear") {
     const auto fault = any_fault_of(message);
     session.run_operator().clear(fault.place, fault.kind);
   } else {
-    throw bad("do", '"' + what + '"', "start cut finish pause resume step speed type break clear");
+    throw bad("do", '"' + what + '"', "start cut finish pause resume step speed type inject clear");
   }
 }
 

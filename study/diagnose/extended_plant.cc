@@ -122,7 +122,7 @@ class Writer {
     return true;
   }
 
-  // What pushes or plays.
+  // Forces besides friction, and backlash.
   bool disturbance(const std::string& name) {
     if (name == "cable_spring") return cable();
     if (name == "gravity") return gravity();
@@ -140,7 +140,7 @@ class Writer {
             toml::table{{spelt("stiffness_N_per_m"), stiffness}, {spelt("reference_m"), middle_m}});
     return true;
   }
-  // What the command must make: s sin q + c cos q = m g l sin(q + q0).
+  // The torque against gravity: s sin q + c cos q = m g l sin(q + q0).
   bool gravity() {
     const double sine = d_.extended[Key::kGravitySine];
     const double cosine = d_.extended[Key::kGravityCosine];
@@ -148,8 +148,8 @@ class Writer {
                                    {"zero_at_deg", std::atan2(cosine, sine) * kDegrees}});
     return true;
   }
-  // A ripple's force that the command must make is less of what it adds:
-  // -(a cos + b sin) = A sin(k theta + phi).
+  // The fit has the force against the ripple, the file the ripple: -(a cos + b sin) = A sin(k theta
+  // + phi).
   bool ripple() {
     if (r_ <= 0) return false;
     const double cosine = -d_.extended[Key::kRippleCosine];

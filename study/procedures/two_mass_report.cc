@@ -29,11 +29,11 @@ struct Found {
   double value;
   double standard_error;
   const char* unit;
-  bool is_torque = false;  // known as well as the torque of a duty is, at best
+  bool is_torque = false;  // has the error of the torque of a duty, too
   std::optional<double> at = std::nullopt;
 };
 
-// Tells what was found, or withholds it where the model is wrong and the interval too wide.
+// Reports an estimate, or withholds it where the model is wrong and the interval too wide.
 class EstimateWriter {
  public:
   EstimateWriter(const TwoMassReport& report, ProcedureOutcome& outcome)

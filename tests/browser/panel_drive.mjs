@@ -119,7 +119,7 @@ export async function driveRuns({ checks, person, page, bench, root, runs, shots
     await person.untilTime(0.8); // it moves from 0.5 s on
     await page.selectOption("#fault-part", "encoder.y");
     await page.selectOption("#fault-kind", "frozen");
-    await page.getByRole("button", { name: "Break it" }).click();
+    await page.getByRole("button", { name: "Inject", exact: true }).click();
     await person.until("Fault", /latched/);
     await page.click("#finish");
     await person.over();

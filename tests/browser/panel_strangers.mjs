@@ -53,7 +53,7 @@ export async function behaveBadly({ checks, person, page, context, origin, hostn
       socket.onmessage = (event) => window.answers.push(event.data);
       socket.onopen = () => {
         const deep = "[".repeat(30_000);
-        for (const text of ["{", "[]", deep, '{"do":"fly"}', '{"do":"step","ms":-1}', '{"do":"break","fault":"moon full"}', '{"do":"pause"}', '{"do":"start","experiment":"circle","speed":1,"clock":"sun"}']) socket.send(text);
+        for (const text of ["{", "[]", deep, '{"do":"fly"}', '{"do":"step","ms":-1}', '{"do":"inject","fault":"moon full"}', '{"do":"pause"}', '{"do":"start","experiment":"circle","speed":1,"clock":"sun"}']) socket.send(text);
         socket.send(new Uint8Array([0, 255, 254, 7]));
       };
     });

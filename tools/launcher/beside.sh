@@ -4,8 +4,8 @@
 declare -A build_beside=()
 trap end_what_is_beside EXIT
 
-# start_build_beside PRESET TARGET...: for stages that leave a processor idle. Its policy is that of an idle
-# processor, so that nothing else waits for it.
+# start_build_beside PRESET TARGET...: for stages that leave a processor idle. Under SCHED_IDLE it takes only the time that
+# nothing else wants.
 start_build_beside() {
   [[ -z ${build_beside[$1]:-} ]] || return 0
   mkdir -p "$build"

@@ -44,7 +44,7 @@ export class SteeringBar {
     const finish = button("Finish", () => send({ do: "finish" }));
     finish.id = "finish";
     const cut = button("Cut short", () => send({ do: "cut" }));
-    const breakButton = button("Break it", () => send({ do: "break", fault: this.words() }));
+    const injectButton = button("Inject", () => send({ do: "inject", fault: this.words() }));
     const clearButton = button("Clear fault", () => send({ do: "clear", fault: `${this.place.value} ${this.kind.value}` }));
     const first = element("div", "bar-row");
     first.append(
@@ -64,14 +64,14 @@ export class SteeringBar {
       labelled("Part", this.place),
       labelled("Fault", this.kind),
       labelled("Parameters", this.parameters),
-      breakButton,
+      injectButton,
       clearButton,
     );
     this.box.append(first, second, this.meaning);
     this.place.addEventListener("change", () => this.showKinds());
     this.kind.addEventListener("change", () => this.showParameters());
     this.always = [finish, cut];
-    this.all = [this.kill, this.pauseButton, stepButton, breakButton, clearButton, this.speed, this.step, ...this.stops];
+    this.all = [this.kill, this.pauseButton, stepButton, injectButton, clearButton, this.speed, this.step, ...this.stops];
     document.addEventListener("keydown", (event) => this.onKey(event));
   }
 
@@ -103,11 +103,11 @@ export class SteeringBar {
     for (const field of this.always) field.disabled = !running;
     this.box.title = running && !lockstep ? "by the wall clock: only the console, Finish and Cut short" : "";
     setText(this.pauseButton, state.paused ? "Go on (space)" : "Pause (space)");
-    const pressed = this.isBroken(killFault);
+    const pressed = this.isActive(killFault);
     this.kill.setAttribute("aria-pressed", String(pressed));
     setText(this.kill, pressed ? "Release kill (K)" : "KILL (K)");
     this.stops.forEach((one, i) => {
-      const held = this.isBroken(stopFault(endStops[i]!));
+      const held = this.isActive(stopFault(endStops[i]!));
       one.setAttribute("aria-pressed", String(held));
       setText(one, `${held ? "Release" : "Trip"} ${endStops[i]!.replace("_", " ")}`);
     });
@@ -116,12 +116,12 @@ export class SteeringBar {
     }
   }
 
-  private isBroken(words: string): boolean {
+  private isActive(words: string): boolean {
     return this.state?.active_faults?.includes(words) ?? false;
   }
 
   private toggle(words: string): void {
-    this.send({ do: this.isBroken(words) ? "clear" : "break", fault: words });
+    this.send({ do: this.isActive(words) ? "clear" : "inject", fault: words });
   }
 
   private toggleKill(): void {

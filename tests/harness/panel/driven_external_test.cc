@@ -68,9 +68,9 @@ TEST_F(DrivenExternal, IsKilledAndResetByHandJudgedAndReplayed) {
   ASSERT_EQ(start("any-controller/trapezoid-y", R"("speed": 0, "paused": true)"), "");
   step_to(1.2);
   EXPECT_THAT(steer(session_, R"({"do": "type", "text": "help\r"})"), HasSubstr("`reset`"));
-  EXPECT_THAT(steer(session_, R"({"do": "break", "fault": "host missed_ticks"})"),
+  EXPECT_THAT(steer(session_, R"({"do": "inject", "fault": "host missed_ticks"})"),
               HasSubstr("a fault of the machine"));
-  EXPECT_EQ(steer(session_, R"({"do": "break", "fault": "kill_switch pressed"})"), "");
+  EXPECT_EQ(steer(session_, R"({"do": "inject", "fault": "kill_switch pressed"})"), "");
   step_to(1.4);
   EXPECT_EQ(steer(session_, R"({"do": "clear", "fault": "kill_switch pressed"})"), "");
   step_to(1.5);

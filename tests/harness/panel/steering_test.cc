@@ -27,7 +27,7 @@ TEST(Steering, WhatIsNotUnderstoodIsRefusedInOneSentenceAndChangesNothing) {
         R"({"do":"step","ms":"1"})",
         R"({"do":"step","ms":1e99})",
         R"({"do":"speed","speed":-1})",
-        R"({"do":"break","fault":"moon full"})",
+        R"({"do":"inject","fault":"moon full"})",
         R"({"do":"start"})",
         R"({"do":"start","experiment":"no-such-one","speed":1})",
         R"({"do":"start","experiment":"/etc/passwd","speed":1})",
