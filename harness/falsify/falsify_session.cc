@@ -30,6 +30,7 @@ std::string line_of(const FalsifyTrial& trial, const std::string& fingerprint) {
               {"tried", trial.tried.words()},
               {"fired", trial.outcome.fired},
               {"margin", trial.outcome.margin ? json(*trial.outcome.margin) : json(nullptr)},
+              {"rules", trial.outcome.rules},
               {"broken", trial.outcome.broken},
               {"reason", trial.outcome.reason}}
       .dump(-1, ' ', false, json::error_handler_t::replace);
@@ -41,8 +42,10 @@ std::optional<Outcome> known_outcome(const std::string& text, const FalsifyTrial
   if (!line.is_object() || line.at("space") != asked.space || line.at("point") != asked.point) {
     return std::nullopt;
   }
-  Outcome outcome{
-      .fired = line.at("fired"), .broken = line.at("broken"), .reason = line.at("reason")};
+  Outcome outcome{.fired = line.at("fired"),
+                  .broken = line.at("broken"),
+                  .reason = line.at("reason"),
+                  .rules = line.at("rules")};
   if (!line.at("margin").is_null()) {
     outcome.margin = line.at("margin").get<double>();
   }
@@ -60,10 +63,6 @@ std::vector<std::string> lines_of(const std::filesystem::path& file,
     }
   }
   return lines;
-}
-
-std::optional<double> value_of(const FalsifyTrial& trial) {
-  return trial.outcome.fired ? trial.outcome.margin : std::nullopt;
 }
 
 // Every space once, in a drawn order in which all faults come on one experiment before any comes on
@@ -102,8 +101,7 @@ FalsifySession::FalsifySession(FalsifySettings settings, std::vector<SearchSpace
     : settings_(std::move(settings)),
       spaces_(std::move(spaces)),
       file_(file),
-      known_(lines_of(file, settings_.fingerprint)),
-      begun_(spaces_.size()) {
+      known_(lines_of(file, settings_.fingerprint)) {
   for (std::size_t i = 0; i < spaces_.size(); ++i) {
     samplers_.emplace_back(spaces_[i].faults.sides(), settings_.seed + 1'000'003 * (i + 1),
                            settings_.optimiser == Optimiser::kUniform);
@@ -138,7 +136,7 @@ FalsifyTrial FalsifySession::measured(std::size_t space, const BoxTrial& asked,
 
 void FalsifySession::take(FalsifyTrial trial) {
   trials_.push_back(std::move(trial));
-  const auto value = value_of(trials_.back());
+  const auto value = margin_for(trials_.back(), "");
   if (value && (!worst_ || *value < *trials_[*worst_].outcome.margin)) {
     worst_ = trials_.size() - 1;
   }
@@ -150,30 +148,24 @@ void FalsifySession::add(const FalsifySession& part) {
   }
 }
 
-// Spaces sampled since then, that of the smallest margin first.
-std::vector<std::size_t> FalsifySession::nearest(std::size_t from_trial) const {
-  std::vector<std::optional<double>> best(spaces_.size());
-  std::vector<std::size_t> order;
-  for (auto i = from_trial; i < trials_.size(); ++i) {
-    auto& of = best[trials_[i].space];
-    const auto value = value_of(trials_[i]);
-    if (value && !of) {
-      order.push_back(trials_[i].space);
-    }
-    of = value && of ? std::min(*of, *value) : value ? value : of;
-  }
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return *best[a] < *best[b]; });
-  return order;
-}
-
-std::vector<BoxTrial> FalsifySession::samples_of(std::size_t space) const {
+std::vector<BoxTrial> FalsifySession::samples_for(const SearchGoal& goal) const {
   std::vector<BoxTrial> samples;
   for (const auto& trial : trials_) {
-    if (trial.space == space && trial.sample) {
-      samples.push_back({.point = trial.point, .value = value_of(trial), .sample = trial.sample});
+    if (trial.space == goal.first && trial.sample) {
+      samples.push_back(
+          {.point = trial.point, .value = margin_for(trial, goal.second), .sample = trial.sample});
     }
   }
   return samples;
+}
+
+void FalsifySession::sample(std::size_t until, const std::vector<std::size_t>& order,
+                            std::size_t& turn, const Measure& measure) {
+  for (; trials_.size() < until && !over(); ++turn) {
+    const auto space = order[turn % order.size()];
+    const auto sample = samplers_[space].next();
+    measure(space, {.point = sample.point, .sample = sample.kind});
+  }
 }
 
 void FalsifySession::search(std::uint64_t round, const Measure& measure) {
@@ -184,17 +176,15 @@ void FalsifySession::search(std::uint64_t round, const Measure& measure) {
   const std::uint64_t seed = settings_.seed + 1'000'003 * round;
   core::Random random(seed);
   const auto order = drawn_order(spaces_, random);
-  for (std::size_t i = 0; trials_.size() < sampled && !over(); ++i) {
-    const auto space = order[i % order.size()];
-    const auto sample = samplers_[space].next();
-    (void)measure(space, {.point = sample.point, .sample = sample.kind});
-  }
+  std::size_t turn = 0;
+  sample(sampled, order, turn, measure);
   const auto runs_of_one =
       std::max(kLeastRuns, (last - sampled) / ((spaces_.size() + kNearest - 1) / kNearest));
-  for (const auto space : nearest(first)) {
+  for (const auto& goal : search_goals(std::span(trials_).subspan(first), spaces_)) {
     if (trials_.size() >= last || over()) {
       break;
     }
+    const auto& [space, rule] = goal;
     auto found =
         search_box({.sides = spaces_[space].faults.sides(),
                     .runs = std::min(runs_of_one, last - trials_.size()),
@@ -202,11 +192,15 @@ void FalsifySession::search(std::uint64_t round, const Measure& measure) {
                     .optimiser = settings_.optimiser,
                     .sampled_share = 0,
                     .stop_below = settings_.until_broken ? std::optional(0.0) : std::nullopt,
-                    .known = samples_of(space),
-                    .begun = std::move(begun_[space])},
-                   [&](const BoxTrial& asked) { return measure(space, asked); });
-    begun_[space] = std::move(found.begun);
+                    .known = samples_for(goal),
+                    .begun = begun_[goal]},
+                   [&](const BoxTrial& asked) {
+                     measure(space, asked);
+                     return margin_for(trials_.back(), rule);
+                   });
+    begun_[goal] = std::move(found.begun);
   }
+  sample(last, order, turn, measure);
 }
 
 bool FalsifySession::run(const std::vector<Objective*>& objectives,
@@ -218,7 +212,6 @@ bool FalsifySession::run(const std::vector<Objective*>& objectives,
     }
     take(measured(space, asked, *objectives.at(spaces_[space].experiment)));
     told(*this);
-    return value_of(trials_.back());
   };
   try {
     for (std::uint64_t round = 0; !over(); ++round) {

@@ -2,8 +2,9 @@
 // with the same trials.
 //
 // In rounds: half of a round's runs are samples (box_sampler.h), one of each space in turn, in an
-// order that is drawn and comes to every fault soon; the others go to the spaces with the smallest
-// margins, where the optimiser begins at the best samples at which it has not begun yet.
+// order that is drawn and comes to every fault soon; the others go to the goals that came nearest
+// (search_goals.h), where the optimiser begins at the best samples at which it has not begun yet.
+// What no goal takes is sampled.
 #pragma once
 
 #include <atomic>
@@ -11,23 +12,17 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "harness/falsify/box_search.h"
-#include "harness/falsify/objective.h"
+#include "harness/falsify/falsify_trial.h"
+#include "harness/falsify/search_goals.h"
 #include "harness/falsify/search_space.h"
 
 namespace towbench::harness {
-
-struct FalsifyTrial {
-  std::size_t space = 0;
-  BoxPoint point{};
-  std::optional<SampleKind> sample{};  // none: chosen by the optimiser
-  SearchCase tried{};
-  Outcome outcome{};
-};
 
 struct FalsifySettings {
   std::size_t runs = 2000;        // of all spaces together
@@ -58,12 +53,14 @@ class FalsifySession {
   [[nodiscard]] const FalsifyTrial* worst() const noexcept;
 
  private:
-  using Measure = std::function<std::optional<double>(std::size_t space, const BoxTrial&)>;
+  using Measure = std::function<void(std::size_t space, const BoxTrial&)>;
 
   [[nodiscard]] bool over() const noexcept;
   void search(std::uint64_t round, const Measure& measure);
-  [[nodiscard]] std::vector<std::size_t> nearest(std::size_t from_trial) const;
-  [[nodiscard]] std::vector<BoxTrial> samples_of(std::size_t space) const;
+  // Until there are so many trials, from that turn of the order on.
+  void sample(std::size_t until, const std::vector<std::size_t>& order, std::size_t& turn,
+              const Measure& measure);
+  [[nodiscard]] std::vector<BoxTrial> samples_for(const SearchGoal& goal) const;
   FalsifyTrial measured(std::size_t space, const BoxTrial& trial, Objective& objective);
   void take(FalsifyTrial trial);
 
@@ -73,8 +70,8 @@ class FalsifySession {
   std::vector<std::string> known_;  // lines of the file, in order
   std::vector<FalsifyTrial> trials_;
   std::optional<std::size_t> worst_{};
-  std::vector<BoxSampler> samplers_;          // of each space
-  std::vector<std::vector<BoxPoint>> begun_;  // of each space: where the optimiser has begun
+  std::vector<BoxSampler> samplers_;                     // of each space
+  std::map<SearchGoal, std::vector<BoxPoint>> begun_{};  // where the optimiser has begun
 };
 
 }  // namespace towbench::harness

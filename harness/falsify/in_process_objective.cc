@@ -141,13 +141,16 @@ class InProcess final : public Objective {
     return json{{"fired", outcome.fired},
                 {"margin", outcome.margin ? json(*outcome.margin) : json(nullptr)},
                 {"broken", outcome.broken},
-                {"reason", outcome.reason}}
+                {"reason", outcome.reason},
+                {"rules", outcome.rules}}
         .dump(-1, ' ', false, json::error_handler_t::replace);
   }
   static Outcome outcome_of(const std::string& text) {
     const auto line = json::parse(text);
-    Outcome outcome{
-        .fired = line.at("fired"), .broken = line.at("broken"), .reason = line.at("reason")};
+    Outcome outcome{.fired = line.at("fired"),
+                    .broken = line.at("broken"),
+                    .reason = line.at("reason"),
+                    .rules = line.at("rules")};
     if (!line.at("margin").is_null()) {
       outcome.margin = line.at("margin").get<double>();
     }

@@ -1,6 +1,7 @@
 // By how much one run with faults, in a setup, keeps what is asked of it.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,11 +18,13 @@ struct Outcome {
   std::optional<double> margin{};  // none: no occasion
   bool broken = false;
   std::string reason{};
+  // Of each rule that had an occasion, where the rules are asked; the smallest is `margin`.
+  std::map<std::string, double> rules{};
 };
 
 // What is asked: a requirement of the experiment, or the rules that hold whatever fails
-// (docs/theory/safety.md) as one number: of the checks that have a limit the smallest distance to
-// it over its size, -1 for another that is broken, 1 for another that is kept.
+// (docs/theory/safety.md): of each the share of its limit that is left, -1 for one without a limit
+// that is broken, 1 for one that is kept; and the smallest of them as one number.
 struct Asked {
   std::optional<Requirement> requirement{};  // none: the rules
   [[nodiscard]] std::string name() const { return requirement ? requirement->id : "rules"; }

@@ -10,6 +10,7 @@
 // prevented it.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -48,6 +49,29 @@ const Contact* first_contact(const CaseEvidence& evidence, Contact& contact) {
     return &contact;
   }
   return nullptr;
+}
+
+// Of an axis to the nearer of its hard ends, the smallest; infinite where it has none.
+double nearest_m(const CaseRecord& run, Axis axis, const emulator::HardEndParameters& ends) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& row : run.truth) {
+    const double carriage_m = row.axes[axis].carriage_m;
+    nearest = std::min({nearest, carriage_m - ends.min_m, ends.max_m - carriage_m});
+  }
+  return nearest;
+}
+
+// How much of the distance that the fault-free run keeps to its ends is used up.
+double used_distance(const CaseEvidence& evidence) {
+  double used = 0;
+  for (const auto axis : core::kPlanarAxes) {
+    const auto& ends = evidence.prepared.built.axes[axis].plant.hard_ends;
+    if (ends.fitted && evidence.prepared.built.axes[axis].exists) {
+      used = std::max(used, 1 - nearest_m(evidence.run, axis, ends) /
+                                    nearest_m(evidence.reference, axis, ends));
+    }
+  }
+  return used;
 }
 
 // When the controller was in a position to know that the axis had to stop: a switch of that axis
@@ -188,7 +212,7 @@ Check no_preventable_contact(const CaseEvidence& evidence) {
       "no contact with a hard end that a physically possible reaction could have prevented";
   Contact contact;
   if (first_contact(evidence, contact) == nullptr) {
-    return passed(kName, kMeaning);
+    return with_used(passed(kName, kMeaning), used_distance(evidence));
   }
   auto unavoidable = passed(kName, kMeaning);
   unavoidable.value = contact.speed_m_per_s;

@@ -36,6 +36,7 @@ MaybeCheck amplifier_fault_is_found(const CaseEvidence& evidence) {
   if (!applies) {
     return std::nullopt;
   }
+  double most_used = 0;
   for (const auto axis : core::kPlanarAxes) {
     const auto ready = protocol::mask_of(protocol::ready_line(axis));
     Nanoseconds bad_since_ns = -1;
@@ -45,14 +46,18 @@ MaybeCheck amplifier_fault_is_found(const CaseEvidence& evidence) {
                        is_driven_mode(mode_at(run, axis, row.time_ns)) &&
                        !latched_by(run, row.time_ns);
       bad_since_ns = bad ? (bad_since_ns < 0 ? row.time_ns : bad_since_ns) : -1;
-      if (bad && row.time_ns - bad_since_ns > limit_ns) {
-        return failed(kName, kMeaning,
-                      fmt::format("{} driven without a ready amplifier at {:.4f} s",
-                                  core::name_of(axis), core::seconds(row.time_ns)));
+      const double used =
+          bad ? core::seconds(row.time_ns - bad_since_ns) / core::seconds(limit_ns) : 0;
+      if (used > 1) {
+        return with_used(failed(kName, kMeaning,
+                                fmt::format("{} driven without a ready amplifier at {:.4f} s",
+                                            core::name_of(axis), core::seconds(row.time_ns))),
+                         used);
       }
+      most_used = std::max(most_used, used);
     }
   }
-  return passed(kName, kMeaning);
+  return with_used(passed(kName, kMeaning), most_used);
 }
 
 MaybeCheck link_or_host_fault_is_found(const CaseEvidence& evidence) {
@@ -101,20 +106,23 @@ MaybeCheck tracking_is_guarded(const CaseEvidence& evidence) {
   const auto& run = evidence.run;
   const double limit_m =
       evidence.fixture.controller.configuration.safety.tracking_error_limit_m + kSlack_m;
+  double most_used = 0;
   for (const auto& row : run.log) {
     for (const auto axis : core::kPlanarAxes) {
       const auto& state = row.axes[axis];
       const bool follows =
           state.mode == bbmc::AxisMode::kPosition || state.mode == bbmc::AxisMode::kVelocity;
-      if (follows && std::fabs(state.reference_m - state.position_m) > limit_m) {
-        return failed(kName, kMeaning,
-                      fmt::format("{} is {:.1f} mm off at {:.4f} s", core::name_of(axis),
-                                  1e3 * std::fabs(state.reference_m - state.position_m),
-                                  core::seconds(row.time_ns)));
+      const double off_m = follows ? std::fabs(state.reference_m - state.position_m) : 0;
+      if (off_m > limit_m) {
+        return with_used(failed(kName, kMeaning,
+                                fmt::format("{} is {:.1f} mm off at {:.4f} s", core::name_of(axis),
+                                            1e3 * off_m, core::seconds(row.time_ns))),
+                         off_m / limit_m);
       }
+      most_used = std::max(most_used, off_m / limit_m);
     }
   }
-  return passed(kName, kMeaning);
+  return with_used(passed(kName, kMeaning), most_used);
 }
 
 MaybeCheck no_false_trip(const CaseEvidence& evidence) {

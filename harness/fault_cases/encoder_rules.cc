@@ -135,6 +135,7 @@ MaybeCheck encoder_fault_is_found(const CaseEvidence& evidence) {
   const auto found_ns = latched_ns(run);
   const auto gone_ns = end_of(evidence, *fault);
   const auto exchange_ns = run.outcome.exchange_ns;
+  double most_used = 0;
   for (const Push& push : pushes(evidence, axis)) {
     const auto from_ns = std::max(push.from_ns, cause_ns);
     const auto to_ns = std::min({push.to_ns, found_ns, gone_ns});
@@ -144,14 +145,18 @@ MaybeCheck encoder_fault_is_found(const CaseEvidence& evidence) {
     const double time_s = core::seconds(to_ns - from_ns - exchange_ns);
     const double way_m = std::fabs(run.truth_at(to_ns - exchange_ns).axes[axis].carriage_m -
                                    run.truth_at(from_ns).axes[axis].carriage_m);
-    if (time_s > longest_s || way_m > kFarthest_m) {
-      return failed(kName, kMeaning,
-                    fmt::format("driven above that from {:.4f} s for {:.0f} ms and {:.1f} mm{}",
-                                core::seconds(from_ns), 1e3 * time_s, 1e3 * way_m,
-                                found_ns == kNever ? ", never found" : ""));
+    const double used = std::max(time_s / longest_s, way_m / kFarthest_m);
+    if (used > 1) {
+      return with_used(
+          failed(kName, kMeaning,
+                 fmt::format("driven above that from {:.4f} s for {:.0f} ms and {:.1f} mm{}",
+                             core::seconds(from_ns), 1e3 * time_s, 1e3 * way_m,
+                             found_ns == kNever ? ", never found" : "")),
+          used);
     }
+    most_used = std::max(most_used, used);
   }
-  return passed(kName, kMeaning);
+  return with_used(passed(kName, kMeaning), most_used);
 }
 
 MaybeCheck encoder_jump_is_found(const CaseEvidence& evidence) {
@@ -194,6 +199,7 @@ MaybeCheck lost_index_is_found(const CaseEvidence& evidence) {
   double lowest = std::numeric_limits<double>::max();
   double highest = -lowest;
   double direction = 0;
+  double most_used = 0;
   for (const auto& row : run.truth) {
     if (row.time_ns < cause_ns || row.time_ns > std::min(found_ns, gone_ns)) {
       continue;
@@ -211,14 +217,17 @@ MaybeCheck lost_index_is_found(const CaseEvidence& evidence) {
     direction = speed;
     lowest = std::min(lowest, row.axes[axis].motor_angle_rad);
     highest = std::max(highest, row.axes[axis].motor_angle_rad);
-    if (highest - lowest > kLongest_rad + kSlack_rad) {
-      return failed(
-          kName, kMeaning,
-          fmt::format("{:.2f} turns by {:.4f} s", (highest - lowest) / (2.0 * std::numbers::pi),
-                      core::seconds(row.time_ns)));
+    const double used = (highest - lowest) / (kLongest_rad + kSlack_rad);
+    if (used > 1) {
+      return with_used(failed(kName, kMeaning,
+                              fmt::format("{:.2f} turns by {:.4f} s",
+                                          (highest - lowest) / (2.0 * std::numbers::pi),
+                                          core::seconds(row.time_ns))),
+                       used);
     }
+    most_used = std::max(most_used, used);
   }
-  return passed(kName, kMeaning);
+  return with_used(passed(kName, kMeaning), most_used);
 }
 
 }  // namespace towbench::harness

@@ -52,6 +52,11 @@ Check failed(const char* name, const char* meaning, std::string reason) {
   return check;
 }
 
+Check with_used(Check check, double used) {
+  check.margin = 1 - used;
+  return check;
+}
+
 core::Nanoseconds latched_ns(const CaseRecord& run) {
   const auto* fault = run.first_fault();
   return fault == nullptr ? kNever : fault->time_ns;

@@ -52,6 +52,9 @@ inline constexpr core::Nanoseconds kNever = std::numeric_limits<core::Nanosecond
 }
 [[nodiscard]] Check passed(const char* name, const char* meaning);
 [[nodiscard]] Check failed(const char* name, const char* meaning, std::string reason);
+// The check with its distance to the limit: `used` is the share of it that was taken, above 1 where
+// the rule is broken.
+[[nodiscard]] Check with_used(Check check, double used);
 // When the host serves what has arrived at `time_ns`.
 [[nodiscard]] core::Nanoseconds served_ns(const CaseEvidence& evidence, core::Nanoseconds time_ns);
 // Mode of an axis in the last log row at or before a time.

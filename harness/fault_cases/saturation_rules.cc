@@ -80,17 +80,22 @@ MaybeCheck integral_does_not_wind_up(const CaseEvidence& evidence) {
   if (!applies) {
     return std::nullopt;
   }
+  double most_used = 0;
   for (const auto axis : core::kPlanarAxes) {
     const auto worst = worst_stretch(evidence.run, axis);
-    if (worst.is_long() && worst.past_m > worst.allowed_m()) {
-      return failed(kName, kMeaning,
-                    fmt::format("{} lagged by {:.1f} mm at full drive to {:.4f} s, then ran {:.1f} "
-                                "mm past its reference",
-                                core::name_of(axis), 1e3 * std::fabs(worst.lag_m),
-                                core::seconds(worst.to_ns), 1e3 * worst.past_m));
+    const double used = worst.is_long() ? worst.past_m / worst.allowed_m() : 0;
+    if (used > 1) {
+      return with_used(
+          failed(kName, kMeaning,
+                 fmt::format("{} lagged by {:.1f} mm at full drive to {:.4f} s, then ran {:.1f} "
+                             "mm past its reference",
+                             core::name_of(axis), 1e3 * std::fabs(worst.lag_m),
+                             core::seconds(worst.to_ns), 1e3 * worst.past_m)),
+          used);
     }
+    most_used = std::max(most_used, used);
   }
-  return passed(kName, kMeaning);
+  return with_used(passed(kName, kMeaning), most_used);
 }
 
 }  // namespace towbench::harness

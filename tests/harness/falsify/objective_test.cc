@@ -44,6 +44,33 @@ TEST(Objective, GivesTheMarginOfTheRunFolder) {
   EXPECT_FALSE(late.fired);
 }
 
+// How much of what is allowed a fault takes, though the rule is kept: else a search sees nothing to
+// go down by.
+TEST(Objective, SaysHowMuchOfARuleIsUsed) {
+  const auto used = [](const char* motion, const char* fault, const char* rule) {
+    const auto fixture = load_experiment(std::string("fixtures/motions/") + motion + ".toml");
+    const auto outcome = in_process_objective(fixture, {}, 0)->measure({{parse_fault(fault)}});
+    EXPECT_FALSE(outcome.broken) << outcome.reason;
+    const auto found = outcome.rules.find(rule);
+    return found == outcome.rules.end() ? -1.0 : 1 - found->second;
+  };
+  // What is driven and does not move is found within 50 ms.
+  const double frozen =
+      used("end-y-min", "encoder.y frozen at_s=0.566 duration_s=0.8", "encoder_fault_found");
+  EXPECT_GT(frozen, 0.3);
+  EXPECT_LT(frozen, 0.9);
+  // The longer an amplifier is not ready, of 102 ms, the more.
+  const char* ready = "amplifier_fault_found";
+  EXPECT_NEAR(used("end-x-max", "amplifier.x over_temperature at_s=0.022 duration_s=0.03", ready),
+              0.03 / 0.102, 0.03);
+  EXPECT_NEAR(used("end-x-max", "amplifier.x over_temperature at_s=0.022 duration_s=0.06", ready),
+              0.06 / 0.102, 0.03);
+  // Of the way that the fault-free run keeps to the ends.
+  const char* contact = "no_preventable_contact";
+  EXPECT_LT(used("end-y-max", "encoder.x frozen at_s=0.5", contact), 0.01);
+  EXPECT_GT(used("end-y-min", "drive.y brake_drag at_s=0.02 force_N=17.2", contact), 0.5);
+}
+
 // Found by searches: what no controller could have done is not asked of it.
 TEST(Objective, AsksNothingImpossible) {
   struct Case {
