@@ -159,7 +159,8 @@ Diagnosis diagnose(const Request& given) {
   Search search =
       search_causes(data, make_context(request.model, data),
                     {parameters_of(request.model), std::vector<OfRun>(request.runs.size())}, {});
-  if (collapsed(search, momentum)) {
+  const bool collapses = collapsed(search, momentum);
+  if (collapses) {
     search.causes.clear();
     search.final = search.base;
     d.unexplained.emplace();
@@ -168,8 +169,11 @@ Diagnosis diagnose(const Request& given) {
     d.unexplained->rms_N = search.context.input_rms_N;
     d.unexplained->p_value = 0;
     search.context.stated.supplied = false;  // its parameters are not comparable
+  } else {
+    tell("whether the causes' laws fit, and what is left");
+    d.unexplained = judge_rest(data, search);
   }
-  d.estimated = !request.model.supplied && !d.unexplained;
+  d.estimated = !request.model.supplied && !collapses;
   d.context = search.context;
   d.bandwidth = search.bandwidth;
   d.tried = search.tried;
@@ -179,10 +183,7 @@ Diagnosis diagnose(const Request& given) {
   tell("what would separate causes");
   name_causes(d, search);
   d.parameters = judge_parameters(data, search);
-  tell("what is left, and what the data cannot show");
-  if (!d.unexplained) {
-    d.unexplained = find_unexplained(data, search);
-  }
+  tell("what the data cannot show");
   d.not_testable = find_not_testable(search);
   tell("scoring, and running both models by themselves");
   d.scored = request.holdout.empty() ? score_within(data, search)

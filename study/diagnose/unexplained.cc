@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/diagnose/motion.h"
+#include "study/diagnose/free_shapes.h"
 #include "study/prediction/whiteness.h"
 
 namespace towbench::study::diagnose {
@@ -13,115 +13,90 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kBins = 12;
 constexpr double kAlpha = 1e-4;
 constexpr double kLeastForce = 0.01;  // of the input's rms; less is too small to matter
 constexpr double kLeastGain = 0.02;
 constexpr double kPastGain = 0.1;  // that the past predicts; a wrong noise model does less
-
-struct Coordinate {
-  const char* name;
-  VectorXd Motion::*of;
-};
-constexpr Coordinate kCoordinates[] = {{"position", &Motion::position_m},
-                                       {"speed", &Motion::speed_m_per_s},
-                                       {"acceleration", &Motion::acceleration_m_per_s2},
-                                       {"command", &Motion::input_N},
-                                       {"time", &Motion::time_s}};
-
-// Bins that hold as many samples each.
-std::vector<double> edges_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  std::vector<double> edges;
-  for (int i = 0; i <= kBins; ++i) {
-    const double edge = values[(values.size() - 1) * static_cast<std::size_t>(i) / kBins];
-    if (edges.empty() || edge > edges.back()) edges.push_back(edge);
-  }
-  return edges;
-}
+constexpr double kMisfit = 0.2;    // of the power that a cause predicts, left for a free shape
+constexpr double kRidge = 1e-4;    // of a column's own square: a bin that a fold lacks stays zero
 
 class Seeker {
  public:
   Seeker(Data& data, const Search& search) : data_(data), search_(search) {
     for (const Scene& scene : data.scenes) motions_.push_back(motion_of(*scene.run, kSmooth_s));
+    shapes_ = free_shapes(motions_);
     const Parameters& p = search.final.fitted.model.parameters;
     to_force_ = p[Key::kMass] * search.bandwidth * search.bandwidth;
   }
 
-  std::optional<Unexplained> seek() {
+  // Of the shapes that are certain, that which takes away the most.
+  std::optional<Unexplained> best_shape() {
     std::optional<Unexplained> best;
-    const auto take = [&](std::optional<Unexplained> found) {
+    for (const FreeShape& shape : shapes_) {
+      auto found = of(shape);
       if (found && (!best || found->share > best->share)) best = std::move(found);
-    };
-    for (const Coordinate& coordinate : kCoordinates) take(along(coordinate));
-    if (!best) take(by_its_past());
+    }
     return best;
   }
 
- private:
-  std::optional<Unexplained> along(const Coordinate& coordinate) {
-    std::vector<double> values;
-    for (const Motion& m : motions_) {
-      const VectorXd& x = m.*coordinate.of;
-      for (Index i = 0; i < x.size(); i += 5) values.push_back(x[i]);
-    }
-    const std::vector<double> edges = edges_of(std::move(values));
-    const Index bins = std::ssize(edges) - 1;
-    if (bins < 3) return std::nullopt;
-    MatrixXd columns(data_.samples(), bins);
-    const State& s = search_.final;
-    for (Index bin = 0; bin < bins; ++bin) {
-      const double low = edges[static_cast<std::size_t>(bin)];
-      const double high = edges[static_cast<std::size_t>(bin) + 1];
-      const double step = 0.02 * search_.context.input_rms_N;
-      for (std::size_t run = 0; run < motions_.size(); ++run) {
-        const VectorXd& x = motions_[run].*coordinate.of;
-        data_.scenes[run].extra_N = x.unaryExpr([&](double value) {
-          return value >= low && (value < high || bin + 1 == bins) ? step : 0.0;
-        });
-      }
-      columns.col(bin) =
-          (s.fitted.e - innovations(data_, s.fitted.model, search_.bandwidth)) / step;
-    }
-    for (Scene& scene : data_.scenes) scene.extra_N.resize(0);
-    Unexplained u;
-    u.coordinate = coordinate.name;
-    if (!tells(columns, kLeastGain, u)) return std::nullopt;
-    for (Index bin = 0; bin < bins; ++bin) {
-      const auto i = static_cast<std::size_t>(bin);
-      u.at.push_back(0.5 * (edges[i] + edges[i + 1]));
-      u.force_N.push_back(b_[bin]);
-      u.error_N.push_back(std::sqrt(std::max(0.0, covariance_(bin, bin))));
-    }
-    return u;
+  bool is_a_force(const Unexplained& u) const {
+    return u.rms_N > kLeastForce * search_.context.input_rms_N;
   }
 
   std::optional<Unexplained> by_its_past() {
     const VectorXd& e = search_.final.fitted.e;
     const double steps = search_.context.resolution_m;
-    if (e.norm() / std::sqrt(static_cast<double>(e.size())) < kRounding * steps)
+    if (e.norm() / std::sqrt(static_cast<double>(e.size())) < kRounding * steps) {
       return std::nullopt;
-    Unexplained u;
-    u.coordinate = "its own past";
-    return tells(lagged(data_, e, search_.bandwidth), kPastGain, u) ? std::optional<Unexplained>(u)
-                                                                    : std::nullopt;
+    }
+    const MatrixXd past = lagged(data_, e, search_.bandwidth);
+    Unexplained u{.coordinate = "its own past"};
+    const bool told = tells(
+        past.cols(), [&](Index i) -> VectorXd { return past.col(i); }, u);
+    return told && u.share > kPastGain && is_a_force(u) ? std::optional(u) : std::nullopt;
   }
 
-  bool tells(const MatrixXd& columns, double least_gain, Unexplained& u) {
+ private:
+  std::optional<Unexplained> of(const FreeShape& shape) {
+    const State& s = search_.final;
+    const double step = 0.02 * search_.context.input_rms_N;
+    const auto column = [&](Index i) -> VectorXd {
+      for (std::size_t run = 0; run < motions_.size(); ++run) {
+        data_.scenes[run].extra_N = step * shape.force(i, motions_[run]);
+      }
+      return (s.fitted.e - innovations(data_, s.fitted.model, search_.bandwidth)) / step;
+    };
+    Unexplained u{.coordinate = shape.coordinate};
+    const bool told = tells(shape.columns, column, u);
+    for (Scene& scene : data_.scenes) scene.extra_N.resize(0);
+    if (!told) return std::nullopt;
+    if (!shape.at.empty()) {
+      u.at = shape.at;
+      u.force_N.assign(b_.begin(), b_.end());
+      for (Index i = 0; i < shape.columns; ++i) {
+        u.error_N.push_back(std::sqrt(std::max(0.0, covariance_(i, i))));
+      }
+    }
+    return u;
+  }
+
+  template <typename Column>
+  bool tells(Index k, Column column, Unexplained& u) {
     const State& s = search_.final;
     const Index p = s.derivatives.cols();
-    const Index k = columns.cols();
     MatrixXd all(data_.samples(), p + k + 1);
-    all << s.derivatives, columns, s.fitted.e;
+    all.leftCols(p) = s.derivatives;
+    all.col(p + k) = s.fitted.e;
     VectorXd ridge = VectorXd::Zero(p + k);
     ridge.head(p) = s.ridge;
+    for (Index i = 0; i < k; ++i) {
+      all.col(p + i) = column(i);
+      ridge[p + i] = kRidge * all.col(p + i).squaredNorm();
+    }
     const Blocks blocks(all, search_.spans, ridge);
-    Columns base;
-    Columns group;
-    for (Index i = 0; i < p; ++i) base.push_back(i);
-    for (Index i = p; i < p + k; ++i) group.push_back(i);
-    Columns both = base;
-    both.insert(both.end(), group.begin(), group.end());
+    Columns base = up_to(p);
+    Columns both = up_to(p + k);
+    const Columns group(both.begin() + p, both.end());
     const GroupTest test = blocks.test(base, group);
     const Comparison gain = compare(blocks.predicted(base), blocks.predicted(both), 2.58);
     const Fit fit = blocks.fit(both);
@@ -129,23 +104,65 @@ class Seeker {
     covariance_ = fit.covariance.bottomRightCorner(k, k);
     u.share = gain.gain;
     u.rms_N = to_force_ * test.rms;
-    u.p_value = std::min(1.0, test.p_value * (std::ssize(kCoordinates) + 1));
-    return u.p_value < kAlpha && gain.gain > least_gain && gain.low > 0 &&
-           u.rms_N > kLeastForce * search_.context.input_rms_N;
+    u.p_value = std::min(1.0, test.p_value * static_cast<double>(shapes_.size() + 1));
+    return u.p_value < kAlpha && gain.low > 0;
   }
 
   Data& data_;
   const Search& search_;
   std::vector<Motion> motions_;
+  std::vector<FreeShape> shapes_;
   double to_force_ = 0;
   VectorXd b_;
   MatrixXd covariance_;
 };
 
+// Of the prediction error's power with the causes: what a gain of rms takes away further, and what
+// it took away before.
+double further_power(double gain) {
+  return 1 - (1 - gain) * (1 - gain);
+}
+double earlier_power(double gain) {
+  return 1 / ((1 - gain) * (1 - gain)) - 1;
+}
+
+std::size_t weakest_of(const std::vector<Cause>& causes) {
+  const auto least =
+      std::min_element(causes.begin(), causes.end(),
+                       [](const Cause& a, const Cause& b) { return a.gain.gain < b.gain.gain; });
+  return static_cast<std::size_t>(least - causes.begin());
+}
+
+void drop(const Data& data, Search& search, std::size_t i) {
+  const Frame frame{&data, search.context, search.bandwidth, search.spans};
+  search.dropped.push_back(search.causes[i].effect);
+  search.final = without(frame, search.final, i);
+  search.causes.erase(search.causes.begin() + static_cast<std::ptrdiff_t>(i));
+}
+
 }  // namespace
 
-std::optional<Unexplained> find_unexplained(Data& data, const Search& search) {
-  return Seeker(data, search).seek();
+std::optional<Unexplained> judge_rest(Data& data, Search& search) {
+  std::optional<Unexplained> against;
+  for (;;) {
+    Seeker seeker(data, search);
+    auto shape = seeker.best_shape();
+    const bool matters = shape && seeker.is_a_force(*shape);
+    if (matters && !search.causes.empty()) {
+      const auto i = weakest_of(search.causes);
+      const double gain = std::clamp(search.causes[i].gain.gain, 0.0, 0.999);
+      if (further_power(shape->share) >= kMisfit * earlier_power(gain)) {
+        against = std::move(shape);
+        drop(data, search, i);
+        continue;
+      }
+    }
+    if (matters && shape->share > kLeastGain) {
+      return shape;
+    }
+    auto past = seeker.by_its_past();
+    return past ? past : against;
+  }
 }
 
 }  // namespace towbench::study::diagnose

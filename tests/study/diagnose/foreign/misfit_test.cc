@@ -1,0 +1,57 @@
+// Forces that no law of the library is, in machines of another maker: a law that resembles them is
+// not named, and that something is unexplained is said.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/study/diagnose/foreign/answer.h"
+#include "tests/study/diagnose/foreign/drawn_case.h"
+
+namespace towbench::tests::foreign {
+namespace {
+
+using ::testing::IsEmpty;
+
+Answer answer_to(const char* kind, const char* effect, std::uint64_t seed) {
+  Wish wish;
+  wish.kind = kind;
+  const auto drawn = draw_case(wish, seed);
+  EXPECT_EQ(drawn.hidden.front().name, effect);
+  return answer_of(study::diagnose::diagnose(request_of(drawn)));
+}
+
+// But for parameters, which its mean moves.
+std::vector<std::string> causes_of(const Answer& answer) {
+  std::vector<std::string> names;
+  for (const Named& cause : answer.causes) {
+    const auto& name = cause.names.front();
+    if (name != "coulomb" && name != "viscous" && name != "inertia") names.push_back(name);
+  }
+  return names;
+}
+
+TEST(Misfit, OfPlaceAndSpeedTogetherIsNotCalledFrictionOfThePlace) {
+  const auto answer = answer_to("outside", "outside_place_and_speed", 81008);
+  EXPECT_THAT(causes_of(answer), IsEmpty());
+  EXPECT_TRUE(answer.unexplained);
+}
+
+TEST(Misfit, OfASpringThatCreepsIsNotCalledACable) {
+  const auto answer = answer_to("outside", "outside_memory", 81020);
+  EXPECT_THAT(causes_of(answer), IsEmpty());
+  EXPECT_TRUE(answer.unexplained);
+}
+
+TEST(Misfit, OfFrictionThatItsOwnHeatChangesIsNotCalledDriftOverTheSession) {
+  const auto answer = answer_to("outside", "outside_heating", 82005);
+  EXPECT_THAT(causes_of(answer), IsEmpty());
+  EXPECT_TRUE(answer.unexplained);
+}
+
+TEST(Misfit, IsNoneWhereTheLawIsTheRightOne) {
+  const auto answer = answer_to("one", "low_speed_rolloff", 70009);
+  EXPECT_EQ(answer.words(), "low_speed_rolloff");
+  EXPECT_FALSE(answer.unexplained);
+}
+
+}  // namespace
+}  // namespace towbench::tests::foreign

@@ -1,0 +1,76 @@
+// Shapes without a law, on motions whose values are known.
+#include "study/diagnose/free_shapes.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace towbench::study::diagnose {
+namespace {
+
+using Eigen::VectorXd;
+
+// 20 s of a sine at 1 kHz.
+Motion sine() {
+  Motion m;
+  m.time_s = VectorXd::LinSpaced(20001, 0, 20);
+  m.position_m = (0.7 * m.time_s.array()).sin();
+  m.speed_m_per_s = 0.7 * (0.7 * m.time_s.array()).cos();
+  m.acceleration_m_per_s2 = -0.49 * m.position_m;
+  m.input_N = 3 * m.acceleration_m_per_s2 + 0.1 * m.speed_m_per_s;
+  return m;
+}
+
+// The grid leaves out cells that the motion hardly enters.
+TEST(FreeShapes, OfBinsCoverEachSampleOnce) {
+  const Motion motion = sine();
+  const auto shapes = free_shapes({motion});
+  ASSERT_EQ(shapes.size(), 7U);
+  for (const FreeShape& shape : shapes) {
+    if (shape.coordinate == "the motion before") continue;
+    VectorXd sum = VectorXd::Zero(motion.time_s.size());
+    for (Eigen::Index i = 0; i < shape.columns; ++i) sum += shape.force(i, motion);
+    const bool is_grid = shape.coordinate == "position and speed";
+    EXPECT_GE(sum.mean(), is_grid ? 0.99 : 1.0) << shape.coordinate;
+    EXPECT_EQ(sum.maxCoeff(), 1.0) << shape.coordinate;
+  }
+}
+
+TEST(FreeShapes, OfOneCoordinateSayWhereTheirBinsLie) {
+  const auto shapes = free_shapes({sine()});
+  ASSERT_EQ(shapes.front().coordinate, "position");
+  ASSERT_EQ(shapes.front().at.size(), 12U);
+  EXPECT_TRUE(std::is_sorted(shapes.front().at.begin(), shapes.front().at.end()));
+  EXPECT_NEAR(shapes.front().at.front(), -shapes.front().at.back(), 0.02);
+}
+
+TEST(FreeShapes, OfAMotionThatStandsAreOfThePastAlone) {
+  Motion still = sine();
+  for (auto* of :
+       {&still.position_m, &still.speed_m_per_s, &still.acceleration_m_per_s2, &still.input_N}) {
+    of->setConstant(0.1);
+  }
+  const auto shapes = free_shapes({still});
+  ASSERT_EQ(shapes.size(), 2U);
+  EXPECT_EQ(shapes.front().coordinate, "time");
+  EXPECT_EQ(shapes.back().coordinate, "the motion before");
+}
+
+// The force of a Maxwell part at constant speed: 1 - exp(-t / memory). Friction that warms: the
+// same, against the motion.
+TEST(FreeShapes, OfThePastAreLowPasses) {
+  Motion steady = sine();
+  steady.speed_m_per_s.setConstant(-0.5);
+  const auto past = free_shapes({steady}).back();
+  ASSERT_EQ(past.columns, 7);
+  const auto at = [&](Eigen::Index column, Eigen::Index sample) {
+    return past.force(column, steady)[sample];
+  };
+  EXPECT_NEAR(at(2, 1000), -(1 - std::exp(-1.0)), 2e-3);
+  EXPECT_NEAR(at(3, 3000), -(1 - std::exp(-1.0)), 2e-3);
+  EXPECT_NEAR(at(6, 10000), -(1 - std::exp(-1.0)), 2e-3);
+}
+
+}  // namespace
+}  // namespace towbench::study::diagnose
