@@ -76,7 +76,7 @@ std::string explain(const Diagnosis& d, const std::string& effect) {
   if (why.empty() && dropped) {
     why =
         "not named: it was accepted and dropped again, because beside what is left unexplained it "
-        "says too little";
+        "says too little, or its law does not fit";
   }
   if (why.empty() && seen != d.considered.end()) why = considered(*seen, d.tried);
   return fmt::format("{}: {}.\n", effect, why.empty() ? "not tried on this data" : why);

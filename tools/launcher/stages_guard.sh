@@ -73,6 +73,7 @@ board_checks() {
 # Its download and its one compiler call wait beside the tests.
 start_kernel_beside() {
   if is_asked_for carriers && [[ -z $kernel_fetched ]]; then
+    mkdir -p "$build"
     "$root/tests/carriers/fetch_kernel.sh" "$build/carriers/kernel" >"$build/kernel.log" 2>&1 &
     kernel_fetched=$!
   fi
