@@ -184,7 +184,8 @@ void FalsifySession::search(std::uint64_t round, const Measure& measure) {
     if (trials_.size() >= last || over()) {
       break;
     }
-    const auto& [space, rule] = goal;
+    const auto space = goal.first;
+    const auto& rule = goal.second;
     auto found =
         search_box({.sides = spaces_[space].faults.sides(),
                     .runs = std::min(runs_of_one, last - trials_.size()),
