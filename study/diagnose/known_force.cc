@@ -37,7 +37,7 @@ Interval force_ratio(const NominalModel& model, const Run& run, const KnownForce
     const Fitted fitted = fit_model(data, context, start, free, bandwidth, kFitRounds);
     start = fitted.model;
     Eigen::MatrixXd all(data.samples(), last + 2);
-    all.leftCols(last) = derivatives(data, fitted.model, free, fitted.e, bandwidth);
+    all.leftCols(last) = columns_of(data, fitted.e, varied(fitted.model, free), bandwidth);
     extra_N = (ratio + kRatioStep) * push_N;
     all.col(last) = (fitted.e - innovations(data, fitted.model, bandwidth)) / kRatioStep;
     all.col(last + 1) = fitted.e;

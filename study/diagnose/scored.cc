@@ -48,7 +48,7 @@ Model calibrated(const Data& data, const Context& context, Parameters parameters
     }
     const VectorXd e = innovations(data, model, bandwidth);
     MatrixXd all(data.samples(), std::ssize(free) + 1);
-    all << derivatives(data, model, free, e, bandwidth), e;
+    all << columns_of(data, e, varied(model, free), bandwidth), e;
     const Index from = data.starts[run];
     const auto n = static_cast<double>(data.starts[run + 1] - from);
     const auto to = from + static_cast<Index>(kCalibrated * n);

@@ -27,6 +27,12 @@ class Seeker {
     shapes_ = free_shapes(motions_);
     const Parameters& p = search.final.fitted.model.parameters;
     to_force_ = p[Key::kMass] * search.bandwidth * search.bandwidth;
+    const State& s = search.final;
+    Index most = kLags;
+    for (const FreeShape& shape : shapes_) most = std::max(most, shape.columns);
+    all_.resize(data.samples(), std::ssize(s.free) + most + 1);
+    all_.leftCols(std::ssize(s.free)) =
+        columns_of(data, s.fitted.e, varied(s.fitted.model, s.free), search.bandwidth);
   }
 
   // Of the shapes that are certain, that which takes away the most.
@@ -83,17 +89,15 @@ class Seeker {
   template <typename Column>
   bool tells(Index k, Column column, Unexplained& u) {
     const State& s = search_.final;
-    const Index p = s.derivatives.cols();
-    MatrixXd all(data_.samples(), p + k + 1);
-    all.leftCols(p) = s.derivatives;
-    all.col(p + k) = s.fitted.e;
+    const Index p = std::ssize(s.free);
+    all_.col(p + k) = s.fitted.e;
     VectorXd ridge = VectorXd::Zero(p + k);
     ridge.head(p) = s.ridge;
     for (Index i = 0; i < k; ++i) {
-      all.col(p + i) = column(i);
-      ridge[p + i] = kRidge * all.col(p + i).squaredNorm();
+      all_.col(p + i) = column(i);
+      ridge[p + i] = kRidge * all_.col(p + i).squaredNorm();
     }
-    const Blocks blocks(all, search_.spans, ridge);
+    const Blocks blocks(all_.leftCols(p + k + 1), search_.spans, ridge);
     Columns base = up_to(p);
     Columns both = up_to(p + k);
     const Columns group(both.begin() + p, both.end());
@@ -113,6 +117,7 @@ class Seeker {
   std::vector<Motion> motions_;
   std::vector<FreeShape> shapes_;
   double to_force_ = 0;
+  MatrixXd all_;  // by the model's own parameters, by what is tried, and the error
   VectorXd b_;
   MatrixXd covariance_;
 };

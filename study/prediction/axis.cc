@@ -15,6 +15,12 @@ double sign(double x) {
   return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0;
 }
 
+// exp(-x); where that is nothing, the library's function takes long to say so.
+double faded(double x) {
+  constexpr double kNothing = 40;
+  return x > kNothing ? 0.0 : std::exp(-x);
+}
+
 double wave(double cosine, double sine, double turns) {
   const double angle = kTurn * turns;
   if (sine == 0) return cosine * std::cos(angle);
@@ -209,17 +215,17 @@ double Axis::shared_dry_N(const Body& body, double direction, double t_s) const 
   double level = p_[Key::kCoulomb];
   if (p_[Key::kStribeck] != 0) {
     const double s = speed / p_[Key::kStribeckSpeed];
-    const double fade = scene_.stated->stribeck_is_lorentz ? 1 / (1 + s * s) : std::exp(-s * s);
+    const double fade = scene_.stated->stribeck_is_lorentz ? 1 / (1 + s * s) : faded(s * s);
     level += p_[Key::kStribeck] * fade;
     asymmetry_N *= 1 - fade;  // break-away is alike in both directions
   }
   level += asymmetry_N;
   if (p_[Key::kRolloff] != 0) {
-    level -= p_[Key::kRolloff] * std::exp(-speed / p_[Key::kRolloffSpeed]);
+    level -= p_[Key::kRolloff] * faded(speed / p_[Key::kRolloffSpeed]);
   }
   if (p_[Key::kPresliding] != 0) {
     const double travel = std::abs(motor_.x - turned_at_m_);
-    level -= p_[Key::kPresliding] * std::exp(-travel / p_[Key::kPreslidingTravel]);
+    level -= p_[Key::kPresliding] * faded(travel / p_[Key::kPreslidingTravel]);
   }
   if (p_[Key::kWarming] != 0) {
     const double t = scene_.session_start_s + t_s;
@@ -227,7 +233,7 @@ double Axis::shared_dry_N(const Body& body, double direction, double t_s) const 
   }
   if (p_[Key::kBreakaway] != 0 && (body.stands || body.leaves)) {
     const double s = speed / p_[Key::kBreakawaySpeed];
-    level += p_[Key::kBreakaway] * std::exp(-s * s);
+    level += p_[Key::kBreakaway] * faded(s * s);
   }
   return level * (1 - p_[Key::kWorkWarming] * warmth_);
 }

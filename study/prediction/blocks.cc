@@ -51,6 +51,15 @@ double left_of(const MatrixXd& gram, Index error, const Columns& of, const Vecto
   return std::max(0.0, left);
 }
 
+std::vector<MatrixXd> grams_of(const Eigen::Ref<const MatrixXd>& all,
+                               const std::vector<Span>& spans) {
+  std::vector<MatrixXd> grams(spans.size());
+  in_parallel(spans.size(), [&](std::size_t i) {
+    grams[i] = gram_of(all.middleRows(spans[i].from, spans[i].to - spans[i].from));
+  });
+  return grams;
+}
+
 double survival(double f, double k, double rest) {
   if (!(f > 0) || rest < 1) return 1;
   return boost::math::cdf(complement(boost::math::fisher_f(k, rest), f));
@@ -85,22 +94,30 @@ std::vector<Span> cut(const Data& data, double bandwidth) {
   return spans;
 }
 
-Blocks::Blocks(const MatrixXd& all, const std::vector<Span>& spans, VectorXd ridge)
-    : sum_(MatrixXd::Zero(all.cols(), all.cols())),
+MatrixXd gram_of(const Eigen::Ref<const MatrixXd>& rows) {
+  MatrixXd gram = MatrixXd::Zero(rows.cols(), rows.cols());
+  gram.selfadjointView<Eigen::Upper>().rankUpdate(rows.transpose());
+  gram.triangularView<Eigen::StrictlyLower>() = gram.transpose();
+  return gram;
+}
+
+double samples_in(const Eigen::Ref<const VectorXd>& e) {
+  return static_cast<double>((e.array() != 0).count());
+}
+
+Blocks::Blocks(const Eigen::Ref<const MatrixXd>& all, const std::vector<Span>& spans,
+               VectorXd ridge)
+    : Blocks(grams_of(all, spans), samples_in(all.col(all.cols() - 1)), std::move(ridge)) {}
+
+Blocks::Blocks(std::vector<MatrixXd> grams, double samples, VectorXd ridge)
+    : gram_(std::move(grams)),
+      sum_(MatrixXd::Zero(gram_.front().rows(), gram_.front().cols())),
       ridge_(std::move(ridge)),
-      error_(all.cols() - 1) {
+      error_(sum_.cols() - 1),
+      samples_(samples) {
   if (ridge_.size() == 0) {
     ridge_ = VectorXd::Zero(error_);
   }
-  samples_ = static_cast<double>((all.col(error_).array() != 0).count());
-  gram_.resize(spans.size());
-  in_parallel(spans.size(), [&](std::size_t i) {
-    const auto rows = all.middleRows(spans[i].from, spans[i].to - spans[i].from);
-    MatrixXd& gram = gram_[i];
-    gram = MatrixXd::Zero(all.cols(), all.cols());
-    gram.selfadjointView<Eigen::Upper>().rankUpdate(rows.transpose());
-    gram.triangularView<Eigen::StrictlyLower>() = gram.transpose();
-  });
   for (const MatrixXd& gram : gram_) sum_ += gram;
   const Index folds = std::min<Index>(kFolds, std::ssize(gram_));
   without_.assign(static_cast<std::size_t>(folds), sum_);

@@ -22,6 +22,10 @@ struct Span {
 };
 [[nodiscard]] std::vector<Span> cut(const Data& data, double bandwidth);
 
+[[nodiscard]] Eigen::MatrixXd gram_of(const Eigen::Ref<const Eigen::MatrixXd>& rows);
+// Of an error, those of which something can be said.
+[[nodiscard]] double samples_in(const Eigen::Ref<const Eigen::VectorXd>& e);
+
 struct Fit {
   Eigen::VectorXd b;
   Eigen::MatrixXd covariance;  // clustered
@@ -43,7 +47,10 @@ class Blocks {
  public:
   // `ridge`: one a column, the penalty on its square; empty: none. The error is the last column
   // of `all`.
-  Blocks(const Eigen::MatrixXd& all, const std::vector<Span>& spans, Eigen::VectorXd ridge);
+  Blocks(const Eigen::Ref<const Eigen::MatrixXd>& all, const std::vector<Span>& spans,
+         Eigen::VectorXd ridge);
+  // Of each block its [X e]'[X e]; `samples`: of which something can be said.
+  Blocks(std::vector<Eigen::MatrixXd> grams, double samples, Eigen::VectorXd ridge);
 
   [[nodiscard]] Fit fit(const Columns& of) const;
   // Is `group` needed beside `others`? F test of its clustered covariance.
@@ -62,7 +69,7 @@ class Blocks {
   std::vector<Eigen::MatrixXd> without_;  // a fold
   Eigen::VectorXd ridge_;
   Eigen::Index error_;
-  double samples_ = 0;  // of which something can be said
+  double samples_;  // of which something can be said
 };
 
 // Is the error of `better` smaller than that of `worse`? Block by block.

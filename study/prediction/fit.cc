@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/prediction/in_parallel.h"
-
 namespace towbench::study::diagnose {
 namespace {
 
@@ -74,24 +72,14 @@ double& value_in(Model& model, const FreeParameter& f) {
   return model.parameters[f.key];
 }
 
-MatrixXd derivatives(const Data& data, const Model& model, const std::vector<FreeParameter>& free,
-                     const VectorXd& e, double bandwidth) {
-  MatrixXd x = MatrixXd::Zero(data.samples(), std::ssize(free));
-  in_parallel(free.size(), [&](std::size_t j) {
-    const FreeParameter& f = free[j];
-    Model other = model;
-    value_in(other, f) += f.step;
-    const auto column = static_cast<Index>(j);
-    for (std::size_t run = 0; run < data.scenes.size(); ++run) {
-      if (f.of == FreeParameter::Of::kAll || f.run == run) {
-        const Index from = data.starts[run];
-        const Index n = data.starts[run + 1] - from;
-        x.col(column).segment(from, n) =
-            (e.segment(from, n) - innovations_of(data, run, other.in_run(run), bandwidth)) / f.step;
-      }
-    }
-  });
-  return x;
+std::vector<Variation> varied(const Model& model, const std::vector<FreeParameter>& free) {
+  std::vector<Variation> out;
+  for (const FreeParameter& f : free) {
+    Variation& v = out.emplace_back(Variation{model, f.step, {}});
+    value_in(v.model, f) += f.step;
+    if (f.of != FreeParameter::Of::kAll) v.run = f.run;
+  }
+  return out;
 }
 
 VectorXd ridge_of(const std::vector<FreeParameter>& free, const Context& c, double mean_square) {
@@ -112,11 +100,17 @@ Fitted fit_model(const Data& data, const Context& context, Model start,
   const double mean_square = best.e.squaredNorm() / static_cast<double>(best.e.size());
   const VectorXd ridge = ridge_of(free, context, mean_square);
   best.cost = best.e.squaredNorm() + penalty(free, ridge, best.model);
+  const std::vector<Span> spans = cut(data, bandwidth);
+  const Index last = std::ssize(free);
   double damping = 1e-6;
   for (int round = 0; round < rounds; ++round) {
-    const MatrixXd x = derivatives(data, best.model, free, best.e, bandwidth);
-    MatrixXd a = x.transpose() * x;
-    VectorXd b = x.transpose() * best.e;
+    MatrixXd a = MatrixXd::Zero(last, last);
+    VectorXd b = VectorXd::Zero(last);
+    for (const MatrixXd& gram :
+         grams_of(data, best.e, varied(best.model, free), bandwidth, spans)) {
+      a += gram.topLeftCorner(last, last);
+      b += gram.topRightCorner(last, 1);
+    }
     for (std::size_t j = 0; j < free.size(); ++j) {
       const auto i = static_cast<Index>(j);
       a(i, i) += ridge[i];

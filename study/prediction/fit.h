@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "study/prediction/blocks.h"
 #include "study/prediction/context.h"
+#include "study/prediction/variations.h"
 
 namespace towbench::study::diagnose {
 
@@ -25,11 +25,10 @@ struct FreeParameter {
 
 [[nodiscard]] double& value_in(Model& model, const FreeParameter& free_parameter);
 
-// Columns -de/dp, so that e = X (p_true - p) + rest; on all processors.
-[[nodiscard]] Eigen::MatrixXd derivatives(const Data& data, const Model& model,
-                                          const std::vector<FreeParameter>& free,
-                                          const Eigen::VectorXd& e, double bandwidth);
-// One a freedom: what a run has of its own is held near zero by what runs usually differ by.
+// One a free parameter, moved by its step: columns -de/dp, so that e = X (p_true - p) + rest.
+[[nodiscard]] std::vector<Variation> varied(const Model& model,
+                                            const std::vector<FreeParameter>& free);
+// One a free parameter: what a run has of its own is held near zero by what runs usually differ by.
 [[nodiscard]] Eigen::VectorXd ridge_of(const std::vector<FreeParameter>& free,
                                        const Context& context, double mean_square);
 

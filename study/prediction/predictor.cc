@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "study/prediction/axis.h"
 #include "study/statistics/statistics.h"
 
 namespace towbench::study::diagnose {
@@ -76,41 +75,55 @@ Data make_data_like(const Data& fitted, const std::vector<Run>& runs, const Nomi
   return data;
 }
 
-VectorXd innovations_of(const Data& data, std::size_t which, const Parameters& parameters,
-                        double bandwidth) {
-  const Scene& scene = data.scenes[which];
-  const Run& run = *scene.run;
-  const double r = std::exp(-bandwidth * run.period_s);
-  const double by_place = 1 - r * r;
-  const double by_speed = (1 - r) * (1 - r) / run.period_s;
-  const auto forgotten = static_cast<Index>(std::ceil(kForgotten / (bandwidth * run.period_s)));
-  const double farthest = kFarthest * (scene.stroke_max_m - scene.stroke_min_m);
-  Axis axis(parameters, scene);
-  axis.place(run.position_m[0], speed_from(run, 0));
-  VectorXd e = VectorXd::Zero(run.size());
-  Index silent = forgotten;
-  Index gap = 0;
-  for (Index k = 0; k < run.size(); ++k) {
-    if (!run.missing.empty() && run.missing[static_cast<std::size_t>(k)] != 0) {
-      silent = forgotten;
-      ++gap;
-    } else {
-      // What was driven meanwhile is not known: behind a long gap it begins anew.
-      if (static_cast<double>(gap) * run.period_s * bandwidth > 1) {
-        axis.place(run.position_m[k], speed_from(run, k));
-      }
-      gap = 0;
-      const double off = run.position_m[k] - axis.reading_m();
-      if (!(std::abs(off) < farthest)) {
-        e.setConstant(farthest);
-        return e;
-      }
-      e[k] = silent > 0 ? 0 : off;
-      axis.shift(by_place * off, by_speed * off);
-      --silent;
-    }
-    axis.step(k);
+Innovations::Innovations(const Data& data, std::size_t run, const Parameters& parameters,
+                         double bandwidth)
+    : run_(*data.scenes[run].run),
+      bandwidth_(bandwidth),
+      forgotten_(static_cast<Index>(std::ceil(kForgotten / (bandwidth * run_.period_s)))),
+      farthest_m_(kFarthest * (data.scenes[run].stroke_max_m - data.scenes[run].stroke_min_m)),
+      axis_(parameters, data.scenes[run]),
+      silent_(forgotten_) {
+  const double r = std::exp(-bandwidth * run_.period_s);
+  by_place_ = 1 - r * r;
+  by_speed_ = (1 - r) * (1 - r) / run_.period_s;
+  axis_.place(run_.position_m[0], speed_from(run_, 0));
+}
+
+void Innovations::next(Eigen::Ref<VectorXd> e) {
+  for (Index i = 0; i < e.size(); ++i) {
+    e[i] = ran_away_ ? farthest_m_ : at(next_);
+    ++next_;
   }
+}
+
+double Innovations::at(Index k) {
+  double e = 0;
+  if (!run_.missing.empty() && run_.missing[static_cast<std::size_t>(k)] != 0) {
+    silent_ = forgotten_;
+    ++gap_;
+  } else {
+    // What was driven meanwhile is not known: behind a long gap it begins anew.
+    if (static_cast<double>(gap_) * run_.period_s * bandwidth_ > 1) {
+      axis_.place(run_.position_m[k], speed_from(run_, k));
+    }
+    gap_ = 0;
+    const double off = run_.position_m[k] - axis_.reading_m();
+    ran_away_ = !(std::abs(off) < farthest_m_);
+    if (ran_away_) {
+      return farthest_m_;
+    }
+    e = silent_ > 0 ? 0 : off;
+    axis_.shift(by_place_ * off, by_speed_ * off);
+    --silent_;
+  }
+  axis_.step(k);
+  return e;
+}
+
+VectorXd innovations_of(const Data& data, std::size_t run, const Parameters& parameters,
+                        double bandwidth) {
+  VectorXd e(data.scenes[run].run->size());
+  Innovations(data, run, parameters, bandwidth).next(e);
   return e;
 }
 

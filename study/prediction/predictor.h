@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "study/prediction/axis.h"
 #include "study/prediction/parameters.h"
 #include "study/prediction/scene.h"
 
@@ -48,7 +49,30 @@ struct Data {
 [[nodiscard]] Data make_data_like(const Data& fitted, const std::vector<Run>& runs,
                                   const NominalModel& stated);
 
-// In metres; zero where nothing can be said: until the start is forgotten and behind gaps.
+// The innovations of one run, from its start on. In metres; zero where nothing can be said: until
+// the start is forgotten and behind gaps.
+class Innovations {
+ public:
+  Innovations(const Data& data, std::size_t run, const Parameters& parameters, double bandwidth);
+  // Of the samples that follow, as many as `e` has places.
+  void next(Eigen::Ref<Eigen::VectorXd> e);
+
+ private:
+  double at(Eigen::Index k);
+
+  const Run& run_;
+  double bandwidth_;
+  double by_place_;
+  double by_speed_;
+  Eigen::Index forgotten_;  // samples until a start is
+  double farthest_m_;
+  Axis axis_;
+  Eigen::Index next_ = 0;
+  Eigen::Index silent_;
+  Eigen::Index gap_ = 0;
+  bool ran_away_ = false;
+};
+
 [[nodiscard]] Eigen::VectorXd innovations(const Data& data, const Model& model, double bandwidth);
 // The same of one run alone.
 [[nodiscard]] Eigen::VectorXd innovations_of(const Data& data, std::size_t run,

@@ -9,7 +9,6 @@ namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kWholeLeast = 0.3;  // coefficient of what its law fixes at 1
@@ -47,7 +46,7 @@ struct Slot {
 std::vector<Slot> slots_of(const Frame& frame, const State& s,
                            const std::vector<const Effect*>& excluded) {
   std::vector<Slot> slots;
-  Index column = s.derivatives.cols();
+  Index column = std::ssize(s.free);
   for (const Effect& effect : effects()) {
     if (is_in(frame, s, effect) ||
         std::find(excluded.begin(), excluded.end(), &effect) != excluded.end())
@@ -61,27 +60,20 @@ std::vector<Slot> slots_of(const Frame& frame, const State& s,
   return slots;
 }
 
-// The model's own derivatives, each candidate's columns, and the error.
-MatrixXd columns_of(const Frame& frame, const State& s, const std::vector<Slot>& slots) {
-  const Index p = s.derivatives.cols();
-  const Index column = slots.empty() ? p : slots.back().from + slots.back().count;
-  MatrixXd all(frame.data->samples(), column + 1);
-  all.leftCols(p) = s.derivatives;
-  all.col(column) = s.fitted.e;
-  in_parallel(slots.size(), [&](std::size_t i) {
-    const Slot& slot = slots[i];
+// Of the model's own parameters, and of each candidate.
+std::vector<Variation> variations_of(const Frame& frame, const State& s,
+                                     const std::vector<Slot>& slots) {
+  std::vector<Variation> all = varied(s.fitted.model, s.free);
+  for (const Slot& slot : slots) {
+    const Effect& effect = *slot.effect;
     Model with = s.fitted.model;
-    slot.effect->set(with.parameters, frame.context, slot.scales);
-    if (slot.effect->amplitudes.empty()) {
-      all.col(slot.from) = s.fitted.e - innovations(*frame.data, with, frame.bandwidth);
+    effect.set(with.parameters, frame.context, slot.scales);
+    if (effect.amplitudes.empty()) all.push_back({.model = with});
+    for (const Key key : effect.amplitudes) {
+      Variation& v = all.emplace_back(Variation{with, effect.step(frame.context), {}});
+      v.model.parameters[key] += v.step;
     }
-    for (Index j = 0; j < std::ssize(slot.effect->amplitudes); ++j) {
-      Model one = with;
-      const double step = slot.effect->step(frame.context);
-      one.parameters[slot.effect->amplitudes[static_cast<std::size_t>(j)]] += step;
-      all.col(slot.from + j) = (s.fitted.e - innovations(*frame.data, one, frame.bandwidth)) / step;
-    }
-  });
+  }
   return all;
 }
 
@@ -132,11 +124,12 @@ bool is_in(const Frame& frame, const State& s, const Effect& effect) {
 Screened screen(Frame& frame, const State& s, const std::vector<const Effect*>& excluded) {
   find_lines(*frame.data, s.fitted.e, frame.context);
   const std::vector<Slot> slots = slots_of(frame, s, excluded);
-  const MatrixXd all = columns_of(frame, s, slots);
-  const Index p = s.derivatives.cols();
-  VectorXd ridge = VectorXd::Zero(all.cols() - 1);
+  const std::vector<Variation> variations = variations_of(frame, s, slots);
+  const Index p = std::ssize(s.free);
+  VectorXd ridge = VectorXd::Zero(std::ssize(variations));
   ridge.head(p) = s.ridge;
-  const Blocks blocks(all, frame.spans, ridge);
+  const Blocks blocks(grams_of(*frame.data, s.fitted.e, variations, frame.bandwidth, frame.spans),
+                      samples_in(s.fitted.e), ridge);
   const VectorXd before = blocks.predicted(up_to(p));
   std::vector<Candidate> judged(slots.size());
   in_parallel(slots.size(), [&](std::size_t i) { judged[i] = judge(blocks, slots[i], p, before); });

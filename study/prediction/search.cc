@@ -288,7 +288,6 @@ class Searcher {
             break;
           }
           if (better.standard_errors > -kAlias && c.effect->name != effect->name) {
-            other.derivatives.resize(0, 0);  // large, and of no further use
             cause.alternatives.push_back({c.effect, std::move(other)});
           }
         }

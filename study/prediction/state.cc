@@ -6,7 +6,6 @@ namespace towbench::study::diagnose {
 namespace {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 
 constexpr int kStateRounds = 8;
 
@@ -31,14 +30,14 @@ State make_state(const Frame& frame, std::vector<Accepted> accepted, const Model
   }
   s.accepted = std::move(accepted);
   s.fitted = fit_model(*frame.data, frame.context, from, s.free, frame.bandwidth, kStateRounds);
-  s.derivatives = derivatives(*frame.data, s.fitted.model, s.free, s.fitted.e, frame.bandwidth);
   s.ridge = ridge_of(s.free, frame.context,
                      s.fitted.e.squaredNorm() / static_cast<double>(s.fitted.e.size()));
-  MatrixXd all(frame.data->samples(), s.derivatives.cols() + 1);
-  all << s.derivatives, s.fitted.e;
-  const Blocks blocks(all, frame.spans, s.ridge);
-  s.loss = blocks.predicted(up_to(s.derivatives.cols()));
-  s.linear = blocks.fit(up_to(s.derivatives.cols()));
+  const Blocks blocks(grams_of(*frame.data, s.fitted.e, varied(s.fitted.model, s.free),
+                               frame.bandwidth, frame.spans),
+                      samples_in(s.fitted.e), s.ridge);
+  const Columns own = up_to(std::ssize(s.free));
+  s.loss = blocks.predicted(own);
+  s.linear = blocks.fit(own);
   return s;
 }
 

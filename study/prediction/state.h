@@ -29,7 +29,6 @@ struct State {
   std::vector<Accepted> accepted;
   std::vector<FreeParameter> free;  // base first
   Fitted fitted;
-  Eigen::MatrixXd derivatives;
   Eigen::VectorXd ridge;
   Eigen::VectorXd loss;  // cross-validated
   Fit linear;            // around it: what a further step would be, and the covariance
