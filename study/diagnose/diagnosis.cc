@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Index;
 
-// A mass this far from what the momentum over windows says is no mass of this machine.
-constexpr double kCollapsed = 5;
+constexpr double kMassOff = 5;       // at most, from what the momentum over windows says
+constexpr double kCollapsed = 0.99;  // of the range of masses that are believed
 
 void check_data(Request& request, logs::Findings& findings) {
   for (auto* runs : {&request.runs, &request.holdout}) {
@@ -104,13 +104,11 @@ void name_causes(Diagnosis& d, const Search& search) {
 }
 
 // A fit that only follows the measured places with a body of its own invention explains nothing:
-// its mass is neither the stated one nor that of the momentum over windows, which a clip spoils.
-bool collapsed(const Search& search, const Momentum& momentum) {
+// its mass lies at an end of what is believed.
+bool collapsed(const Search& search) {
   const double mass = search.final.fitted.model.parameters[Key::kMass];
-  const auto far_from = [&](double other) {
-    return other <= 0 || mass / other > kCollapsed || mass / other < 1 / kCollapsed;
-  };
-  return far_from(momentum.mass_kg) && far_from(search.context.stated.mass_kg);
+  return mass * kCollapsed < search.context.mass_least_kg ||
+         mass > kCollapsed * search.context.mass_most_kg;
 }
 
 void conclude(Diagnosis& d) {
@@ -156,10 +154,14 @@ Diagnosis diagnose(const Request& given) {
   }
   Data data = make_data(request.runs, request.model);
   tell("looking for causes");
-  Search search =
-      search_causes(data, make_context(request.model, data),
-                    {parameters_of(request.model), std::vector<OfRun>(request.runs.size())}, {});
-  const bool collapses = collapsed(search, momentum);
+  Context context = make_context(request.model, data);
+  if (momentum.mass_kg > 0) {
+    context.mass_least_kg = std::min(context.mass_least_kg, momentum.mass_kg / kMassOff);
+    context.mass_most_kg = std::max(context.mass_most_kg, momentum.mass_kg * kMassOff);
+  }
+  Search search = search_causes(
+      data, context, {parameters_of(request.model), std::vector<OfRun>(request.runs.size())}, {});
+  const bool collapses = collapsed(search);
   if (collapses) {
     search.causes.clear();
     search.final = search.base;

@@ -26,12 +26,13 @@ std::vector<double> windows_of(const Data& data, const Model& model, double band
     const auto length = static_cast<Index>(std::lround(kWindow_s / run.period_s));
     const auto between = std::max<Index>(1, std::lround(kBetweenStarts_s / run.period_s));
     const auto settled = static_cast<Index>(std::ceil(6 / (bandwidth * run.period_s)));
-    const double r = std::exp(-bandwidth * run.period_s);
-    Axis axis(model.in_run(i), scene);
+    const Parameters p = model.in_run(i);
+    const Correction correction = correction_of(p, run.period_s, bandwidth);
+    Axis axis(p, scene);
     axis.place(run.position_m[0], 0);
     for (Index k = 0; k + length < run.size(); ++k) {
       const double off = run.position_m[k] - axis.reading_m();
-      axis.shift((1 - r * r) * off, (1 - r) * (1 - r) / run.period_s * off);
+      axis.correct(correction, off);
       if (k >= settled && k % between == 0) {
         Axis free = axis;
         for (Index j = k; j < k + length; ++j) free.step(j);

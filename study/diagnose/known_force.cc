@@ -33,8 +33,9 @@ Interval force_ratio(const NominalModel& model, const Run& run, const KnownForce
   for (int round = 0; round < kPushRounds; ++round) {
     Eigen::VectorXd& extra_N = data.scenes.front().extra_N;
     extra_N = ratio * push_N;
-    const double bandwidth = best_bandwidth(data, context, start);
-    const Fitted fitted = fit_model(data, context, start, free, bandwidth, kFitRounds);
+    const double bandwidth = best_bandwidth(data, context, start, kFollowed);
+    const Fitted fitted =
+        fit_model(data, context, start, free, bandwidth, cut(data, bandwidth), kFitRounds);
     start = fitted.model;
     Eigen::MatrixXd all(data.samples(), last + 2);
     all.leftCols(last) = columns_of(data, fitted.e, varied(fitted.model, free), bandwidth);

@@ -81,7 +81,7 @@ std::optional<NextExperiment> separate(const Search& search, const Model& cause,
     const Data data = make_data(runs, stated);
     const Fitted fitted =
         fit_model(data, search.context, {other.fitted.model.parameters, std::vector<OfRun>(1)},
-                  free, search.bandwidth, kTrialRounds);
+                  free, search.bandwidth, cut(data, search.bandwidth), kTrialRounds);
     const double left = to_force * rms(fitted.e);
     if (std::isfinite(left) && left > best.separation_N) {
       best.separation_N = left;

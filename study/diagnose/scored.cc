@@ -1,6 +1,7 @@
 #include "study/diagnose/scored.h"
 
 #include <cmath>
+#include <limits>
 
 #include "study/diagnose/series.h"
 #include "study/statistics/statistics.h"
@@ -14,6 +15,7 @@ using Eigen::VectorXd;
 
 constexpr double kErrors99 = 2.58;
 constexpr double kCalibrated = 0.25;  // of a held-out run
+constexpr int kTurnsTried = 24;       // phases
 
 Interval interval_of(const VectorXd& before, const VectorXd& after, double errors) {
   const Comparison c = compare(before, after, errors);
@@ -37,11 +39,35 @@ Model as_supplied(const Search& search, std::size_t runs) {
   return {parameters_of(search.context.stated), std::vector<OfRun>(runs)};
 }
 
+// Of what is periodic, the phase at which the first quarter is predicted best.
+void find_turns(const Data& data, std::size_t run, Model& model, double bandwidth) {
+  const auto quarter = static_cast<Index>(
+      kCalibrated * static_cast<double>(data.starts[run + 1] - data.starts[run]));
+  for (const Key key : {Key::kRipplePerMetre, Key::kPeriodicHertz, Key::kOutOfRoundPerMetre,
+                        Key::kReadPerMetre, Key::kWheelPerMetre}) {
+    if (model.parameters[key] == 0) continue;
+    double& turns = model.of_run[run].turns[static_cast<std::size_t>(*wave_of(key))];
+    double best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < kTurnsTried; ++i) {
+      turns = static_cast<double>(i) / kTurnsTried;
+      VectorXd e(quarter);
+      Innovations(data, run, model.in_run(run), bandwidth).next(e);
+      if (e.squaredNorm() < least) {
+        least = e.squaredNorm();
+        best = turns;
+      }
+    }
+    turns = best;
+  }
+}
+
 // What each run has of its own, from its first quarter.
 Model calibrated(const Data& data, const Context& context, Parameters parameters,
                  double bandwidth) {
   Model model{parameters, std::vector<OfRun>(data.scenes.size())};
   for (std::size_t run = 0; run < data.scenes.size(); ++run) {
+    find_turns(data, run, model, bandwidth);
     std::vector<FreeParameter> free;
     for (const FreeParameter& f : base_free_parameters(context, data.scenes.size() + 1)) {
       if (f.of != FreeParameter::Of::kAll && f.run == run) free.push_back(f);

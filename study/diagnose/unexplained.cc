@@ -17,7 +17,7 @@ constexpr double kAlpha = 1e-4;
 constexpr double kLeastForce = 0.01;  // of the input's rms; less is too small to matter
 constexpr double kLeastGain = 0.02;
 constexpr double kPastGain = 0.1;  // that the past predicts; a wrong noise model does less
-constexpr double kMisfit = 0.2;    // of the power that a cause predicts, left for a free shape
+constexpr double kMisfit = 0.12;   // of the power that a cause predicts, left for a free shape
 constexpr double kRidge = 1e-4;    // of a column's own square: a bin that a fold lacks stays zero
 
 class Seeker {
@@ -52,7 +52,7 @@ class Seeker {
   std::optional<Unexplained> by_its_past() {
     const VectorXd& e = search_.final.fitted.e;
     const double steps = search_.context.resolution_m;
-    if (e.norm() / std::sqrt(static_cast<double>(e.size())) < kRounding * steps) {
+    if (e.norm() / std::sqrt(static_cast<double>(e.size())) < kFollowed * steps) {
       return std::nullopt;
     }
     const MatrixXd past = lagged(data_, e, search_.bandwidth);

@@ -64,13 +64,15 @@ Axis::Axis(const Parameters& parameters, const Scene& scene)
       two_(parameters[Key::kMotorMass] > 0),
       drive_(any(p_, {Key::kDeadband, Key::kClipShare, Key::kStallShare, Key::kLag,
                       Key::kOutOfRoundPerMetre})),
-      on_motor_(any(p_, {Key::kRipplePerMetre, Key::kPeriodicHertz, Key::kOtherMass,
+      on_motor_(any(p_, {Key::kRipplePerMetre, Key::kWheelPerMetre, Key::kOtherMass,
                          Key::kOtherViscous}) ||
                 scene.run->known_N.size() > 0 || scene.extra_N.size() > 0),
-      on_load_(place_force_ || any(p_, {Key::kViscousAsymmetry, Key::kDrag, Key::kCubic,
-                                        Key::kCable, Key::kGravityCosine, Key::kGravitySine})),
+      on_load_(place_force_ ||
+               any(p_, {Key::kViscousAsymmetry, Key::kDrag, Key::kCubic, Key::kCable,
+                        Key::kGravityCosine, Key::kGravitySine, Key::kPeriodicHertz})),
       dry_(any(p_, {Key::kCoulombAsymmetry, Key::kStribeck, Key::kRolloff, Key::kPresliding,
                     Key::kWarming, Key::kBreakaway, Key::kWorkWarming})) {
+  bristles_N_ = std::min(0.5 * p_[Key::kPresliding], p_[Key::kCoulomb]);
   const double load = p_[Key::kMass] - p_[Key::kMotorMass];
   substeps_ = scene.substeps;
   if (two_) {
@@ -101,22 +103,23 @@ void Axis::place(double position_m, double speed_m_per_s) {
   motor_ = {position_m / counted, speed_m_per_s / counted, speed_m_per_s == 0};
   load_ = motor_;
   lagged_N_ = scene_.run->input_N[0];
-  direction_ = 0;
-  turned_at_m_ = farthest_m_ = motor_.x;
+  strain_ = sign(speed_m_per_s);
+  strained_at_m_ = motor_.x;
 }
 
-void Axis::shift(double by_m, double by_m_per_s) {
-  for (Body* body : {&motor_, &load_}) {
-    body->x += by_m;
-    body->v += by_m_per_s;
-  }
+void Axis::correct(const Correction& by, double off_m) {
+  motor_.x += by.motor_m * off_m;
+  motor_.v += by.motor_m_per_s * off_m;
+  load_.x += by.load_m * off_m;
+  load_.v += by.load_m_per_s * off_m;
 }
 
 double Axis::reading_m() const {
   const double x = (1 - p_[Key::kCountLoss]) * motor_.x;
-  return p_[Key::kReadPerMetre] == 0 ? x
-                                     : x + wave(p_[Key::kReadCosine], p_[Key::kReadSine],
-                                                p_[Key::kReadPerMetre] * motor_.x);
+  return p_[Key::kReadPerMetre] == 0
+             ? x
+             : x + wave(p_[Key::kReadCosine], p_[Key::kReadSine],
+                        p_[Key::kReadPerMetre] * motor_.x + p_[Key::kReadTurns]);
 }
 
 void Axis::step(Eigen::Index k) {
@@ -158,22 +161,23 @@ double Axis::driven_N(double input_N) {
   }
   if (p_[Key::kOutOfRoundPerMetre] != 0) {
     drive *= 1 - wave(p_[Key::kOutOfRoundCosine], p_[Key::kOutOfRoundSine],
-                      p_[Key::kOutOfRoundPerMetre] * motor_.x);
+                      p_[Key::kOutOfRoundPerMetre] * motor_.x + p_[Key::kOutOfRoundTurns]);
   }
   return drive;
 }
 
-double Axis::on_motor_N(double t_s, Eigen::Index k) const {
+double Axis::on_motor_N(Eigen::Index k) const {
   const double x = motor_.x;
   double force = 0;
   if (!on_motor_) {
     return force;
   }
   if (p_[Key::kRipplePerMetre] != 0) {
-    force += wave(p_[Key::kRippleCosine], p_[Key::kRippleSine], p_[Key::kRipplePerMetre] * x);
+    force += wave(p_[Key::kRippleCosine], p_[Key::kRippleSine],
+                  p_[Key::kRipplePerMetre] * x + p_[Key::kRippleTurns]);
   }
-  if (p_[Key::kPeriodicHertz] != 0) {
-    force += wave(p_[Key::kPeriodicCosine], p_[Key::kPeriodicSine], p_[Key::kPeriodicHertz] * t_s);
+  if (p_[Key::kWheelPerMetre] != 0) {
+    force += wheel_N();
   }
   if (p_[Key::kOtherMass] != 0 || p_[Key::kOtherViscous] != 0) {
     force += p_[Key::kOtherMass] * scene_.other_m_per_s2[k] +
@@ -188,7 +192,19 @@ double Axis::on_motor_N(double t_s, Eigen::Index k) const {
   return force;
 }
 
-double Axis::on_load_N(const Body& body) const {
+// x of the load = r dx of the motor, r = 1 + w(x): the load's inertia and dry friction as the motor
+// feels them, M (r^2 a + r r' v^2) + r C, beside those of r = 1, to the first order in w.
+double Axis::wheel_N() const {
+  const double turns = p_[Key::kWheelPerMetre] * motor_.x + p_[Key::kWheelTurns];
+  const double excess = wave(p_[Key::kWheelCosine], p_[Key::kWheelSine], turns);
+  const double slope =
+      kTurn * p_[Key::kWheelPerMetre] * wave(p_[Key::kWheelSine], -p_[Key::kWheelCosine], turns);
+  const double load_kg = p_[Key::kMass] - p_[Key::kMotorMass];
+  return load_kg * (2 * excess * acceleration_ + slope * motor_.v * motor_.v) +
+         excess * p_[Key::kCoulomb] * sign(motor_.v);
+}
+
+double Axis::on_load_N(const Body& body, double t_s) const {
   const double x = body.x;
   const double v = body.v;
   if (!on_load_) {
@@ -199,6 +215,10 @@ double Axis::on_load_N(const Body& body) const {
                  p_[Key::kCubic] * v * v * v + p_[Key::kCable] * (x - middle_m_);
   if (place_force_) {
     force += shape(p_, Key::kPlaceForce1, cosine_) + v * shape(p_, Key::kPlaceViscous1, cosine_);
+  }
+  if (p_[Key::kPeriodicHertz] != 0) {
+    force += wave(p_[Key::kPeriodicCosine], p_[Key::kPeriodicSine],
+                  p_[Key::kPeriodicHertz] * t_s + p_[Key::kPeriodicTurns]);
   }
   if (p_[Key::kGravitySine] != 0 || p_[Key::kGravityCosine] != 0) {
     force += p_[Key::kGravityCosine] * std::cos(x) + p_[Key::kGravitySine] * std::sin(x);
@@ -224,8 +244,7 @@ double Axis::shared_dry_N(const Body& body, double direction, double t_s) const 
     level -= p_[Key::kRolloff] * faded(speed / p_[Key::kRolloffSpeed]);
   }
   if (p_[Key::kPresliding] != 0) {
-    const double travel = std::abs(motor_.x - turned_at_m_);
-    level -= p_[Key::kPresliding] * faded(travel / p_[Key::kPreslidingTravel]);
+    level -= bristles_N_;  // that part is in slide()
   }
   if (p_[Key::kWarming] != 0) {
     const double t = scene_.session_start_s + t_s;
@@ -250,7 +269,8 @@ double Axis::load_dry_N(const Body& body, double drive_N) const {
 }
 
 void Axis::slide(Body& body, const Sliding& how, double force_N, double drive_N, double t_s) const {
-  const double free = (body.v + how.per_newton * force_N) * how.left;
+  const double held_N = how.share * bristles_N_ * strain_;
+  const double free = (body.v + how.per_newton * (force_N - held_N)) * how.left;
   const double direction = body.v != 0 && !body.stands ? sign(body.v) : sign(free);
   const double dry =
       how.share * shared_dry_N(body, direction, t_s) + (how.load ? load_dry_N(body, drive_N) : 0);
@@ -265,19 +285,21 @@ void Axis::slide(Body& body, const Sliding& how, double force_N, double drive_N,
 template <bool two>
 void Axis::substep(double t_s, double mean_N, Eigen::Index k) {
   const double drive = driven_N(mean_N);
+  const double before = motor_.v;
   motor_.x += 0.5 * h_ * motor_.v;
   if constexpr (two) load_.x += 0.5 * h_ * load_.v;
   if (place_force_ || place_friction_) {
     cosine_ = std::cos(per_stroke_ * ((two ? load_ : motor_).x - scene_.stroke_min_m));
   }
-  const double on_motor = drive - on_motor_N(t_s, k);
+  const double on_motor = drive - on_motor_N(k);
   if constexpr (two) {
     const double transmission = transmission_N();
     slide(motor_, motor_slides_, on_motor - transmission, drive, t_s);
-    slide(load_, load_slides_, transmission - on_load_N(load_), transmission, t_s);
+    slide(load_, load_slides_, transmission - on_load_N(load_, t_s), transmission, t_s);
   } else {
-    slide(motor_, motor_slides_, on_motor - on_load_N(motor_), drive, t_s);
+    slide(motor_, motor_slides_, on_motor - on_load_N(motor_, t_s), drive, t_s);
   }
+  acceleration_ = (motor_.v - before) / h_;
   motor_.x += 0.5 * h_ * motor_.v;
   if constexpr (two) load_.x += 0.5 * h_ * load_.v;
   if (p_[Key::kWorkWarming] != 0) {
@@ -287,7 +309,7 @@ void Axis::substep(double t_s, double mean_N, Eigen::Index k) {
     warmth_ += h_ / p_[Key::kWorkWarmingTime] * (power - warmth_);
   }
   if (p_[Key::kPresliding] != 0) {
-    follow_reversals();
+    strain();
   }
 }
 
@@ -302,22 +324,12 @@ double Axis::transmission_N() const {
   return half > 0 && transmission * past < 0 ? 0 : transmission;  // a flank pushes and never pulls
 }
 
-void Axis::follow_reversals() {
-  const double x = motor_.x;
-  const double least =
-      std::max(1.5 * scene_.run->resolution_m, 1e-6 * (scene_.stroke_max_m - scene_.stroke_min_m));
-  if (direction_ == 0) {
-    if (std::abs(x - turned_at_m_) > least) {
-      direction_ = sign(x - turned_at_m_);
-      farthest_m_ = x;
-    }
-  } else if ((x - farthest_m_) * direction_ >= 0) {
-    farthest_m_ = x;
-  } else if ((farthest_m_ - x) * direction_ > least) {
-    turned_at_m_ = farthest_m_;
-    farthest_m_ = x;
-    direction_ = -direction_;
-  }
+// The step's way is integrated exactly (Dahl 1968).
+void Axis::strain() {
+  const double way = motor_.x - strained_at_m_;
+  const double end = sign(way);
+  strain_ = end - (end - strain_) * faded(std::abs(way) / p_[Key::kPreslidingTravel]);
+  strained_at_m_ = motor_.x;
 }
 
 }  // namespace towbench::study::diagnose

@@ -4,6 +4,7 @@
 // Of a rigid axis:  v* = v + h (D - B v - ...) / M,  v' = sgn(v*) max(|v*| - h C / M, 0).
 #pragma once
 
+#include "study/prediction/correction.h"
 #include "study/prediction/parameters.h"
 #include "study/prediction/scene.h"
 
@@ -16,8 +17,8 @@ class Axis {
   void place(double position_m, double speed_m_per_s);
   // Over the sample period that begins at sample `k`.
   void step(Eigen::Index k);
-  // Moves the whole axis: the stretch of a transmission stays.
-  void shift(double by_m, double by_m_per_s);
+  // By what the reading was off.
+  void correct(const Correction& by, double off_m);
   // What the encoder, on the motor's side, reads.
   [[nodiscard]] double reading_m() const;
   [[nodiscard]] double speed_m_per_s() const noexcept { return motor_.v; }
@@ -43,13 +44,14 @@ class Axis {
   [[nodiscard]] double transmission_N() const;
   [[nodiscard]] double driven_N(double input_N);
   // What resists whatever the direction: where the motor is felt, and at the load.
-  [[nodiscard]] double on_motor_N(double t_s, Eigen::Index k) const;
-  [[nodiscard]] double on_load_N(const Body& body) const;
+  [[nodiscard]] double on_motor_N(Eigen::Index k) const;
+  [[nodiscard]] double wheel_N() const;
+  [[nodiscard]] double on_load_N(const Body& body, double t_s) const;
   // Dry friction: of both bodies by their shares, and of the load alone.
   [[nodiscard]] double shared_dry_N(const Body& body, double direction, double t_s) const;
   [[nodiscard]] double load_dry_N(const Body& body, double drive_N) const;
   void slide(Body& body, const Sliding& how, double force_N, double drive_N, double t_s) const;
-  void follow_reversals();
+  void strain();
 
   Parameters p_;
   const Scene& scene_;
@@ -72,12 +74,11 @@ class Axis {
   Body motor_;
   Body load_;
   double lagged_N_ = 0;
-  double warmth_ = 0;  // 1: of going on at top speed for ever
-
-  // Since the last reversal that is more than the encoder's step.
-  double direction_ = 0;
-  double turned_at_m_ = 0;
-  double farthest_m_ = 0;
+  double acceleration_ = 0;  // of the motor, over the last substep
+  double warmth_ = 0;        // 1: of going on at top speed for ever
+  double bristles_N_ = 0;    // of dry friction, what follows the way
+  double strain_ = 0;        // of the bristles, 1: sliding on in the positive direction
+  double strained_at_m_ = 0;
 };
 
 }  // namespace towbench::study::diagnose

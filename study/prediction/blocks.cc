@@ -8,6 +8,7 @@
 #include <boost/math/distributions/fisher_f.hpp>
 
 #include "study/prediction/in_parallel.h"
+#include "study/statistics/statistics.h"
 
 namespace towbench::study::diagnose {
 namespace {
@@ -20,7 +21,9 @@ constexpr Index kFolds = 10;
 constexpr double kMemories = 8;  // time constants of the correction in a block, at least
 constexpr double kShortest_s = 0.2;
 constexpr Index kMostBlocks = 120;
-constexpr double kNothing = 1e-12;  // of a column's square: depends on the others
+constexpr double kTrembles = 5;      // encoder steps
+constexpr double kLeastWay = 0.005;  // of the stroke
+constexpr double kNothing = 1e-12;   // of a column's square: depends on the others
 
 // Columns differ in size by their units.
 VectorXd solve_scaled(MatrixXd gram, const VectorXd& right) {
@@ -55,9 +58,19 @@ std::vector<MatrixXd> grams_of(const Eigen::Ref<const MatrixXd>& all,
                                const std::vector<Span>& spans) {
   std::vector<MatrixXd> grams(spans.size());
   in_parallel(spans.size(), [&](std::size_t i) {
-    grams[i] = gram_of(all.middleRows(spans[i].from, spans[i].to - spans[i].from));
+    grams[i] = gram_of(all.middleRows(spans[i].from, spans[i].to - spans[i].from), spans[i].weight);
   });
   return grams;
+}
+
+// The axis, by more than it trembles when it stands.
+bool moves(const Data& data, const Span& span) {
+  const auto run = std::upper_bound(data.starts.begin(), data.starts.end(), span.from) - 1;
+  const Scene& scene = data.scenes[static_cast<std::size_t>(run - data.starts.begin())];
+  const auto x = scene.run->position_m.segment(span.from - *run, span.to - span.from);
+  const double way = x.maxCoeff() - x.minCoeff();
+  return way > std::max(kTrembles * scene.run->resolution_m,
+                        kLeastWay * (scene.stroke_max_m - scene.stroke_min_m));
 }
 
 double survival(double f, double k, double rest) {
@@ -94,20 +107,48 @@ std::vector<Span> cut(const Data& data, double bandwidth) {
   return spans;
 }
 
-MatrixXd gram_of(const Eigen::Ref<const MatrixXd>& rows) {
+void weigh(const Data& data, std::vector<Span>& spans, const VectorXd& e) {
+  std::vector<double> squares;
+  std::vector<double> moving;
+  for (const Span& span : spans) {
+    const auto part = e.segment(span.from, span.to - span.from);
+    const auto said = static_cast<double>((part.array() != 0).count());
+    squares.push_back(said > 0 ? part.squaredNorm() / said : 0);
+    if (said > 0 && moves(data, span)) moving.push_back(squares.back());
+  }
+  const double loud = moving.empty() ? 0 : kLoud * statistics::quantile(moving, 0.75);
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    spans[i].weight = squares[i] > loud && loud > 0 ? loud / squares[i] : 1;
+  }
+}
+
+double weighted_square(const std::vector<Span>& spans, const VectorXd& e) {
+  double sum = 0;
+  for (const Span& span : spans) {
+    sum += span.weight * e.segment(span.from, span.to - span.from).squaredNorm();
+  }
+  return sum;
+}
+
+MatrixXd gram_of(const Eigen::Ref<const MatrixXd>& rows, double weight) {
   MatrixXd gram = MatrixXd::Zero(rows.cols(), rows.cols());
-  gram.selfadjointView<Eigen::Upper>().rankUpdate(rows.transpose());
+  gram.selfadjointView<Eigen::Upper>().rankUpdate(rows.transpose(), weight);
   gram.triangularView<Eigen::StrictlyLower>() = gram.transpose();
   return gram;
 }
 
-double samples_in(const Eigen::Ref<const VectorXd>& e) {
-  return static_cast<double>((e.array() != 0).count());
+double samples_in(const std::vector<Span>& spans, const VectorXd& e) {
+  double sum = 0;
+  for (const Span& span : spans) {
+    const auto said = (e.segment(span.from, span.to - span.from).array() != 0).count();
+    sum += span.weight * static_cast<double>(said);
+  }
+  return sum;
 }
 
 Blocks::Blocks(const Eigen::Ref<const MatrixXd>& all, const std::vector<Span>& spans,
                VectorXd ridge)
-    : Blocks(grams_of(all, spans), samples_in(all.col(all.cols() - 1)), std::move(ridge)) {}
+    : Blocks(grams_of(all, spans), samples_in(spans, all.col(all.cols() - 1)), std::move(ridge)) {}
 
 Blocks::Blocks(std::vector<MatrixXd> grams, double samples, VectorXd ridge)
     : gram_(std::move(grams)),

@@ -19,17 +19,26 @@ using Columns = std::vector<Eigen::Index>;
 struct Span {
   Eigen::Index from = 0;
   Eigen::Index to = 0;
+  double weight = 1;  // of its squares
 };
 [[nodiscard]] std::vector<Span> cut(const Data& data, double bandwidth);
+// Blocks whose error is loud beside the upper quartile of those that move weigh as one of kLoud
+// times its square: somebody who leans on the axis for a second leads no fit astray (Huber 1964).
+inline constexpr double kLoud = 4;
+void weigh(const Data& data, std::vector<Span>& spans, const Eigen::VectorXd& e);
+[[nodiscard]] double weighted_square(const std::vector<Span>& spans, const Eigen::VectorXd& e);
 
-[[nodiscard]] Eigen::MatrixXd gram_of(const Eigen::Ref<const Eigen::MatrixXd>& rows);
-// Of an error, those of which something can be said.
-[[nodiscard]] double samples_in(const Eigen::Ref<const Eigen::VectorXd>& e);
+[[nodiscard]] Eigen::MatrixXd gram_of(const Eigen::Ref<const Eigen::MatrixXd>& rows, double weight);
+// Of an error, those of which something can be said, by their weights.
+[[nodiscard]] double samples_in(const std::vector<Span>& spans, const Eigen::VectorXd& e);
 
 struct Fit {
   Eigen::VectorXd b;
   Eigen::MatrixXd covariance;  // clustered
 };
+
+// Encoder steps rms that rounding alone leaves, with a reserve over 1 / sqrt(12).
+inline constexpr double kRounding = 0.35;
 
 // P-value of coefficients that are not zero, of a covariance from so many blocks: Hotelling's F.
 [[nodiscard]] double wald(const Eigen::VectorXd& b, const Eigen::MatrixXd& covariance,

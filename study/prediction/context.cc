@@ -5,6 +5,12 @@
 #include <vector>
 
 namespace towbench::study::diagnose {
+namespace {
+
+constexpr double kMassOff = 5;  // at most
+
+}  // namespace
+
 Context make_context(const NominalModel& stated, const Data& data) {
   Context c;
   c.stated = stated;
@@ -21,6 +27,8 @@ Context make_context(const NominalModel& stated, const Data& data) {
   }
   c.input_rms_N = std::sqrt(energy / static_cast<double>(data.samples()));
   c.top_speed_m_per_s = data.scenes.front().top_speed_m_per_s;
+  c.mass_least_kg = stated.mass_kg / kMassOff;
+  c.mass_most_kg = stated.mass_kg * kMassOff;
   c.stroke_min_m = data.scenes.front().stroke_min_m;
   c.stroke_m = data.scenes.front().stroke_max_m - data.scenes.front().stroke_min_m;
   return c;

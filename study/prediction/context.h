@@ -13,6 +13,8 @@ struct Context {
   double input_rms_N = 0;
   double input_max_N = 0;
   double top_speed_m_per_s = 0;  // that 99 % of the samples stay below
+  double mass_least_kg = 0;      // that is believed
+  double mass_most_kg = 0;
   double stroke_min_m = 0;
   double stroke_m = 0;
   double period_s = 0;

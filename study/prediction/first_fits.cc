@@ -30,7 +30,7 @@ Candidate best_level(const Frame& frame, const Effect& effect, const Model& star
     model.parameters[effect.amplitudes.front()] = effect.whole;
     const double cost = fit_model(*frame.data, frame.context, model,
                                   base_free_parameters(frame.context, frame.data->scenes.size()),
-                                  frame.bandwidth, kFirstRounds)
+                                  frame.bandwidth, frame.spans, kFirstRounds)
                             .cost;
     if (chosen.scales.empty() || cost < least) {
       least = cost;

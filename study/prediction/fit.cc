@@ -14,29 +14,44 @@ using Eigen::VectorXd;
 constexpr double kRunsDiffer = 0.1;   // of the dry friction, or of the input where there is none
 constexpr double kGoodEnough = 3e-5;  // relative fall of the cost that ends a fit
 constexpr double kLargestFactor = 2;
+constexpr double kLeastSaid = 0.6;  // of the samples that the fastest correction says something of
 constexpr double kFastest_per_sample = 0.25;  // bandwidth times period
+
+// Near zero, by what runs usually differ by.
+bool is_held(const FreeParameter& f) {
+  return f.of == FreeParameter::Of::kBiasOfRun || f.of == FreeParameter::Of::kCoulombOfRun;
+}
 
 double penalty(const std::vector<FreeParameter>& free, const VectorXd& ridge, Model& model) {
   double sum = 0;
   for (std::size_t j = 0; j < free.size(); ++j) {
     const double v = value_in(model, free[j]);
-    sum += free[j].of == FreeParameter::Of::kAll ? 0 : ridge[static_cast<Index>(j)] * v * v;
+    sum += is_held(free[j]) ? ridge[static_cast<Index>(j)] * v * v : 0;
   }
   return sum;
 }
 
-Model moved(const Model& from, const std::vector<FreeParameter>& free, const VectorXd& by,
-            double share) {
+// Within what can be meant: where much is missing in a model, a body that nothing moves predicts
+// better than its own.
+void bound(Parameters& p, const Context& c) {
+  p[Key::kMass] = std::clamp(p[Key::kMass], c.mass_least_kg, c.mass_most_kg);
+  const double most = c.input_max_N / std::max(1e-12, c.top_speed_m_per_s);
+  p[Key::kViscous] = std::clamp(p[Key::kViscous], -most, most);
+  p[Key::kCoulomb] = std::clamp(p[Key::kCoulomb], 0.0, c.input_max_N);
+}
+
+Model moved(const Model& from, const Context& context, const std::vector<FreeParameter>& free,
+            const VectorXd& by) {
   Model to = from;
   for (std::size_t j = 0; j < free.size(); ++j) {
     double& value = value_in(to, free[j]);
-    const double wanted = value + share * by[static_cast<Index>(j)];
+    const double wanted = value + by[static_cast<Index>(j)];
     value = free[j].positive && value > 0
                 ? std::clamp(wanted, value / kLargestFactor, value * kLargestFactor)
                 : wanted;
   }
   Parameters& p = to.parameters;
-  p[Key::kCoulomb] = std::max(0.0, p[Key::kCoulomb]);
+  bound(p, context);
   p[Key::kDelay] = std::max(0.0, p[Key::kDelay]);
   p[Key::kLag] = std::max(0.0, p[Key::kLag]);
   p[Key::kMotorMass] = std::min(p[Key::kMotorMass], 0.98 * p[Key::kMass]);
@@ -66,6 +81,8 @@ double& value_in(Model& model, const FreeParameter& f) {
       return model.of_run[f.run].bias_N;
     case FreeParameter::Of::kCoulombOfRun:
       return model.of_run[f.run].coulomb_N;
+    case FreeParameter::Of::kTurnsOfRun:
+      return model.of_run[f.run].turns[static_cast<std::size_t>(f.wave)];
     case FreeParameter::Of::kAll:
       break;
   }
@@ -86,7 +103,7 @@ VectorXd ridge_of(const std::vector<FreeParameter>& free, const Context& c, doub
   VectorXd ridge = VectorXd::Zero(std::ssize(free));
   const double usual = kRunsDiffer * std::max(c.stated.coulomb_N, 0.2 * c.input_rms_N);
   for (std::size_t j = 0; j < free.size(); ++j) {
-    if (free[j].of != FreeParameter::Of::kAll) {
+    if (is_held(free[j])) {
       ridge[static_cast<Index>(j)] = mean_square / (usual * usual);
     }
   }
@@ -94,13 +111,13 @@ VectorXd ridge_of(const std::vector<FreeParameter>& free, const Context& c, doub
 }
 
 Fitted fit_model(const Data& data, const Context& context, Model start,
-                 const std::vector<FreeParameter>& free, double bandwidth, int rounds) {
+                 const std::vector<FreeParameter>& free, double bandwidth,
+                 const std::vector<Span>& spans, int rounds) {
   Fitted best{std::move(start), {}, 0};
   best.e = innovations(data, best.model, bandwidth);
-  const double mean_square = best.e.squaredNorm() / static_cast<double>(best.e.size());
+  const double mean_square = weighted_square(spans, best.e) / static_cast<double>(best.e.size());
   const VectorXd ridge = ridge_of(free, context, mean_square);
-  best.cost = best.e.squaredNorm() + penalty(free, ridge, best.model);
-  const std::vector<Span> spans = cut(data, bandwidth);
+  best.cost = weighted_square(spans, best.e) + penalty(free, ridge, best.model);
   const Index last = std::ssize(free);
   double damping = 1e-6;
   for (int round = 0; round < rounds; ++round) {
@@ -114,8 +131,7 @@ Fitted fit_model(const Data& data, const Context& context, Model start,
     for (std::size_t j = 0; j < free.size(); ++j) {
       const auto i = static_cast<Index>(j);
       a(i, i) += ridge[i];
-      b[i] -=
-          ridge[i] * (free[j].of == FreeParameter::Of::kAll ? 0 : value_in(best.model, free[j]));
+      b[i] -= ridge[i] * (is_held(free[j]) ? value_in(best.model, free[j]) : 0);
     }
     const VectorXd scale = a.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     const MatrixXd scaled = scale.asDiagonal() * a * scale.asDiagonal();
@@ -123,9 +139,9 @@ Fitted fit_model(const Data& data, const Context& context, Model start,
     for (int attempt = 0; attempt < 6; ++attempt, damping *= 20) {
       const MatrixXd damped = scaled + damping * MatrixXd::Identity(scaled.rows(), scaled.cols());
       const VectorXd by = scale.asDiagonal() * damped.ldlt().solve(scale.asDiagonal() * b);
-      Fitted other{moved(best.model, free, by, 1), {}, 0};
+      Fitted other{moved(best.model, context, free, by), {}, 0};
       other.e = innovations(data, other.model, bandwidth);
-      other.cost = other.e.squaredNorm() + penalty(free, ridge, other.model);
+      other.cost = weighted_square(spans, other.e) + penalty(free, ridge, other.model);
       if (std::isfinite(other.cost) && other.cost < best.cost) {
         best = std::move(other);
         damping = std::max(1e-9, damping / 50);
@@ -139,20 +155,33 @@ Fitted fit_model(const Data& data, const Context& context, Model start,
   return best;
 }
 
-double best_bandwidth(const Data& data, const Context& context, const Model& model) {
-  double best = 0;
-  double least = 0;
+double best_bandwidth(const Data& data, const Context& context, const Model& model,
+                      double followed) {
+  struct Tried {
+    double bandwidth;
+    double cost;
+    Index said;  // samples of which something can be said
+  };
+  std::vector<Tried> tried;
+  const double steps = std::pow(followed * context.resolution_m, 2);
   // A slow correction has a long memory, and leaves few blocks.
   const double slowest = std::max(6.0, 300 / context.duration_s);
   for (double w = slowest; w < kFastest_per_sample / context.period_s && w < 700; w *= 1.6) {
     const VectorXd e = innovations(data, model, w);
-    const double cost = e.squaredNorm() / static_cast<double>((e.array() != 0).count() + 1);
-    if (best == 0 || cost < least) {
-      best = w;
-      least = cost;
-    }
+    std::vector<Span> spans = cut(data, w);
+    weigh(data, spans, e);
+    const double cost = std::max(weighted_square(spans, e) / (samples_in(spans, e) + 1), steps);
+    tried.push_back({w, cost, (e.array() != 0).count()});
   }
-  return best > 0 ? best : kFastest_per_sample / context.period_s;
+  if (tried.empty()) return kFastest_per_sample / context.period_s;
+  // Behind a gap a slow one is silent for long.
+  const auto most = static_cast<double>(tried.back().said);
+  const auto better = [&](const Tried& a, const Tried& b) {
+    const bool a_says = static_cast<double>(a.said) > kLeastSaid * most;
+    const bool b_says = static_cast<double>(b.said) > kLeastSaid * most;
+    return a_says != b_says ? a_says : a.cost < b.cost;
+  };
+  return std::min_element(tried.begin(), tried.end(), better)->bandwidth;
 }
 
 }  // namespace towbench::study::diagnose

@@ -11,10 +11,11 @@ namespace towbench::study::diagnose {
 
 // What a fit may move: a key, or what one run has of its own.
 struct FreeParameter {
-  enum class Of { kAll, kBiasOfRun, kCoulombOfRun };
+  enum class Of { kAll, kBiasOfRun, kCoulombOfRun, kTurnsOfRun };
   Of of = Of::kAll;
   Key key = Key::kMass;
   std::size_t run = 0;
+  int wave = 0;
   double step = 0;        // for a derivative
   bool positive = false;  // stays above zero, and moves at most by a factor of two at once
 };
@@ -39,9 +40,15 @@ struct Fitted {
 };
 [[nodiscard]] Fitted fit_model(const Data& data, const Context& context, Model start,
                                const std::vector<FreeParameter>& free, double bandwidth,
-                               int rounds);
+                               const std::vector<Span>& spans, int rounds);
 
-// Of the correction, where the innovations are least; rad/s.
-[[nodiscard]] double best_bandwidth(const Data& data, const Context& context, const Model& model);
+// Encoder steps rms of innovations below which a correction follows the steps instead of the
+// motion.
+inline constexpr double kFollowed = 2 * kRounding;
+
+// Of the correction, rad/s: where the innovations are least, or the slowest that leaves no more
+// than `followed` encoder steps.
+[[nodiscard]] double best_bandwidth(const Data& data, const Context& context, const Model& model,
+                                    double followed);
 
 }  // namespace towbench::study::diagnose

@@ -89,16 +89,17 @@ void add_mechanical_effects(std::vector<Effect>& library) {
                      .grid = where_elastic,
                      .set = set_nothing,
                      .step = stiffness_step});
-  library.push_back({.name = "backlash",
-                     .cause = "play: after the load lets go of a flank the motor moves without it",
-                     .needs = reversals,
-                     .scales = {Key::kPlay, Key::kMotorMass},
-                     .scale_names = {"play_m", "motor_mass_kg"},
-                     .positive = true,
-                     .whole = 1,
-                     .grid = plays,
-                     .set = set_loose,
-                     .step = whole_step});
+  library.push_back(
+      {.name = "backlash",
+       .cause = "play: after the load lets go of a flank the motor moves without it",
+       .needs = reversals,
+       .scales = {Key::kPlay, Key::kMotorMass, Key::kStiffness, Key::kDamping},
+       .scale_names = {"play_m", "motor_mass_kg", "stiffness_N_per_m", "damping_N_s_per_m"},
+       .positive = true,
+       .whole = 1,
+       .grid = plays,
+       .set = set_loose,
+       .step = whole_step});
   library.push_back({.name = "backlash",
                      .cause = "play: after the load lets go of a flank the motor moves without it",
                      .needs = reversals,

@@ -25,7 +25,7 @@ enum class Key : std::uint8_t {
   kRolloffSpeed,      // m/s
   kBreakaway,         // N, beyond what slides, while the axis stands or leaves
   kBreakawaySpeed,    // m/s
-  kPresliding,        // N missing right after a reversal, Dahl 1968
+  kPresliding,        // N missing right after a reversal: half of it follows the way, Dahl 1968
   kPreslidingTravel,  // m
   kPlaceFriction1,    // N, cos(k pi x) over the stroke, (3.34)
   kPlaceFriction2,
@@ -76,6 +76,10 @@ enum class Key : std::uint8_t {
   kOutOfRoundCosine,  // of the drive's force
   kOutOfRoundSine,
   kOutOfRoundPerMetre,
+  // A wheel out of round: the load goes (1 + these) times as far.
+  kWheelCosine,
+  kWheelSine,
+  kWheelPerMetre,
   // Two bodies; kMotorMass zero: rigid.
   kMotorMass,  // kg, of kMass
   kStiffness,  // N/m
@@ -87,6 +91,12 @@ enum class Key : std::uint8_t {
   kReadCosine,  // m
   kReadSine,
   kReadPerMetre,
+  // Phases of what is periodic, in turns; a run's own.
+  kRippleTurns,
+  kPeriodicTurns,
+  kOutOfRoundTurns,
+  kReadTurns,
+  kWheelTurns,
   kCount
 };
 

@@ -95,6 +95,16 @@ void add_periodic_effects(std::vector<Effect>& library) {
                      .grid = wheel_turn,
                      .set = set_scale<Key::kOutOfRoundPerMetre>,
                      .step = share_step});
+  library.push_back({.name = "sprocket_eccentricity",
+                     .cause = "a wheel that runs out of round: the load goes faster and slower",
+                     .needs = "travel over at least one wheel turn",
+                     .amplitudes = {Key::kWheelCosine, Key::kWheelSine},
+                     .amplitude_names = {"cosine_ratio", "sine_ratio"},
+                     .scales = {Key::kWheelPerMetre},
+                     .scale_names = {"spatial_frequency_per_m"},
+                     .grid = wheel_turn,
+                     .set = set_scale<Key::kWheelPerMetre>,
+                     .step = share_step});
   library.push_back({.name = "chain_polygon",
                      .cause = "links that lie on their wheel as a polygon",
                      .needs = "medium speed, where a tooth passes within the band",

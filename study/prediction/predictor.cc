@@ -81,11 +81,9 @@ Innovations::Innovations(const Data& data, std::size_t run, const Parameters& pa
       bandwidth_(bandwidth),
       forgotten_(static_cast<Index>(std::ceil(kForgotten / (bandwidth * run_.period_s)))),
       farthest_m_(kFarthest * (data.scenes[run].stroke_max_m - data.scenes[run].stroke_min_m)),
+      correction_(correction_of(parameters, run_.period_s, bandwidth)),
       axis_(parameters, data.scenes[run]),
       silent_(forgotten_) {
-  const double r = std::exp(-bandwidth * run_.period_s);
-  by_place_ = 1 - r * r;
-  by_speed_ = (1 - r) * (1 - r) / run_.period_s;
   axis_.place(run_.position_m[0], speed_from(run_, 0));
 }
 
@@ -113,7 +111,7 @@ double Innovations::at(Index k) {
       return farthest_m_;
     }
     e = silent_ > 0 ? 0 : off;
-    axis_.shift(by_place_ * off, by_speed_ * off);
+    axis_.correct(correction_, off);
     --silent_;
   }
   axis_.step(k);

@@ -1,12 +1,14 @@
 // Innovations: what each measured position is off from where the model, corrected by all earlier
 // ones, expected it.
 //
-//   e_k = y_k - h(x_k);  x_k += (1 - r^2) e_k,  v_k += (1 - r)^2 / T e_k,  r = exp(-w T)
-// Both poles of the correction lie at w (fading memory; Ljung 1999, ch. 7). A force that the model
-// lacks appears in e behind a low pass of w: M w^2 e is that force in newtons.
+//   e_k = y_k - h(x_k);  the state += correction(w) e_k
+// A force that the model lacks appears in e behind a low pass of w: M w^2 e is that force in
+// newtons (correction.h).
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "study/prediction/axis.h"
@@ -15,10 +17,25 @@
 
 namespace towbench::study::diagnose {
 
-// What one run has of its own: its level of friction and its offset.
+// What is periodic, in the order of the keys of its phases.
+inline constexpr int kWaves = 5;
+// The place among them of a law that begins with this key; none: it is not periodic.
+[[nodiscard]] constexpr std::optional<int> wave_of(Key first_scale) noexcept {
+  constexpr std::array kFrequencies{Key::kRipplePerMetre, Key::kPeriodicHertz,
+                                    Key::kOutOfRoundPerMetre, Key::kReadPerMetre,
+                                    Key::kWheelPerMetre};
+  for (int i = 0; i < kWaves; ++i) {
+    if (kFrequencies[static_cast<std::size_t>(i)] == first_scale) return i;
+  }
+  return std::nullopt;
+}
+
+// What one run has of its own: its level of friction and its offset; and phases, because nobody
+// knows how long the axis stood between two runs, or where its encoder began.
 struct OfRun {
   double bias_N = 0;
   double coulomb_N = 0;
+  std::array<double, kWaves> turns{};  // beside the first run's
 };
 
 struct Model {
@@ -29,6 +46,9 @@ struct Model {
     Parameters p = parameters;
     p[Key::kBias] += of_run[run].bias_N;
     p[Key::kCoulomb] += of_run[run].coulomb_N;
+    for (int i = 0; i < kWaves; ++i) {
+      p[next(Key::kRippleTurns, i)] += of_run[run].turns[static_cast<std::size_t>(i)];
+    }
     return p;
   }
 };
@@ -62,10 +82,9 @@ class Innovations {
 
   const Run& run_;
   double bandwidth_;
-  double by_place_;
-  double by_speed_;
   Eigen::Index forgotten_;  // samples until a start is
   double farthest_m_;
+  Correction correction_;
   Axis axis_;
   Eigen::Index next_ = 0;
   Eigen::Index silent_;

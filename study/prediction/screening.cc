@@ -13,7 +13,9 @@ using Eigen::VectorXd;
 
 constexpr double kWholeLeast = 0.3;  // coefficient of what its law fixes at 1
 constexpr double kWholeMost = 3;
-constexpr double kFarAway = 1.3;  // a mass off by that has been led astray by what is missing
+constexpr double kTurnStep = 0.01;
+constexpr double kTurnsTried = 8;  // phases of a run that differ
+constexpr double kFarAway = 1.3;   // a mass off by that has been led astray by what is missing
 
 bool is_sought(const Context& c, const Scales& scales) {
   const auto among = [&](const std::vector<double>& lines) {
@@ -28,6 +30,7 @@ double scale_step(const Context& c, Key key, double value, bool sought) {
     case Key::kRipplePerMetre:
     case Key::kReadPerMetre:
     case Key::kOutOfRoundPerMetre:
+    case Key::kWheelPerMetre:
       return sought ? 0.01 / c.stroke_m : 0;
     case Key::kPeriodicHertz:
       return 0.01 / c.duration_s;
@@ -39,9 +42,17 @@ double scale_step(const Context& c, Key key, double value, bool sought) {
 struct Slot {
   const Effect* effect;
   Scales scales;
-  Index from;  // its first column
+  std::vector<double> turns;  // of each run, of what is periodic
+  Index from;                 // its first column
   Index count;
 };
+
+void set_turns(Model& model, const Effect& effect, const std::vector<double>& turns) {
+  for (std::size_t run = 0; run < turns.size(); ++run) {
+    const int wave = *wave_of(effect.scales.front());
+    model.of_run[run].turns[static_cast<std::size_t>(wave)] = turns[run];
+  }
+}
 
 std::vector<Slot> slots_of(const Frame& frame, const State& s,
                            const std::vector<const Effect*>& excluded) {
@@ -53,10 +64,17 @@ std::vector<Slot> slots_of(const Frame& frame, const State& s,
       continue;
     for (const Scales& scales : effect.grid(frame.context)) {
       const Index count = std::max<Index>(1, std::ssize(effect.amplitudes));
-      slots.push_back({&effect, scales, column, count});
+      slots.push_back({&effect, scales, {}, column, count});
       column += count;
     }
   }
+  in_parallel(slots.size(), [&](std::size_t i) {
+    Slot& slot = slots[i];
+    const auto& keys = slot.effect->scales;
+    if (frame.data->scenes.size() > 1 && !keys.empty() && wave_of(keys.front())) {
+      slot.turns = turns_of(*frame.data, s.fitted.e, keys.front(), slot.scales.front());
+    }
+  });
   return slots;
 }
 
@@ -68,6 +86,7 @@ std::vector<Variation> variations_of(const Frame& frame, const State& s,
     const Effect& effect = *slot.effect;
     Model with = s.fitted.model;
     effect.set(with.parameters, frame.context, slot.scales);
+    set_turns(with, effect, slot.turns);
     if (effect.amplitudes.empty()) all.push_back({.model = with});
     for (const Key key : effect.amplitudes) {
       Variation& v = all.emplace_back(Variation{with, effect.step(frame.context), {}});
@@ -81,6 +100,7 @@ Candidate judge(const Blocks& blocks, const Slot& slot, Index p, const VectorXd&
   Candidate c;
   c.effect = slot.effect;
   c.scales = slot.scales;
+  c.turns = slot.turns;
   const Columns base = up_to(p);
   Columns group;
   for (Index j = 0; j < slot.count; ++j) group.push_back(slot.from + j);
@@ -129,7 +149,7 @@ Screened screen(Frame& frame, const State& s, const std::vector<const Effect*>& 
   VectorXd ridge = VectorXd::Zero(std::ssize(variations));
   ridge.head(p) = s.ridge;
   const Blocks blocks(grams_of(*frame.data, s.fitted.e, variations, frame.bandwidth, frame.spans),
-                      samples_in(s.fitted.e), ridge);
+                      samples_in(frame.spans, s.fitted.e), ridge);
   const VectorXd before = blocks.predicted(up_to(p));
   std::vector<Candidate> judged(slots.size());
   in_parallel(slots.size(), [&](std::size_t i) { judged[i] = judge(blocks, slots[i], p, before); });
@@ -138,6 +158,9 @@ Screened screen(Frame& frame, const State& s, const std::vector<const Effect*>& 
   for (Candidate& c : judged) {
     c.sought = is_sought(frame.context, c.scales);
     c.tried = static_cast<double>(slots.size()) + (c.sought ? frame.context.searched : 0);
+    if (!c.turns.empty()) {
+      c.tried *= std::pow(kTurnsTried, static_cast<double>(c.turns.size() - 1));
+    }
     const auto same = std::find_if(out.best.begin(), out.best.end(), [&](const Candidate& other) {
       return other.effect == c.effect;
     });
@@ -157,6 +180,7 @@ State with(const Frame& frame, const State& s, const Candidate& c, const Model& 
   Model model = s.fitted.model;
   Accepted accepted{c.effect, {}, c.sought};
   c.effect->set(model.parameters, frame.context, c.scales);
+  set_turns(model, *c.effect, c.turns);
   for (std::size_t j = 0; j < c.effect->amplitudes.size(); ++j) {
     const Key key = c.effect->amplitudes[j];
     model.parameters[key] += c.effect->whole != 0 ? c.effect->whole : c.b[static_cast<Index>(j)];
@@ -169,6 +193,13 @@ State with(const Frame& frame, const State& s, const Candidate& c, const Model& 
   for (const Key key : c.effect->scales) {
     const double step = scale_step(frame.context, key, model.parameters[key], c.sought);
     if (step > 0) accepted.free.push_back({.key = key, .step = step, .positive = true});
+  }
+  for (std::size_t run = 1; run < c.turns.size(); ++run) {
+    accepted.free.push_back({.of = FreeParameter::Of::kTurnsOfRun,
+                             .key = Key::kCount,
+                             .run = run,
+                             .wave = *wave_of(c.effect->scales.front()),
+                             .step = kTurnStep});
   }
   std::vector<Accepted> all = s.accepted;
   all.push_back(accepted);

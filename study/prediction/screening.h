@@ -12,6 +12,7 @@ namespace towbench::study::diagnose {
 struct Candidate {
   const Effect* effect = nullptr;
   Scales scales;
+  std::vector<double> turns;  // of each run, of what is periodic
   Eigen::VectorXd b;
   GroupTest test;
   Comparison gain;  // over the state it was tried on

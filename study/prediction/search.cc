@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "study/prediction/first_fits.h"
+#include "study/prediction/weak_causes.h"
 #include "study/prediction/whiteness.h"
 
 namespace towbench::study::diagnose {
@@ -19,11 +20,10 @@ constexpr double kBeyondDoubt = 1e-12;          // a p-value that needs no count
 constexpr double kLeastForce = 0.001;           // of the input's rms
 constexpr double kLeastOfStated = 0.03;         // by which what the model states must be off
 constexpr double kStructured = 0.1;             // that innovations predict of themselves
-constexpr double kMuch = 1.0 / 3;    // least gain there of all, and of a free shape or a clip
-constexpr double kPlainGain = 0.05;  // of any other, two standard errors below it
-constexpr double kDiverged = 4;      // times the loss of the model with a cause
-constexpr double kSwap = 1;          // standard errors by which another cause must be better
-constexpr double kAlias = 2;         // below which two are told apart by nothing
+constexpr double kDiverged = 4;                 // times the loss of the model with a cause
+constexpr double kSwap = 1;       // standard errors by which another cause must be better
+constexpr double kAlias = 2;      // below which two are told apart by nothing
+constexpr double kAliasLoss = 2;  // times the loss that still predicts alike
 
 class Searcher {
  public:
@@ -40,7 +40,8 @@ class Searcher {
     Model model = start;
     for (int round = 0; round < 2; ++round) {
       set_bandwidth(frame_, model);
-      model = fit_model(data_, frame_.context, model, free, frame_.bandwidth, kRounds).model;
+      model = fit_model(data_, frame_.context, model, free, frame_.bandwidth, frame_.spans, kRounds)
+                  .model;
     }
     State now = make_state(frame_, {}, model);
     out_.base = now;
@@ -50,10 +51,7 @@ class Searcher {
       now = make_state(frame_, now.accepted, now.fitted.model);
     }
     do {
-      while (now.accepted.size() < limits_.most_causes && accept_one(now)) {
-        set_bandwidth(frame_, now.fitted.model);
-        now = make_state(frame_, now.accepted, now.fitted.model);
-      }
+      accept_all(now);
       revise(now);
     } while (drop_the_weak(now));
     out_.base = make_state(frame_, {}, out_.base.fitted.model);  // at the final bandwidth
@@ -65,66 +63,49 @@ class Searcher {
   }
 
  private:
-  // Where much is left that no effect explains, free shapes and clips take on what is not theirs:
-  // there they must say a good part of it.
-  bool drop_the_weak(State& now) {
-    const double rms_m = now.fitted.e.norm() / std::sqrt(static_cast<double>(data_.samples()));
-    out_.structured =
-        rms_m > kRounding * frame_.context.resolution_m &&
-        predicted_by_past(data_, now.fitted.e, frame_.spans, frame_.bandwidth) > kStructured;
-    if (drop_second_shape(now)) {
-      return true;
-    }
-    if (!out_.structured) {
-      return false;
-    }
-    const State base = make_state(frame_, {}, out_.base.fitted.model);
-    const bool little = !out_.causes.empty() && compare(base.loss, now.loss, 2).gain < kMuch;
-    if (little) {
-      drop(now, weakest());
-      return true;
-    }
-    // Free shapes first: beside them what is real looks weak.
-    for (const bool free : {true, false}) {
-      for (std::size_t i = 0; i < out_.causes.size(); ++i) {
-        const Cause& cause = out_.causes[i];
-        const bool shape = is_free(cause) || cause.effect->whole != 0;
-        if (shape == free && (free ? cause.gain.gain < kMuch : cause.gain.low < kPlainGain)) {
-          drop(now, i);
-          return true;
-        }
+  void accept_all(State& now) {
+    do {
+      while (now.accepted.size() < limits_.most_causes && accept_one(now)) look_again(now);
+    } while (now.accepted.size() < limits_.most_causes && accept_closer(now));
+  }
+
+  void look_again(State& now) {
+    set_bandwidth(frame_, now.fitted.model);
+    now = make_state(frame_, now.accepted, now.fitted.model);
+  }
+
+  // What moves the reading alone shows at the bandwidth at which no more than rounding is left.
+  bool accept_closer(State& now) {
+    Frame before = frame_;
+    frame_.followed = kRounding;
+    set_bandwidth(frame_, now.fitted.model);
+    if (frame_.bandwidth > before.bandwidth) {
+      State closer = make_state(frame_, now.accepted, now.fitted.model);
+      if (accept_one(closer)) {
+        now = std::move(closer);
+        look_again(now);
+        return true;
       }
     }
+    frame_ = std::move(before);
     return false;
   }
 
-  std::size_t weakest() const {
-    const auto least = std::min_element(
-        out_.causes.begin(), out_.causes.end(),
-        [](const Cause& one, const Cause& other) { return one.gain.gain < other.gain.gain; });
-    return static_cast<std::size_t>(least - out_.causes.begin());
-  }
-
-  static bool is_free(const Cause& cause) { return cause.effect->flexible || cause.sought; }
-
-  void drop(State& now, std::size_t i) {
-    out_.dropped.push_back(out_.causes[i].effect);
-    now = without(frame_, now, i);
-    out_.causes.clear();
-  }
-
-  // Two free shapes at once fit almost anything: the one that says less goes.
-  bool drop_second_shape(State& now) {
-    std::size_t count = 0;
-    std::size_t least = 0;
-    for (std::size_t i = 0; i < out_.causes.size(); ++i) {
-      if (is_free(out_.causes[i])) {
-        least = count == 0 || out_.causes[i].gain.gain < out_.causes[least].gain.gain ? i : least;
-        ++count;
-      }
+  bool drop_the_weak(State& now) {
+    const double rms_m = now.fitted.e.norm() / std::sqrt(static_cast<double>(data_.samples()));
+    out_.structured =
+        rms_m > kFollowed * frame_.context.resolution_m &&
+        predicted_by_past(data_, now.fitted.e, frame_.spans, frame_.bandwidth) > kStructured;
+    auto weak = weak_beside_others(out_.causes);
+    if (!weak && out_.structured) {
+      const State base = make_state(frame_, {}, out_.base.fitted.model);
+      weak = weak_beside_the_rest(out_.causes, compare(base.loss, now.loss, 2).gain);
     }
-    if (count > 1) drop(now, least);
-    return count > 1;
+    if (!weak) return false;
+    out_.dropped.push_back(out_.causes[*weak].effect);
+    now = without(frame_, now, *weak);
+    out_.causes.clear();
+    return true;
   }
 
   std::vector<Candidate> screened(const State& s) {
@@ -145,11 +126,11 @@ class Searcher {
     return c.plausible && matters(*c.effect, c.test.rms) && stands(c.gain, c.p_value());
   }
 
-  // Where an encoder's steps make most of the innovations, a force gains little of them.
+  // A gain there must be, however certain a cause is: of a million samples the least misfit of a
+  // law is.
   bool stands(const Comparison& gain, double p_value) const {
-    return p_value < kBeyondDoubt ? gain.gain > 0
-                                  : p_value < limits_.alpha && gain.gain > limits_.least_gain &&
-                                        gain.standard_errors > limits_.least_errors;
+    return p_value < limits_.alpha && gain.gain > limits_.least_gain &&
+           (p_value < kBeyondDoubt || gain.standard_errors > limits_.least_errors);
   }
 
   // Within what its law allows, and where the model states it, off by more than is worth a name.
@@ -167,14 +148,23 @@ class Searcher {
     });
   }
 
+  // Of the squares that the model without causes leaves.
+  double taken_by(const State& s) const {
+    if (s.accepted.empty()) return 0;
+    const VectorXd e = innovations(data_, out_.base.fitted.model, frame_.bandwidth);
+    return std::max(0.0, weighted_square(frame_.spans, e) - s.loss.sum());
+  }
+
   // The best of the shortlist once each of it is fitted; null where none of it stands. Of two that
   // predict alike, the more certain.
   const Candidate* best_fitted(const State& s, const std::vector<Candidate>& list, State& best) {
     const Candidate* chosen = nullptr;
+    const double least_power = kBesideStrong * taken_by(s);
     for (const Candidate* c : shortlist(list)) {
       State other = with(frame_, s, *c, start_);
       const Comparison gain = compare(s.loss, other.loss, 2);
-      if (!stands(gain, c->p_value()) || !is_worth_naming(frame_, other)) continue;
+      const bool weak = s.loss.sum() - other.loss.sum() < least_power;
+      if (weak || !stands(gain, c->p_value()) || !is_worth_naming(frame_, other)) continue;
       const auto beyond_doubt = [](const Candidate* one) { return one->p_value() < kBeyondDoubt; };
       const bool first = chosen == nullptr;
       const double ahead = first ? 0 : compare(best.loss, other.loss, 2).standard_errors;
@@ -252,6 +242,21 @@ class Searcher {
     return rest.loss;
   }
 
+  static bool are_alike(const State& one, const State& other) {
+    return compare(other.loss, one.loss, 2).standard_errors < kAlias &&
+           other.loss.sum() < kAliasLoss * one.loss.sum();
+  }
+
+  // At the bandwidth at which no more than rounding is left.
+  bool are_alike_closer(const State& one, const State& other) const {
+    Frame closer = frame_;
+    closer.followed = kRounding;
+    set_bandwidth(closer, one.fitted.model);
+    return closer.bandwidth <= frame_.bandwidth ||
+           are_alike(make_state(closer, one.accepted, one.fitted.model),
+                     make_state(closer, other.accepted, other.fitted.model));
+  }
+
   // Each accepted cause against none and against every other in its place.
   void revise(State& now) {
     for (std::size_t i = 0; i < now.accepted.size();) {
@@ -271,7 +276,9 @@ class Searcher {
         i = 0;
         continue;
       }
-      Cause cause{effect, now.accepted[i].sought, p_value, own, {}};
+      Cause cause{
+          .effect = effect, .sought = now.accepted[i].sought, .p_value = p_value, .gain = own};
+      cause.power = std::max(0.0, rest.loss.sum() - now.loss.sum());
       std::size_t fitted = 0;
       bool swapped = false;
       for (const Candidate& c : list) {
@@ -282,12 +289,14 @@ class Searcher {
           State other = with(frame_, rest, c, start_);
           if (!is_worth_naming(frame_, other)) continue;
           const Comparison better = compare(now.loss, other.loss, 2);
+          const bool as_sure = c.p_value() < std::sqrt(p_value);
           if (better.standard_errors > kSwap && other.loss.sum() < 0.98 * now.loss.sum()) {
             now = std::move(other);
             swapped = true;
             break;
           }
-          if (better.standard_errors > -kAlias && c.effect->name != effect->name) {
+          if (c.effect->name != effect->name && as_sure && are_alike(now, other) &&
+              are_alike_closer(now, other)) {
             cause.alternatives.push_back({c.effect, std::move(other)});
           }
         }

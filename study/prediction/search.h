@@ -19,7 +19,8 @@ struct Cause {
   bool sought = false;
   double p_value = 1;  // corrected for the number tried
   Comparison gain;     // its own, over the best model without it
-  std::vector<Alternative> alternatives;
+  double power = 0;    // squares that it takes away, by their weights
+  std::vector<Alternative> alternatives = {};
 };
 
 struct Search {

@@ -18,8 +18,9 @@ Columns up_to(Index n) {
 }
 
 void set_bandwidth(Frame& frame, const Model& model) {
-  frame.bandwidth = best_bandwidth(*frame.data, frame.context, model);
+  frame.bandwidth = best_bandwidth(*frame.data, frame.context, model, frame.followed);
   frame.spans = cut(*frame.data, frame.bandwidth);
+  weigh(*frame.data, frame.spans, innovations(*frame.data, model, frame.bandwidth));
 }
 
 State make_state(const Frame& frame, std::vector<Accepted> accepted, const Model& from) {
@@ -29,12 +30,14 @@ State make_state(const Frame& frame, std::vector<Accepted> accepted, const Model
     s.free.insert(s.free.end(), a.free.begin(), a.free.end());
   }
   s.accepted = std::move(accepted);
-  s.fitted = fit_model(*frame.data, frame.context, from, s.free, frame.bandwidth, kStateRounds);
-  s.ridge = ridge_of(s.free, frame.context,
-                     s.fitted.e.squaredNorm() / static_cast<double>(s.fitted.e.size()));
+  s.fitted = fit_model(*frame.data, frame.context, from, s.free, frame.bandwidth, frame.spans,
+                       kStateRounds);
+  s.ridge =
+      ridge_of(s.free, frame.context,
+               weighted_square(frame.spans, s.fitted.e) / static_cast<double>(s.fitted.e.size()));
   const Blocks blocks(grams_of(*frame.data, s.fitted.e, varied(s.fitted.model, s.free),
                                frame.bandwidth, frame.spans),
-                      samples_in(s.fitted.e), s.ridge);
+                      samples_in(frame.spans, s.fitted.e), s.ridge);
   const Columns own = up_to(std::ssize(s.free));
   s.loss = blocks.predicted(own);
   s.linear = blocks.fit(own);
@@ -50,6 +53,11 @@ State without(const Frame& frame, const State& s, std::size_t i) {
   if (effect.amplitudes.empty()) {
     for (const Key key : {Key::kMotorMass, Key::kStiffness, Key::kDamping, Key::kPlay}) {
       model.parameters[key] = stated[key];
+    }
+  }
+  if (!effect.scales.empty() && wave_of(effect.scales.front())) {
+    for (OfRun& run : model.of_run) {
+      run.turns[static_cast<std::size_t>(*wave_of(effect.scales.front()))] = 0;
     }
   }
   std::vector<Accepted> rest = s.accepted;

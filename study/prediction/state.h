@@ -14,8 +14,10 @@ struct Frame {
   Context context;
   double bandwidth = 0;
   std::vector<Span> spans;
+  double followed = kFollowed;  // encoder steps below which a faster correction tells less
 };
 
+// Where the innovations are least, but for steps that a fast correction follows; weighs the blocks.
 void set_bandwidth(Frame& frame, const Model& model);
 
 // An effect with its scales, as a model holds it.

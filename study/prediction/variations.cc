@@ -79,7 +79,8 @@ std::vector<MatrixXd> grams_of(const Data& data, const VectorXd& e,
       sweep.next(rows.col(count), rows.leftCols(count));
       in_parallel(end - at, [&](std::size_t i) {
         const Span& span = spans[at + i];
-        grams[at + i] = gram_of(rows.middleRows(span.from - from, span.to - span.from));
+        grams[at + i] =
+            gram_of(rows.middleRows(span.from - from, span.to - span.from), span.weight);
       });
       at = end;
     }

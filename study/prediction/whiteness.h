@@ -6,8 +6,6 @@
 namespace towbench::study::diagnose {
 
 inline constexpr int kLags = 5;
-// Encoder steps rms that rounding alone leaves, with a reserve over 1 / sqrt(12).
-inline constexpr double kRounding = 0.35;
 
 // The innovations lagged by 1 to kLags halves of what the correction remembers.
 [[nodiscard]] Eigen::MatrixXd lagged(const Data& data, const Eigen::VectorXd& e, double bandwidth);

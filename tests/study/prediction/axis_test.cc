@@ -169,5 +169,52 @@ TEST(Axis, ALagIsBehindARampByItsTimeConstant) {
               10 * p[Key::kLag] / kMass_kg, 1e-3 * 10 * p[Key::kLag]);
 }
 
+// Dahl's law of a body that is pulled slowly over its bristles and back: the force it takes follows
+// the way, C (1 - e^(-x / s)) from rest and C (2 e^(-x / s) - 1) behind the turn.
+TEST(Axis, BristlesTakeAForceThatFollowsTheWay) {
+  Parameters p = free_body();
+  p[Key::kCoulomb] = 3;
+  p[Key::kPresliding] = 6;
+  p[Key::kPreslidingTravel] = 2e-3;
+  p[Key::kCable] = 500;  // from 0.5 m, where it is placed
+  p[Key::kViscous] = 400;
+  // 500 x + F(x) = u, so slow that inertia and damping are small.
+  VectorXd input_N = VectorXd::Zero(80'000);
+  const auto force_N = [](double way_m, bool back) {
+    const double gone = std::exp(-way_m / 2e-3);
+    return back ? 3 * (2 * gone - 1) : 3 * (1 - gone);
+  };
+  for (Index k = 0; k < 40'000; ++k) input_N[k] = 8 * time_of(k) / 40;
+  for (Index k = 40'000; k < 80'000; ++k) input_N[k] = 8 - 8 * (time_of(k) - 40) / 40;
+  Stepped body(p, input_N);
+  body.axis().place(0.5, 0);
+  double turned_m = 0;
+  for (Index k = 1000; k <= 80'000; k += 1000) {
+    const double way_m = body.after(1000) - 0.5;
+    turned_m = std::max(turned_m, way_m);
+    const double taken_N = input_N[k - 1] - 500 * way_m;
+    const bool back = k > 42'000;
+    if (k < 38'000 || back) {
+      ASSERT_NEAR(taken_N, force_N(back ? turned_m - way_m : way_m, back), 0.25) << k;
+    }
+  }
+}
+
+// A wheel out of round by w(x) = e cos(k x): energy of the load is M (1 + w)^2 v^2 / 2.
+TEST(Axis, BehindAWheelOutOfRoundTheLoadKeepsItsEnergy) {
+  Parameters p = free_body();
+  p[Key::kWheelPerMetre] = 4;
+  p[Key::kWheelCosine] = 0.02;
+  Stepped body(p, VectorXd::Zero(1000));
+  body.axis().place(0, 0.4);
+  const auto excess = [](double x) { return 1 + 0.02 * std::cos(2 * M_PI * 4 * x); };
+  const double energy = std::pow(excess(0) * 0.4, 2);
+  for (int i = 0; i < 20; ++i) {
+    const double x = body.after(50);
+    const double v = body.axis().speed_m_per_s();
+    ASSERT_NEAR(std::pow(excess(x) * v, 2), energy, 2e-3 * energy) << x;
+  }
+}
+
 }  // namespace
 }  // namespace towbench::tests

@@ -62,6 +62,42 @@ TEST(Innovations, SayNothingBehindAGap) {
   EXPECT_LT(e.cwiseAbs().maxCoeff(), 1e-12) << "what is missing corrects nothing";
 }
 
+// A prediction that stops and goes on is the same: a long recording is looked at piece by piece.
+TEST(Innovations, InPiecesAreThoseOfTheWhole) {
+  const Parameters truth = parameters_of(simple_model());
+  const std::vector<study::diagnose::Run> runs{simulated_run(truth, 3, 2e-6)};
+  const NominalModel stated = simple_model();
+  const Data data = make_data(runs, stated);
+  const VectorXd whole = innovations_of(data, 0, truth, kBandwidth);
+  VectorXd pieces(whole.size());
+  Innovations next(data, 0, truth, kBandwidth);
+  next.next(pieces.head(700));
+  next.next(pieces.segment(700, 1));
+  next.next(pieces.tail(pieces.size() - 701));
+  EXPECT_EQ((whole - pieces).cwiseAbs().maxCoeff(), 0);
+}
+
+TEST(Variations, SpanBySpanHaveTheProductsOfTheirColumns) {
+  const Parameters truth = parameters_of(simple_model());
+  const std::vector<study::diagnose::Run> runs{simulated_run(truth, 4, 2e-6),
+                                               simulated_run(truth, 3, 2e-6)};
+  const NominalModel stated = simple_model();
+  const Data data = make_data(runs, stated);
+  Model model{truth, std::vector<OfRun>(2)};
+  model.parameters[Key::kCoulomb] *= 1.2;
+  const auto free = base_free_parameters(make_context(stated, data), 2);
+  const VectorXd e = innovations(data, model, kBandwidth);
+  const auto spans = cut(data, kBandwidth);
+  const auto columns = columns_of(data, e, varied(model, free), kBandwidth);
+  const auto grams = grams_of(data, e, varied(model, free), kBandwidth, spans);
+  ASSERT_EQ(grams.size(), spans.size());
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    Eigen::MatrixXd rows(spans[i].to - spans[i].from, columns.cols() + 1);
+    rows << columns.middleRows(spans[i].from, rows.rows()), e.segment(spans[i].from, rows.rows());
+    EXPECT_TRUE(grams[i].isApprox(rows.transpose() * rows, 1e-9)) << i;
+  }
+}
+
 // The mean square falls to the encoder's alone where the parameters are right.
 TEST(FitModel, FindsTheParametersThatMadeTheRun) {
   constexpr double kStep_m = 2e-6;
@@ -74,8 +110,9 @@ TEST(FitModel, FindsTheParametersThatMadeTheRun) {
   const NominalModel stated = simple_model();
   const Data data = make_data(runs, stated);
   const Context context = make_context(stated, data);
-  const Fitted fitted = fit_model(data, context, {parameters_of(stated), std::vector<OfRun>(1)},
-                                  base_free_parameters(context, 1), kBandwidth, 20);
+  const Fitted fitted =
+      fit_model(data, context, {parameters_of(stated), std::vector<OfRun>(1)},
+                base_free_parameters(context, 1), kBandwidth, cut(data, kBandwidth), 20);
   for (const Key key : {Key::kMass, Key::kViscous, Key::kCoulomb, Key::kBias}) {
     EXPECT_NEAR(fitted.model.parameters[key], truth[key], 2e-3 * std::abs(truth[key]));
   }

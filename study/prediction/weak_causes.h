@@ -1,0 +1,23 @@
+// Which of the accepted causes is not worth a name beside the others, or beside what is left.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "study/prediction/search.h"
+
+namespace towbench::study::diagnose {
+
+// Two free shapes at once fit almost anything: the one that says less. And what takes away little
+// of what another does: that one's law, which does not fit quite.
+[[nodiscard]] std::optional<std::size_t> weak_beside_others(const std::vector<Cause>& causes);
+
+// Where much is left that no effect explains, free shapes and clips take on what is not theirs:
+// there they must say a good part of it. `gain`: of all causes together.
+[[nodiscard]] std::optional<std::size_t> weak_beside_the_rest(const std::vector<Cause>& causes,
+                                                              double gain);
+
+// Of the squares that the strongest cause takes away, what another must take at least.
+inline constexpr double kBesideStrong = 0.05;
+
+}  // namespace towbench::study::diagnose
