@@ -15,7 +15,6 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kMassOff = 5;       // at most, from what the momentum over windows says
 constexpr double kCollapsed = 0.99;  // of the range of masses that are believed
 
 void check_data(Request& request, logs::Findings& findings) {

@@ -5,12 +5,6 @@
 #include <vector>
 
 namespace towbench::study::diagnose {
-namespace {
-
-constexpr double kMassOff = 5;  // at most
-
-}  // namespace
-
 Context make_context(const NominalModel& stated, const Data& data) {
   Context c;
   c.stated = stated;

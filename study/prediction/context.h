@@ -8,6 +8,9 @@
 
 namespace towbench::study::diagnose {
 
+// From what is stated, or from what the momentum over windows says, at most.
+inline constexpr double kMassOff = 5;
+
 struct Context {
   NominalModel stated;
   double input_rms_N = 0;
