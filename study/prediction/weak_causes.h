@@ -18,6 +18,6 @@ namespace towbench::study::diagnose {
                                                               double gain);
 
 // Of the squares that the strongest cause takes away, what another must take at least.
-inline constexpr double kBesideStrong = 0.05;
+inline constexpr double kBesideStrong = 0.04;
 
 }  // namespace towbench::study::diagnose

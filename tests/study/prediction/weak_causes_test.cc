@@ -30,8 +30,8 @@ TEST(WeakCauses, WhatTakesLittleOfWhatAnotherTakes) {
     return weak_beside_others(
         {cause_of("quadratic_drag", 1, 0.9, 0.8), cause_of("stiction", power, 0.3, 0.2)});
   };
-  EXPECT_EQ(beside(0.04), 1U);
-  EXPECT_FALSE(beside(0.06));
+  EXPECT_EQ(beside(0.03), 1U);
+  EXPECT_FALSE(beside(0.05));
 }
 
 TEST(WeakCauses, WhereMuchIsLeftAShapeMustSayAGoodPart) {
