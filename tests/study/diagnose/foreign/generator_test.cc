@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/study/diagnose/foreign/drawn_case.h"
@@ -238,6 +239,17 @@ TEST(Judging, CountsWhatPhysicsCallsTheSame) {
   refused.refusal = "too_short";
   EXPECT_EQ(judge({}, false, refused).outcome, Outcome::kRefused);
   EXPECT_EQ(judge({{"outside", {}, {}}}, true, {}).outcome, Outcome::kMissed);
+}
+
+// A parameter that moved has no p-value, and counts as neither.
+TEST(Judging, CountsHowOftenWhatHasAPValueIsWrong) {
+  Answer answer;
+  answer.causes = {
+      {{"stribeck"}, 1e-4}, {{"inertia"}, 1e-4}, {{"stiction"}, 1e-40}, {{"viscous"}, 1}};
+  Tally tally;
+  tally.add(judge({{"added_mass", {"added_mass", "inertia"}, {}}}, false, answer).said);
+  EXPECT_THAT(tally.words(), ::testing::HasSubstr("| 1e-06 to 1 | 2 | 1 | 50"));
+  EXPECT_THAT(tally.words(), ::testing::HasSubstr("| 1e-100 to 1e-30 | 1 | 1 | 100"));
 }
 
 }  // namespace

@@ -99,6 +99,7 @@ void count(Tally& tally, const Result& r) {
     tally.add(table, row, r.judged, r.answer.unexplained);
   };
   add("all", "all");
+  tally.add(r.judged.said);
   add("machine", r.posed.machine);
   for (const Key& key : r.posed.hidden) add("hidden", key.name);
   if (r.posed.hidden.empty()) add("hidden", "none");

@@ -1,6 +1,7 @@
 #include "tests/study/diagnose/foreign/score.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -29,6 +30,27 @@ std::pair<double, double> interval_pct(int hits, int all) {
   return {100 * std::max(0.0, middle - half), 100 * std::min(1.0, middle + half)};
 }
 
+std::string reliability(const std::vector<Said>& all) {
+  std::string out =
+      "\n| p-value of what is named | named | wrong | wrong, % [95 %] |\n|---|---|---|---|\n";
+  constexpr std::array kEdges{1.0, 1e-6, 1e-12, 1e-30, 1e-100, 0.0};
+  for (std::size_t i = 0; i + 1 < kEdges.size(); ++i) {
+    int named = 0;
+    int wrong = 0;
+    for (const Said& said : all) {
+      if (said.p_value < kEdges[i] && said.p_value >= kEdges[i + 1]) {
+        ++named;
+        wrong += said.wrong ? 1 : 0;
+      }
+    }
+    if (named == 0) continue;
+    const auto [low, high] = interval_pct(wrong, named);
+    out += fmt::format("| {:g} to {:g} | {} | {} | {:.0f} [{:.0f}, {:.0f}] |\n", kEdges[i + 1],
+                       kEdges[i], named, wrong, 100.0 * wrong / named, low, high);
+  }
+  return out;
+}
+
 }  // namespace
 
 Judged judge(const std::vector<Key>& hidden, bool is_outside, const Answer& answer) {
@@ -46,6 +68,7 @@ Judged judge(const std::vector<Key>& hidden, bool is_outside, const Answer& answ
     const bool explained = std::any_of(hidden.begin(), hidden.end(), [&](const Key& key) {
       return says(cause, key) || holds(key.beside, cause.names.front());
     });
+    judged.said.push_back({cause.p_value, !explained});
     if (!explained) {
       judged.false_names.push_back(cause.names.front());
     }
@@ -72,8 +95,12 @@ void Tally::add(const std::string& table, const std::string& row, const Judged& 
   }
 }
 
+void Tally::add(const std::vector<Said>& said) {
+  said_.insert(said_.end(), said.begin(), said.end());
+}
+
 std::string Tally::words() const {
-  std::string out;
+  std::string out = reliability(said_);
   for (const auto& [table, rows] : tables_) {
     out += fmt::format("\n| {} | cases |", table);
     for (const char* name : kOutcomes) out += fmt::format(" {} |", name);

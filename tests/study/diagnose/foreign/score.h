@@ -29,9 +29,16 @@ enum class Outcome {
 inline constexpr std::array<const char*, 7> kOutcomes{"right", "partly",  "missed",  "extra",
                                                       "false", "refused", "unjudged"};
 
+// A cause that was named, with its p-value; a parameter that moved has none.
+struct Said {
+  double p_value = 1;
+  bool wrong = false;
+};
+
 struct Judged {
   Outcome outcome = Outcome::kUnjudged;
   std::vector<std::string> false_names;
+  std::vector<Said> said;
 };
 
 // A class of more names than this is no answer.
@@ -44,6 +51,8 @@ class Tally {
  public:
   void add(const std::string& table, const std::string& row, const Judged& judged,
            bool is_unexplained);
+  // How often what was named with a p-value is wrong.
+  void add(const std::vector<Said>& said);
   [[nodiscard]] std::string words() const;
 
  private:
@@ -54,6 +63,7 @@ class Tally {
     std::map<std::string, int> false_names;
   };
   std::map<std::string, std::map<std::string, Row>> tables_;
+  std::vector<Said> said_;
 };
 
 }  // namespace towbench::tests::foreign
