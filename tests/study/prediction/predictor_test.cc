@@ -62,6 +62,27 @@ TEST(Innovations, SayNothingBehindAGap) {
   EXPECT_LT(e.cwiseAbs().maxCoeff(), 1e-12) << "what is missing corrects nothing";
 }
 
+// The log begins while motor and load swing against each other, which a prediction cannot know. Its
+// correction moves both as the mode asks: the swing is found within half a second, where its own
+// damping would leave a half of it.
+TEST(Innovations, OfAnElasticAxisFindTheSwingThatTheLogBeginsWith) {
+  Parameters truth;
+  truth[Key::kMass] = 8;
+  truth[Key::kMotorMass] = 2;
+  truth[Key::kStiffness] = 8000;  // 11.6 Hz
+  truth[Key::kDamping] = 4;
+  study::diagnose::Run run = simulated_run(truth, 3, 0);
+  constexpr Eigen::Index kCut = 250;
+  run.position_m = run.position_m.tail(run.size() - kCut).eval();
+  run.input_N = run.input_N.tail(run.input_N.size() - kCut).eval();
+  run.missing.resize(static_cast<std::size_t>(run.size()));
+  const VectorXd e = innovations_of_run(run, truth);
+  const double early = e.segment(200, 100).cwiseAbs().maxCoeff();
+  const double later = e.segment(600, 100).cwiseAbs().maxCoeff();
+  EXPECT_GT(early, 1e-9);
+  EXPECT_LT(later, 0.1 * early);
+}
+
 // A prediction that stops and goes on is the same: a long recording is looked at piece by piece.
 TEST(Innovations, InPiecesAreThoseOfTheWhole) {
   const Parameters truth = parameters_of(simple_model());
