@@ -43,8 +43,7 @@ Model as_supplied(const Search& search, std::size_t runs) {
 void find_turns(const Data& data, std::size_t run, Model& model, double bandwidth) {
   const auto quarter = static_cast<Index>(
       kCalibrated * static_cast<double>(data.starts[run + 1] - data.starts[run]));
-  for (const Key key : {Key::kRipplePerMetre, Key::kPeriodicHertz, Key::kOutOfRoundPerMetre,
-                        Key::kReadPerMetre, Key::kWheelPerMetre}) {
+  for (const Key key : kFrequencies) {
     if (model.parameters[key] == 0) continue;
     double& turns = model.of_run[run].turns[static_cast<std::size_t>(*wave_of(key))];
     double best = 0;

@@ -21,7 +21,7 @@ constexpr Index kFolds = 10;
 constexpr double kMemories = 8;  // time constants of the correction in a block, at least
 constexpr double kShortest_s = 0.2;
 constexpr Index kMostBlocks = 120;
-constexpr double kTrembles = 5;      // encoder steps
+constexpr double kStandstill = 5;    // encoder steps
 constexpr double kLeastWay = 0.005;  // of the stroke
 constexpr double kNothing = 1e-12;   // of a column's square: depends on the others
 
@@ -63,13 +63,13 @@ std::vector<MatrixXd> grams_of(const Eigen::Ref<const MatrixXd>& all,
   return grams;
 }
 
-// The axis, by more than it trembles when it stands.
+// The axis, by more than encoder noise at standstill.
 bool moves(const Data& data, const Span& span) {
   const auto run = std::upper_bound(data.starts.begin(), data.starts.end(), span.from) - 1;
   const Scene& scene = data.scenes[static_cast<std::size_t>(run - data.starts.begin())];
   const auto x = scene.run->position_m.segment(span.from - *run, span.to - span.from);
   const double way = x.maxCoeff() - x.minCoeff();
-  return way > std::max(kTrembles * scene.run->resolution_m,
+  return way > std::max(kStandstill * scene.run->resolution_m,
                         kLeastWay * (scene.stroke_max_m - scene.stroke_min_m));
 }
 
@@ -116,9 +116,9 @@ void weigh(const Data& data, std::vector<Span>& spans, const VectorXd& e) {
     squares.push_back(said > 0 ? part.squaredNorm() / said : 0);
     if (said > 0 && moves(data, span)) moving.push_back(squares.back());
   }
-  const double loud = moving.empty() ? 0 : kLoud * statistics::quantile(moving, 0.75);
+  const double most = moving.empty() ? 0 : kOutlying * statistics::quantile(moving, 0.75);
   for (std::size_t i = 0; i < spans.size(); ++i) {
-    spans[i].weight = squares[i] > loud && loud > 0 ? loud / squares[i] : 1;
+    spans[i].weight = squares[i] > most && most > 0 ? most / squares[i] : 1;
   }
 }
 
@@ -246,7 +246,7 @@ Comparison compare(const VectorXd& worse, const VectorXd& better, double errors)
   const double mean = d.mean();
   const double spread = std::sqrt((d.array() - mean).square().sum() / std::max(1.0, n * (n - 1)));
   const double before = std::max(1e-300, worse.mean());
-  // Per block in rms as well: a few loud blocks hide how many agree.
+  // Per block in rms as well: a few outlying blocks hide how many agree.
   const VectorXd r = worse.cwiseSqrt() - better.cwiseSqrt();
   const double quiet = r.mean() / std::max(1e-300, std::sqrt((r.array() - r.mean()).square().sum() /
                                                              std::max(1.0, n * (n - 1))));

@@ -22,9 +22,10 @@ struct Span {
   double weight = 1;  // of its squares
 };
 [[nodiscard]] std::vector<Span> cut(const Data& data, double bandwidth);
-// Blocks whose error is loud beside the upper quartile of those that move weigh as one of kLoud
-// times its square: somebody who leans on the axis for a second leads no fit astray (Huber 1964).
-inline constexpr double kLoud = 4;
+// Outlying blocks, beyond kOutlying times the upper quartile of the squares of those that move, are
+// weighted as if they were of that size: a push that nobody logged biases a fit little (Huber
+// 1964).
+inline constexpr double kOutlying = 4;
 void weigh(const Data& data, std::vector<Span>& spans, const Eigen::VectorXd& e);
 [[nodiscard]] double weighted_square(const std::vector<Span>& spans, const Eigen::VectorXd& e);
 

@@ -19,11 +19,11 @@ namespace towbench::study::diagnose {
 
 // What is periodic, in the order of the keys of its phases.
 inline constexpr int kWaves = 5;
+inline constexpr std::array<Key, kWaves> kFrequencies{Key::kRipplePerMetre, Key::kPeriodicHertz,
+                                                      Key::kOutOfRoundPerMetre, Key::kReadPerMetre,
+                                                      Key::kWheelPerMetre};
 // The place among them of a law that begins with this key; none: it is not periodic.
 [[nodiscard]] constexpr std::optional<int> wave_of(Key first_scale) noexcept {
-  constexpr std::array kFrequencies{Key::kRipplePerMetre, Key::kPeriodicHertz,
-                                    Key::kOutOfRoundPerMetre, Key::kReadPerMetre,
-                                    Key::kWheelPerMetre};
   for (int i = 0; i < kWaves; ++i) {
     if (kFrequencies[static_cast<std::size_t>(i)] == first_scale) return i;
   }

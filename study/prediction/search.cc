@@ -65,25 +65,25 @@ class Searcher {
  private:
   void accept_all(State& now) {
     do {
-      while (now.accepted.size() < limits_.most_causes && accept_one(now)) look_again(now);
-    } while (now.accepted.size() < limits_.most_causes && accept_closer(now));
+      while (now.accepted.size() < limits_.most_causes && accept_one(now)) refit(now);
+    } while (now.accepted.size() < limits_.most_causes && accept_at_faster(now));
   }
 
-  void look_again(State& now) {
+  void refit(State& now) {
     set_bandwidth(frame_, now.fitted.model);
     now = make_state(frame_, now.accepted, now.fitted.model);
   }
 
   // What moves the reading alone shows at the bandwidth at which no more than rounding is left.
-  bool accept_closer(State& now) {
+  bool accept_at_faster(State& now) {
     Frame before = frame_;
     frame_.followed = kRounding;
     set_bandwidth(frame_, now.fitted.model);
     if (frame_.bandwidth > before.bandwidth) {
-      State closer = make_state(frame_, now.accepted, now.fitted.model);
-      if (accept_one(closer)) {
-        now = std::move(closer);
-        look_again(now);
+      State faster = make_state(frame_, now.accepted, now.fitted.model);
+      if (accept_one(faster)) {
+        now = std::move(faster);
+        refit(now);
         return true;
       }
     }
@@ -248,13 +248,13 @@ class Searcher {
   }
 
   // At the bandwidth at which no more than rounding is left.
-  bool are_alike_closer(const State& one, const State& other) const {
-    Frame closer = frame_;
-    closer.followed = kRounding;
-    set_bandwidth(closer, one.fitted.model);
-    return closer.bandwidth <= frame_.bandwidth ||
-           are_alike(make_state(closer, one.accepted, one.fitted.model),
-                     make_state(closer, other.accepted, other.fitted.model));
+  bool are_alike_at_faster(const State& one, const State& other) const {
+    Frame faster = frame_;
+    faster.followed = kRounding;
+    set_bandwidth(faster, one.fitted.model);
+    return faster.bandwidth <= frame_.bandwidth ||
+           are_alike(make_state(faster, one.accepted, one.fitted.model),
+                     make_state(faster, other.accepted, other.fitted.model));
   }
 
   // Each accepted cause against none and against every other in its place.
@@ -296,7 +296,7 @@ class Searcher {
             break;
           }
           if (c.effect->name != effect->name && as_sure && are_alike(now, other) &&
-              are_alike_closer(now, other)) {
+              are_alike_at_faster(now, other)) {
             cause.alternatives.push_back({c.effect, std::move(other)});
           }
         }
