@@ -74,7 +74,10 @@ configured_with() { grep -qs "$1:BOOL=ON" "$build/release/CMakeCache.txt"; }
 study_preset() { if configured_with TOWBENCH_TESTS; then echo release; else echo study; fi; }
 user_preset() { if configured_with TOWBENCH_STUDY; then study_preset; else echo user; fi; }
 
-# build_preset PRESET [TARGET...]: the log stays in build/.
+declare -A configured=() # the preset that each folder was configured for by this call
+
+# build_preset PRESET [TARGET...]: the log stays in build/. A folder is configured once: that writes the lists of tests
+# again, and who reads one meanwhile finds half of it.
 build_preset() {
   local preset=$1 folder=$1 log
   shift
@@ -84,9 +87,14 @@ build_preset() {
   log=$build/$preset.log
   mkdir -p "$build"
   forget_if_moved "$build/$folder"
-  (cd "$root" && one_at_a_time "$folder" cmake --preset "$preset") >"$log" 2>&1 &&
+  configure_once "$preset" "$folder" >"$log" 2>&1 &&
     watched "building ($folder)" build_steps "$log" one_at_a_time "$folder" cmake --build "$build/$folder" "${targets[@]}" && return
   explain_failed_build "$preset" "$log"
+}
+
+configure_once() {
+  [[ ${configured[$2]:-} != "$1" ]] || return 0
+  (cd "$root" && one_at_a_time "$2" cmake --preset "$1") && configured[$2]=$1
 }
 
 # one_at_a_time FOLDER COMMAND...: two calls in one clone must not build the same folder at once.
