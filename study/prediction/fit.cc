@@ -55,6 +55,7 @@ Model moved(const Model& from, const Context& context, const std::vector<FreePar
   p[Key::kDelay] = std::max(0.0, p[Key::kDelay]);
   p[Key::kLag] = std::max(0.0, p[Key::kLag]);
   p[Key::kMotorMass] = std::min(p[Key::kMotorMass], 0.98 * p[Key::kMass]);
+  p[Key::kLoadShare] = std::min(p[Key::kLoadShare], 1.0);
   return to;
 }
 
