@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "study/prediction/first_fits.h"
 #include "study/prediction/weak_causes.h"
@@ -16,14 +17,9 @@ using Eigen::VectorXd;
 constexpr int kRounds = 8;
 constexpr std::size_t kShortlist = 3;           // that are fitted, beside the most certain
 constexpr std::size_t kFittedOfAShortlist = 2;  // in another's place
-constexpr double kBeyondDoubt = 1e-12;          // a p-value that needs no count of blocks beside it
-constexpr double kLeastForce = 0.001;           // of the input's rms
-constexpr double kLeastOfStated = 0.03;         // by which what the model states must be off
 constexpr double kStructured = 0.1;             // that innovations predict of themselves
 constexpr double kDiverged = 4;                 // times the loss of the model with a cause
-constexpr double kSwap = 1;       // standard errors by which another cause must be better
-constexpr double kAlias = 2;      // below which two are told apart by nothing
-constexpr double kAliasLoss = 2;  // times the loss that still predicts alike
+constexpr double kSwap = 1;  // standard errors by which another cause must be better
 
 class Searcher {
  public:
@@ -76,14 +72,21 @@ class Searcher {
 
   // What moves the reading alone shows at the bandwidth at which no more than rounding is left.
   bool accept_at_faster(State& now) {
+    if (!at_faster(now, [&](State& faster) { return accept_one(faster); })) return false;
+    refit(now);
+    return true;
+  }
+
+  // Goes on there if `does` says so.
+  template <typename Does>
+  bool at_faster(State& now, Does does) {
     Frame before = frame_;
     frame_.followed = kRounding;
     set_bandwidth(frame_, now.fitted.model);
     if (frame_.bandwidth > before.bandwidth) {
       State faster = make_state(frame_, now.accepted, now.fitted.model);
-      if (accept_one(faster)) {
+      if (does(faster)) {
         now = std::move(faster);
-        refit(now);
         return true;
       }
     }
@@ -114,57 +117,22 @@ class Searcher {
     return std::move(found.best);
   }
 
-  // What an effect makes, in newtons: less is nothing, however certain. What only reads otherwise
-  // is no force.
-  bool matters(const Effect& effect, double rms_m) const {
-    const double to_force = start_.parameters[Key::kMass] * frame_.bandwidth * frame_.bandwidth;
-    const bool reads = !effect.scales.empty() && effect.scales.front() == Key::kReadPerMetre;
-    return reads || to_force * rms_m > kLeastForce * frame_.context.input_rms_N;
-  }
-
   bool convinces(const Candidate& c) const {
-    return c.plausible && matters(*c.effect, c.test.rms) && stands(c.gain, c.p_value());
-  }
-
-  // A gain there must be, however certain a cause is: of a million samples the least misfit of a
-  // law is.
-  bool stands(const Comparison& gain, double p_value) const {
-    return p_value < limits_.alpha && gain.gain > limits_.least_gain &&
-           (p_value < kBeyondDoubt || gain.standard_errors > limits_.least_errors);
-  }
-
-  // Within what its law allows, and where the model states it, off by more than is worth a name.
-  static bool is_worth_naming(const Frame& frame, const State& s) {
-    const Parameters& p = s.fitted.model.parameters;
-    const Parameters stated = parameters_of(frame.context.stated);
-    return std::all_of(s.accepted.begin(), s.accepted.end(), [&](const Accepted& a) {
-      const auto& keys = a.effect->amplitudes;
-      const double first = keys.empty() ? 0 : std::abs(p[keys.front()]);
-      return (keys.empty() || first >= a.effect->least) &&
-             (a.effect->most == 0 || first < a.effect->most) &&
-             (keys.empty() || std::any_of(keys.begin(), keys.end(), [&](Key key) {
-                return std::abs(p[key] - stated[key]) > kLeastOfStated * std::abs(stated[key]);
-              }));
-    });
-  }
-
-  // Of the squares that the model without causes leaves.
-  double taken_by(const State& s) const {
-    if (s.accepted.empty()) return 0;
-    const VectorXd e = innovations(data_, out_.base.fitted.model, frame_.bandwidth);
-    return std::max(0.0, weighted_square(frame_.spans, e) - s.loss.sum());
+    return c.plausible && stands(limits_, c.gain, c.p_value());
   }
 
   // The best of the shortlist once each of it is fitted; null where none of it stands. Of two that
   // predict alike, the more certain.
   const Candidate* best_fitted(const State& s, const std::vector<Candidate>& list, State& best) {
     const Candidate* chosen = nullptr;
-    const double least_power = kBesideStrong * taken_by(s);
+    const VectorXd base_e = innovations(data_, out_.base.fitted.model, frame_.bandwidth);
     for (const Candidate* c : shortlist(list)) {
       State other = with(frame_, s, *c, start_);
       const Comparison gain = compare(s.loss, other.loss, 2);
-      const bool weak = s.loss.sum() - other.loss.sum() < least_power;
-      if (weak || !stands(gain, c->p_value()) || !is_worth_naming(frame_, other)) continue;
+      if (is_weak(frame_, s, other, base_e) || !stands(limits_, gain, c->p_value()) ||
+          !matters(frame_, *c->effect, s, other) || !is_worth_naming(frame_, other)) {
+        continue;
+      }
       const auto beyond_doubt = [](const Candidate* one) { return one->p_value() < kBeyondDoubt; };
       const bool first = chosen == nullptr;
       const double ahead = first ? 0 : compare(best.loss, other.loss, 2).standard_errors;
@@ -242,72 +210,75 @@ class Searcher {
     return rest.loss;
   }
 
-  static bool are_alike(const State& one, const State& other) {
-    return compare(other.loss, one.loss, 2).standard_errors < kAlias &&
-           other.loss.sum() < kAliasLoss * one.loss.sum();
+  // An accepted cause against the model without it.
+  struct Judged {
+    State rest;
+    std::vector<Candidate> list;  // of what could stand in its place
+    Comparison own;
+    double p_value = 1;
+    bool stands = false;
+  };
+
+  Judged judge(const State& now, std::size_t i) {
+    const Effect* effect = now.accepted[i].effect;
+    Judged out;
+    out.rest = without(frame_, now, i);
+    out.own = compare(loss_without(now, out.rest), now.loss, 2);
+    out.list = screened(out.rest);
+    const auto itself = std::find_if(out.list.begin(), out.list.end(),
+                                     [&](const Candidate& c) { return c.effect == effect; });
+    out.p_value =
+        std::min(itself == out.list.end() ? 1 : itself->p_value(), own_p_value(now, i, out.own));
+    out.stands = stands(limits_, out.own, out.p_value) && matters(frame_, *effect, out.rest, now);
+    return out;
   }
 
-  // At the bandwidth at which no more than rounding is left.
-  bool are_alike_at_faster(const State& one, const State& other) const {
-    Frame faster = frame_;
-    faster.followed = kRounding;
-    set_bandwidth(faster, one.fitted.model);
-    return faster.bandwidth <= frame_.bandwidth ||
-           are_alike(make_state(faster, one.accepted, one.fitted.model),
-                     make_state(faster, other.accepted, other.fitted.model));
+  // The best of the others in a cause's place, if it predicts better; collects what predicts alike.
+  std::optional<State> better_in_place(const State& now, const Judged& judged, Cause& cause) const {
+    std::size_t fitted = 0;
+    for (const Candidate& c : judged.list) {
+      // A free shape holds what is structural as one of its forms.
+      const bool holds_it = cause.effect->structural && c.effect->flexible;
+      if (c.effect == cause.effect || holds_it || !convinces(c)) continue;
+      if (fitted++ == kFittedOfAShortlist) break;
+      State other = with(frame_, judged.rest, c, start_);
+      if (!is_worth_naming(frame_, other)) continue;
+      const Comparison better = compare(now.loss, other.loss, 2);
+      if (better.standard_errors > kSwap && other.loss.sum() < 0.98 * now.loss.sum()) return other;
+      const bool as_sure = c.p_value() < std::sqrt(judged.p_value);
+      if (c.effect->name != cause.effect->name && as_sure && are_alike(frame_, now, other)) {
+        cause.alternatives.push_back({c.effect, std::move(other)});
+      }
+    }
+    return std::nullopt;
   }
 
-  // Each accepted cause against none and against every other in its place.
+  // Each accepted cause against none and against every other in its place. What does not stand at
+  // this bandwidth may at the faster one.
   void revise(State& now) {
     for (std::size_t i = 0; i < now.accepted.size();) {
-      const Effect* effect = now.accepted[i].effect;
-      const State rest = without(frame_, now, i);
-      const Comparison own = compare(loss_without(now, rest), now.loss, 2);
-      const std::vector<Candidate> list = screened(rest);
-      const auto itself = std::find_if(list.begin(), list.end(),
-                                       [&](const Candidate& c) { return c.effect == effect; });
-      const double p_value =
-          std::min(itself == list.end() ? 1 : itself->p_value(), own_p_value(now, i, own));
-      const double made_m = std::sqrt(std::max(0.0, rest.loss.sum() - now.loss.sum()) /
-                                      static_cast<double>(data_.samples()));
-      if (!stands(own, p_value) || !matters(*effect, made_m)) {
-        now = rest;
-        out_.causes.clear();
-        i = 0;
-        continue;
-      }
-      Cause cause{
-          .effect = effect, .sought = now.accepted[i].sought, .p_value = p_value, .gain = own};
-      cause.power = std::max(0.0, rest.loss.sum() - now.loss.sum());
-      std::size_t fitted = 0;
-      bool swapped = false;
-      for (const Candidate& c : list) {
-        // A free shape holds what is structural as one of its forms.
-        const bool holds_it = effect->structural && c.effect->flexible;
-        if (c.effect != effect && !holds_it && convinces(c) && fitted < kFittedOfAShortlist) {
-          ++fitted;
-          State other = with(frame_, rest, c, start_);
-          if (!is_worth_naming(frame_, other)) continue;
-          const Comparison better = compare(now.loss, other.loss, 2);
-          const bool as_sure = c.p_value() < std::sqrt(p_value);
-          if (better.standard_errors > kSwap && other.loss.sum() < 0.98 * now.loss.sum()) {
-            now = std::move(other);
-            swapped = true;
-            break;
-          }
-          if (c.effect->name != effect->name && as_sure && are_alike(now, other) &&
-              are_alike_at_faster(now, other)) {
-            cause.alternatives.push_back({c.effect, std::move(other)});
-          }
+      const Judged judged = judge(now, i);
+      std::optional<State> instead;
+      if (judged.stands) {
+        Cause cause{.effect = now.accepted[i].effect,
+                    .sought = now.accepted[i].sought,
+                    .p_value = judged.p_value,
+                    .gain = judged.own};
+        cause.power = std::max(0.0, judged.rest.loss.sum() - now.loss.sum());
+        cause.share = share_of(frame_, cause.power, judged.rest.loss.sum(), now);
+        instead = better_in_place(now, judged, cause);
+        if (!instead) {
+          out_.causes.push_back(std::move(cause));
+          ++i;
+          continue;
         }
+      } else if (frame_.followed <= kRounding ||
+                 !at_faster(now, [&](const State& faster) { return judge(faster, i).stands; })) {
+        instead = judged.rest;
       }
-      if (swapped) {
-        out_.causes.clear();
-        i = 0;
-        continue;
-      }
-      out_.causes.push_back(cause);
-      ++i;
+      if (instead) now = *std::move(instead);
+      out_.causes.clear();
+      i = 0;
     }
   }
 

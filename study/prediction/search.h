@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "study/prediction/demands.h"
 #include "study/prediction/screening.h"
 
 namespace towbench::study::diagnose {
@@ -20,6 +21,7 @@ struct Cause {
   double p_value = 1;  // corrected for the number tried
   Comparison gain;     // its own, over the best model without it
   double power = 0;    // squares that it takes away, by their weights
+  double share = 0;    // of those that the others leave beyond the encoder's steps
   std::vector<Alternative> alternatives = {};
 };
 
@@ -34,13 +36,6 @@ struct Search {
   std::vector<const Effect*> dropped;  // accepted, and too weak beside what is left
   std::size_t tried = 0;
   bool structured = false;  // much is left that no effect explains
-};
-
-struct Limits {
-  double alpha = 1e-3;        // over all that is tried
-  double least_gain = 0.01;   // of the prediction error
-  double least_errors = 2.5;  // standard errors of the gain above zero
-  std::size_t most_causes = 6;
 };
 
 [[nodiscard]] Search search_causes(const Data& data, const Context& context, const Model& start,

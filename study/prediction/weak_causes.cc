@@ -5,8 +5,12 @@
 namespace towbench::study::diagnose {
 namespace {
 
-constexpr double kMuch = 0.25;       // least gain of all, and of a free shape or a clip
-constexpr double kPlainGain = 0.03;  // of any other, two standard errors below it
+// Of what the strongest takes: 5 % and a fifth of its force.
+constexpr double kNoLawIsBetter = 0.0025;
+constexpr double kBesideStrong = 0.04;
+constexpr double kMostOfLeft = 0.75;  // that shows a law of its own: half of the rms
+constexpr double kMuch = 0.25;        // least gain of all, and of a free shape or a clip
+constexpr double kPlainGain = 0.03;   // of any other, two standard errors below it
 
 bool is_free(const Cause& cause) {
   return cause.effect->flexible || cause.sought;
@@ -35,7 +39,12 @@ std::optional<std::size_t> weak_beside_others(const std::vector<Cause>& causes) 
   for (const Cause& cause : causes) most = std::max(most, cause.power);
   return least(
       causes, [](const Cause& a, const Cause& b) { return a.power < b.power; },
-      [&](const Cause& cause) { return cause.power < kBesideStrong * most; });
+      [&](const Cause& cause) { return is_weak_beside(cause.power, most, cause.share); });
+}
+
+bool is_weak_beside(double taken, double by_the_strongest, double share_of_left) {
+  const double of = taken / std::max(1e-300, by_the_strongest);
+  return of < kNoLawIsBetter || (of < kBesideStrong && share_of_left < kMostOfLeft);
 }
 
 std::optional<std::size_t> weak_beside_the_rest(const std::vector<Cause>& causes, double gain) {

@@ -8,8 +8,8 @@
 
 namespace towbench::study::diagnose {
 
-// Two free shapes at once fit almost anything: the one that says less. And what takes away little
-// of what another does: that one's law, which does not fit quite.
+// Two free shapes at once fit almost anything: the one that says less. And what is weak beside
+// another.
 [[nodiscard]] std::optional<std::size_t> weak_beside_others(const std::vector<Cause>& causes);
 
 // Where much is left that no effect explains, free shapes and clips take on what is not theirs:
@@ -17,7 +17,8 @@ namespace towbench::study::diagnose {
 [[nodiscard]] std::optional<std::size_t> weak_beside_the_rest(const std::vector<Cause>& causes,
                                                               double gain);
 
-// Of the squares that the strongest cause takes away, what another must take at least.
-inline constexpr double kBesideStrong = 0.04;
+// Of squares: it takes little beside what the strongest takes, and leaves most of what there is.
+// Then it is that one's law, which does not fit quite.
+[[nodiscard]] bool is_weak_beside(double taken, double by_the_strongest, double share_of_left);
 
 }  // namespace towbench::study::diagnose

@@ -124,6 +124,30 @@ TEST(PairOfCauses, OneIsNamedBesideAnotherOfTheSameReversals) {
               testing::Contains("chain_elasticity"));
 }
 
+// The blocks in which it acts are few, and outlying without it.
+TEST(PairOfCauses, AClipOfTheDriveIsNamedWhereItActsSeldom) {
+  EXPECT_THAT(names_of_pair("added_mass", "command_saturation", 16),
+              testing::IsSupersetOf({"added_mass", "command_saturation"}));
+}
+
+TEST(PairOfCauses, WhatOnlyTheReadingHasIsNamedBesideAStrongForce) {
+  EXPECT_THAT(names_of_pair("thermal_drift", "encoder_eccentricity", 17),
+              testing::IsSupersetOf({"thermal_drift", "encoder_eccentricity"}));
+}
+
+// With it the rest is slow: beside that it stands at a faster correction alone.
+TEST(PairOfCauses, WhatStandsAtAFasterCorrectionAloneIsKept) {
+  EXPECT_THAT(
+      names_of_pair("transport_delay", "stribeck", 63),
+      testing::AnyOf(testing::Contains("transport_delay"), testing::Contains("current_loop_lag")));
+}
+
+// Beside it the encoder's steps are most of what is left.
+TEST(PairOfCauses, AFrictionIsNamedBesideAChainsPolygon) {
+  EXPECT_THAT(names_of_pair("low_speed_rolloff", "chain_polygon", 37),
+              testing::UnorderedElementsAre("low_speed_rolloff", "chain_polygon"));
+}
+
 TEST(OutsideTheLibrary, IsCalledUnexplainedAndNotMisnamed) {
   const auto d = diagnose_hidden(hiding("outside"), 1);
   EXPECT_THAT(d.verdicts, testing::Contains("unexplained_structure"));

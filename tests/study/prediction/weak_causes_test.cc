@@ -34,6 +34,16 @@ TEST(WeakCauses, WhatTakesLittleOfWhatAnotherTakes) {
   EXPECT_FALSE(beside(0.05));
 }
 
+TEST(WeakCauses, NoMisfitIsWhatTakesMostOfWhatTheOthersLeave) {
+  const auto takes = [](double share) {
+    Cause stiction = cause_of("stiction", 0.01, 0.3, 0.2);
+    stiction.share = share;
+    return weak_beside_others({cause_of("quadratic_drag", 1, 0.9, 0.8), stiction});
+  };
+  EXPECT_EQ(takes(0.7), 1U);
+  EXPECT_FALSE(takes(0.8));
+}
+
 TEST(WeakCauses, WhereMuchIsLeftAShapeMustSayAGoodPart) {
   const Cause drag = cause_of("quadratic_drag", 1, 0.1, 0.05);
   const Cause weak_drag = cause_of("quadratic_drag", 1, 0.1, 0.01);

@@ -1,0 +1,78 @@
+#include "study/prediction/demands.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "study/prediction/weak_causes.h"
+
+namespace towbench::study::diagnose {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kLeastForce = 0.001;    // of the input's rms
+constexpr double kLeastOfStated = 0.03;  // by which what the model states must be off
+constexpr double kOfRounding = 0.29;     // rms of an encoder's steps, in steps
+constexpr double kAliasLoss = 2;         // times the loss that still predicts alike
+
+bool predict_alike(const State& one, const State& other) {
+  return compare(other.loss, one.loss, 2).standard_errors < kAlias &&
+         other.loss.sum() < kAliasLoss * one.loss.sum();
+}
+
+}  // namespace
+
+bool stands(const Limits& limits, const Comparison& gain, double p_value) {
+  return p_value < limits.alpha && gain.gain > limits.least_gain &&
+         (p_value < kBeyondDoubt || gain.standard_errors > limits.least_errors);
+}
+
+bool matters(const Frame& frame, const Effect& effect, const State& without_it,
+             const State& with_it) {
+  const double to_force = frame.context.stated.mass_kg * frame.bandwidth * frame.bandwidth;
+  const bool reads = !effect.scales.empty() && effect.scales.front() == Key::kReadPerMetre;
+  const double made_m = (without_it.fitted.e - with_it.fitted.e).norm() /
+                        std::sqrt(static_cast<double>(frame.data->samples()));
+  return reads || to_force * made_m > kLeastForce * frame.context.input_rms_N;
+}
+
+bool is_worth_naming(const Frame& frame, const State& s) {
+  const Parameters& p = s.fitted.model.parameters;
+  const Parameters stated = parameters_of(frame.context.stated);
+  return std::all_of(s.accepted.begin(), s.accepted.end(), [&](const Accepted& a) {
+    const auto& keys = a.effect->amplitudes;
+    const double first = keys.empty() ? 0 : std::abs(p[keys.front()]);
+    return (keys.empty() || first >= a.effect->least) &&
+           (a.effect->most == 0 || first < a.effect->most) &&
+           (keys.empty() || std::any_of(keys.begin(), keys.end(), [&](Key key) {
+              return std::abs(p[key] - stated[key]) > kLeastOfStated * std::abs(stated[key]);
+            }));
+  });
+}
+
+bool is_weak(const Frame& frame, const State& s, const State& with_it, const VectorXd& base_e) {
+  if (s.accepted.empty()) return false;
+  std::vector<Span> spans = frame.spans;
+  weigh(*frame.data, spans, with_it.fitted.e);
+  const double left = weighted_square(spans, s.fitted.e);
+  const double taken = left - weighted_square(spans, with_it.fitted.e);
+  return is_weak_beside(taken, weighted_square(spans, base_e) - left,
+                        share_of(frame, taken, left, with_it));
+}
+
+double share_of(const Frame& frame, double taken, double left, const State& s) {
+  const double steps = std::pow(kOfRounding * frame.context.resolution_m, 2);
+  return taken / std::max(taken, left - steps * samples_in(frame.spans, s.fitted.e));
+}
+
+bool are_alike(const Frame& frame, const State& one, const State& other) {
+  if (!predict_alike(one, other)) return false;
+  Frame faster = frame;
+  faster.followed = kRounding;
+  set_bandwidth(faster, one.fitted.model);
+  return faster.bandwidth <= frame.bandwidth ||
+         predict_alike(make_state(faster, one.accepted, one.fitted.model),
+                       make_state(faster, other.accepted, other.fitted.model));
+}
+
+}  // namespace towbench::study::diagnose

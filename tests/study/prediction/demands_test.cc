@@ -1,0 +1,72 @@
+// What a cause must show before it is named.
+#include "study/prediction/demands.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace towbench::tests {
+namespace {
+
+using namespace study::diagnose;
+using Eigen::VectorXd;
+
+constexpr Eigen::Index kRows = 100;
+constexpr double kCount_m = 1e-5;
+
+class Demands : public testing::Test {
+ protected:
+  Demands() {
+    nominal_.mass_kg = 2;
+    runs_.emplace_back();
+    runs_[0].period_s = 1e-3;
+    runs_[0].position_m = runs_[0].input_N = VectorXd::LinSpaced(kRows, 0, 0.1);
+    data_ = make_data(runs_, nominal_);
+    frame_.data = &data_;
+    frame_.context.stated = nominal_;
+    frame_.context.resolution_m = kCount_m;
+    frame_.context.input_rms_N = 10;
+    frame_.bandwidth = 50;
+    frame_.spans = {{0, kRows}};
+  }
+
+  static State leaving(double rms_m) {
+    State s;
+    s.fitted.e = VectorXd::Constant(kRows, rms_m);
+    return s;
+  }
+
+  NominalModel nominal_;
+  std::vector<study::diagnose::Run> runs_;
+  Data data_;
+  Frame frame_;
+};
+
+TEST_F(Demands, AShareIsOfWhatIsLeftBeyondTheEncodersSteps) {
+  const double left = kRows * std::pow(0.5 * kCount_m, 2);
+  const double after = kRows * std::pow(0.3 * kCount_m, 2);
+  EXPECT_NEAR(share_of(frame_, left - after, left, leaving(0.3 * kCount_m)),
+              (0.25 - 0.09) / (0.25 - 0.29 * 0.29), 1e-9);
+  EXPECT_NEAR(share_of(frame_, left, left, leaving(0)), 1, 1e-9);
+}
+
+// M w^2 e: 0.1 % of 10 N is 2 um at 50 rad/s and 2 kg.
+TEST_F(Demands, AForceIsWhatAnEffectChangesInThePrediction) {
+  const Effect& drag = *find_effect("quadratic_drag");
+  EXPECT_FALSE(matters(frame_, drag, leaving(5e-6), leaving(3.2e-6)));
+  EXPECT_TRUE(matters(frame_, drag, leaving(5e-6), leaving(2.8e-6)));
+  EXPECT_TRUE(matters(frame_, *find_effect("encoder_eccentricity"), leaving(5e-6), leaving(5e-6)))
+      << "a reading is no force";
+}
+
+TEST_F(Demands, AGainIsAskedForHoweverCertainACauseIs) {
+  const Limits limits;
+  EXPECT_TRUE(stands(limits, {.gain = 0.1, .standard_errors = 3}, 1e-4));
+  EXPECT_FALSE(stands(limits, {.gain = 0.1, .standard_errors = 2}, 1e-4));
+  EXPECT_TRUE(stands(limits, {.gain = 0.1, .standard_errors = 2}, 1e-13)) << "beyond doubt";
+  EXPECT_FALSE(stands(limits, {.gain = 0.005, .standard_errors = 9}, 1e-99));
+  EXPECT_FALSE(stands(limits, {.gain = 0.1, .standard_errors = 9}, 1e-2));
+}
+
+}  // namespace
+}  // namespace towbench::tests
