@@ -118,18 +118,18 @@ class Searcher {
   }
 
   bool convinces(const Candidate& c) const {
-    return c.plausible && stands(limits_, c.gain, c.p_value());
+    return c.plausible && is_significant(limits_, c.gain, c.p_value());
   }
 
-  // The best of the shortlist once each of it is fitted; null where none of it stands. Of two that
-  // predict alike, the more certain.
+  // The best of the shortlist once each of it is fitted; null where none of it is accepted. Of two
+  // that predict alike, the more certain.
   const Candidate* best_fitted(const State& s, const std::vector<Candidate>& list, State& best) {
     const Candidate* chosen = nullptr;
     const VectorXd base_e = innovations(data_, out_.base.fitted.model, frame_.bandwidth);
     for (const Candidate* c : shortlist(list)) {
       State other = with(frame_, s, *c, start_);
       const Comparison gain = compare(s.loss, other.loss, 2);
-      if (is_weak(frame_, s, other, base_e) || !stands(limits_, gain, c->p_value()) ||
+      if (is_weak(frame_, s, other, base_e) || !is_significant(limits_, gain, c->p_value()) ||
           !matters(frame_, *c->effect, s, other) || !is_worth_naming(frame_, other)) {
         continue;
       }
@@ -213,10 +213,10 @@ class Searcher {
   // An accepted cause against the model without it.
   struct Judged {
     State rest;
-    std::vector<Candidate> list;  // of what could stand in its place
+    std::vector<Candidate> list;  // of what could be in its place
     Comparison own;
     double p_value = 1;
-    bool stands = false;
+    bool is_accepted = false;
   };
 
   Judged judge(const State& now, std::size_t i) {
@@ -229,7 +229,8 @@ class Searcher {
                                      [&](const Candidate& c) { return c.effect == effect; });
     out.p_value =
         std::min(itself == out.list.end() ? 1 : itself->p_value(), own_p_value(now, i, out.own));
-    out.stands = stands(limits_, out.own, out.p_value) && matters(frame_, *effect, out.rest, now);
+    out.is_accepted =
+        is_significant(limits_, out.own, out.p_value) && matters(frame_, *effect, out.rest, now);
     return out;
   }
 
@@ -253,13 +254,13 @@ class Searcher {
     return std::nullopt;
   }
 
-  // Each accepted cause against none and against every other in its place. What does not stand at
+  // Each accepted cause against none and against every other in its place. What is not accepted at
   // this bandwidth may at the faster one.
   void revise(State& now) {
     for (std::size_t i = 0; i < now.accepted.size();) {
       const Judged judged = judge(now, i);
       std::optional<State> instead;
-      if (judged.stands) {
+      if (judged.is_accepted) {
         Cause cause{.effect = now.accepted[i].effect,
                     .sought = now.accepted[i].sought,
                     .p_value = judged.p_value,
@@ -272,8 +273,9 @@ class Searcher {
           ++i;
           continue;
         }
-      } else if (frame_.followed <= kRounding ||
-                 !at_faster(now, [&](const State& faster) { return judge(faster, i).stands; })) {
+      } else if (frame_.followed <= kRounding || !at_faster(now, [&](const State& faster) {
+                   return judge(faster, i).is_accepted;
+                 })) {
         instead = judged.rest;
       }
       if (instead) now = *std::move(instead);

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "study/prediction/demands.h"
+#include "study/prediction/acceptance.h"
 #include "study/prediction/screening.h"
 
 namespace towbench::study::diagnose {

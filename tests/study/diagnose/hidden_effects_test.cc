@@ -135,8 +135,8 @@ TEST(PairOfCauses, WhatOnlyTheReadingHasIsNamedBesideAStrongForce) {
               testing::IsSupersetOf({"thermal_drift", "encoder_eccentricity"}));
 }
 
-// With it the rest is slow: beside that it stands at a faster correction alone.
-TEST(PairOfCauses, WhatStandsAtAFasterCorrectionAloneIsKept) {
+// With it the rest is slow: beside that a faster correction alone shows it.
+TEST(PairOfCauses, WhatAFasterCorrectionAloneShowsIsKept) {
   EXPECT_THAT(
       names_of_pair("transport_delay", "stribeck", 63),
       testing::AnyOf(testing::Contains("transport_delay"), testing::Contains("current_loop_lag")));

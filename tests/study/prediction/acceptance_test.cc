@@ -1,5 +1,5 @@
 // What a cause must show before it is named.
-#include "study/prediction/demands.h"
+#include "study/prediction/acceptance.h"
 
 #include <cmath>
 
@@ -14,9 +14,9 @@ using Eigen::VectorXd;
 constexpr Eigen::Index kRows = 100;
 constexpr double kCount_m = 1e-5;
 
-class Demands : public testing::Test {
+class Acceptance : public testing::Test {
  protected:
-  Demands() {
+  Acceptance() {
     nominal_.mass_kg = 2;
     runs_.emplace_back();
     runs_[0].period_s = 1e-3;
@@ -42,7 +42,7 @@ class Demands : public testing::Test {
   Frame frame_;
 };
 
-TEST_F(Demands, AShareIsOfWhatIsLeftBeyondTheEncodersSteps) {
+TEST_F(Acceptance, AShareIsOfWhatIsLeftBeyondTheEncodersSteps) {
   const double left = kRows * std::pow(0.5 * kCount_m, 2);
   const double after = kRows * std::pow(0.3 * kCount_m, 2);
   EXPECT_NEAR(share_of(frame_, left - after, left, leaving(0.3 * kCount_m)),
@@ -51,7 +51,7 @@ TEST_F(Demands, AShareIsOfWhatIsLeftBeyondTheEncodersSteps) {
 }
 
 // M w^2 e: 0.1 % of 10 N is 2 um at 50 rad/s and 2 kg.
-TEST_F(Demands, AForceIsWhatAnEffectChangesInThePrediction) {
+TEST_F(Acceptance, AForceIsWhatAnEffectChangesInThePrediction) {
   const Effect& drag = *find_effect("quadratic_drag");
   EXPECT_FALSE(matters(frame_, drag, leaving(5e-6), leaving(3.2e-6)));
   EXPECT_TRUE(matters(frame_, drag, leaving(5e-6), leaving(2.8e-6)));
@@ -59,13 +59,13 @@ TEST_F(Demands, AForceIsWhatAnEffectChangesInThePrediction) {
       << "a reading is no force";
 }
 
-TEST_F(Demands, AGainIsAskedForHoweverCertainACauseIs) {
+TEST_F(Acceptance, AGainIsAskedForHoweverCertainACauseIs) {
   const Limits limits;
-  EXPECT_TRUE(stands(limits, {.gain = 0.1, .standard_errors = 3}, 1e-4));
-  EXPECT_FALSE(stands(limits, {.gain = 0.1, .standard_errors = 2}, 1e-4));
-  EXPECT_TRUE(stands(limits, {.gain = 0.1, .standard_errors = 2}, 1e-13)) << "beyond doubt";
-  EXPECT_FALSE(stands(limits, {.gain = 0.005, .standard_errors = 9}, 1e-99));
-  EXPECT_FALSE(stands(limits, {.gain = 0.1, .standard_errors = 9}, 1e-2));
+  EXPECT_TRUE(is_significant(limits, {.gain = 0.1, .standard_errors = 3}, 1e-4));
+  EXPECT_FALSE(is_significant(limits, {.gain = 0.1, .standard_errors = 2}, 1e-4));
+  EXPECT_TRUE(is_significant(limits, {.gain = 0.1, .standard_errors = 2}, 1e-13)) << "beyond doubt";
+  EXPECT_FALSE(is_significant(limits, {.gain = 0.005, .standard_errors = 9}, 1e-99));
+  EXPECT_FALSE(is_significant(limits, {.gain = 0.1, .standard_errors = 9}, 1e-2));
 }
 
 }  // namespace

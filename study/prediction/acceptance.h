@@ -1,4 +1,4 @@
-// What a cause must show before it is named, and when two are told apart.
+// What a cause must show before it is accepted, and when two are told apart.
 #pragma once
 
 #include "study/prediction/blocks.h"
@@ -18,7 +18,7 @@ inline constexpr double kAlias = 2;  // standard errors below which two are told
 
 // A gain there must be, however certain a cause is: of a million samples the least misfit of a law
 // is.
-[[nodiscard]] bool stands(const Limits& limits, const Comparison& gain, double p_value);
+[[nodiscard]] bool is_significant(const Limits& limits, const Comparison& gain, double p_value);
 
 // What an effect makes, in newtons: less is nothing, however certain. What only reads otherwise is
 // no force.

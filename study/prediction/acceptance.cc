@@ -1,4 +1,4 @@
-#include "study/prediction/demands.h"
+#include "study/prediction/acceptance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ bool predict_alike(const State& one, const State& other) {
 
 }  // namespace
 
-bool stands(const Limits& limits, const Comparison& gain, double p_value) {
+bool is_significant(const Limits& limits, const Comparison& gain, double p_value) {
   return p_value < limits.alpha && gain.gain > limits.least_gain &&
          (p_value < kBeyondDoubt || gain.standard_errors > limits.least_errors);
 }
