@@ -77,15 +77,15 @@ class Searcher {
     return true;
   }
 
-  // Goes on there if `does` says so.
-  template <typename Does>
-  bool at_faster(State& now, Does does) {
+  // Fits the model at the faster bandwidth, and keeps both if `is_better_there` accepts them.
+  template <typename Accepts>
+  bool at_faster(State& now, Accepts is_better_there) {
     Frame before = frame_;
     frame_.followed = kRounding;
     set_bandwidth(frame_, now.fitted.model);
     if (frame_.bandwidth > before.bandwidth) {
       State faster = make_state(frame_, now.accepted, now.fitted.model);
-      if (does(faster)) {
+      if (is_better_there(faster)) {
         now = std::move(faster);
         return true;
       }
@@ -255,7 +255,7 @@ class Searcher {
   }
 
   // Each accepted cause against none and against every other in its place. What is not accepted at
-  // this bandwidth may at the faster one.
+  // this bandwidth may be at the faster one.
   void revise(State& now) {
     for (std::size_t i = 0; i < now.accepted.size();) {
       const Judged judged = judge(now, i);

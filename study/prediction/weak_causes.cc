@@ -5,10 +5,10 @@
 namespace towbench::study::diagnose {
 namespace {
 
-// Of what the strongest takes: 5 % and a fifth of its force.
-constexpr double kNoLawIsBetter = 0.0025;
-constexpr double kBesideStrong = 0.04;
-constexpr double kMostOfLeft = 0.75;  // that shows a law of its own: half of the rms
+// Of the squares that the strongest takes: in force, 5 % and a fifth of it.
+constexpr double kLeastBesideStrong = 0.0025;
+constexpr double kEnoughBesideStrong = 0.04;
+constexpr double kMostOfLeft = 0.75;  // at which a cause is no misfit of another: half of the rms
 constexpr double kMuch = 0.25;        // least gain of all, and of a free shape or a clip
 constexpr double kPlainGain = 0.03;   // of any other, two standard errors below it
 
@@ -44,7 +44,7 @@ std::optional<std::size_t> weak_beside_others(const std::vector<Cause>& causes) 
 
 bool is_weak_beside(double taken, double by_the_strongest, double share_of_left) {
   const double of = taken / std::max(1e-300, by_the_strongest);
-  return of < kNoLawIsBetter || (of < kBesideStrong && share_of_left < kMostOfLeft);
+  return of < kLeastBesideStrong || (of < kEnoughBesideStrong && share_of_left < kMostOfLeft);
 }
 
 std::optional<std::size_t> weak_beside_the_rest(const std::vector<Cause>& causes, double gain) {

@@ -17,8 +17,8 @@ namespace towbench::study::diagnose {
 [[nodiscard]] std::optional<std::size_t> weak_beside_the_rest(const std::vector<Cause>& causes,
                                                               double gain);
 
-// Of squares: it takes little beside what the strongest takes, and leaves most of what there is.
-// Then it is that one's law, which does not fit quite.
+// True where a cause is likely the misfit of the strongest one's law: it takes few squares beside
+// that one, and few of what the others leave.
 [[nodiscard]] bool is_weak_beside(double taken, double by_the_strongest, double share_of_left);
 
 }  // namespace towbench::study::diagnose

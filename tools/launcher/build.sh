@@ -76,8 +76,8 @@ user_preset() { if configured_with TOWBENCH_STUDY; then study_preset; else echo 
 
 declare -A configured=() # the preset that each folder was configured for by this call
 
-# build_preset PRESET [TARGET...]: the log stays in build/. A folder is configured once: that writes the lists of tests
-# again, and who reads one meanwhile finds half of it.
+# build_preset PRESET [TARGET...]: the log stays in build/. A folder is configured once in a
+# call: to configure it writes the lists of tests again, and ctest may read one that is half written.
 build_preset() {
   local preset=$1 folder=$1 log
   shift

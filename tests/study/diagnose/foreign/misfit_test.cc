@@ -63,5 +63,11 @@ TEST(Misfit, IsNoneWhereTheLawIsTheRightOne) {
   EXPECT_FALSE(answer.unexplained);
 }
 
+// The share is drawn. Where it was assumed, what that made wrong was called friction that depends
+// on the load.
+TEST(Misfit, IsNoneWhereTheLoadsShareOfFrictionIsFittedWithPlay) {
+  EXPECT_EQ(answer_to("one", "backlash", 74046).words(), "backlash");
+}
+
 }  // namespace
 }  // namespace towbench::tests::foreign
