@@ -7,11 +7,11 @@
 #include "study/commands/leave_on_signal.h"
 #include "study/diagnose/bench_columns.h"
 #include "study/diagnose/diagnosis_json.h"
-#include "study/diagnose/extended_plant.h"
 #include "study/diagnose/headline.h"
 #include "study/diagnose/proposed_map.h"
 #include "study/diagnose/run_reader.h"
 #include "study/diagnosis_page/page.h"
+#include "study/extended_plant/extended_plant.h"
 #include "study/logs/column_map.h"
 #include "study/logs/read_table.h"
 

@@ -1,5 +1,5 @@
 // What was found must come back from the file that the emulator loads.
-#include "study/diagnose/extended_plant.h"
+#include "study/extended_plant/extended_plant.h"
 
 #include <cmath>
 #include <filesystem>

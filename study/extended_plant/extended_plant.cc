@@ -1,4 +1,4 @@
-#include "study/diagnose/extended_plant.h"
+#include "study/extended_plant/extended_plant.h"
 
 #include <algorithm>
 #include <cmath>
