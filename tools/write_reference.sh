@@ -1,6 +1,6 @@
 #!/bin/sh
 # The pages of docs/reference that the programs and the sources define: verbs.md, metrics.md,
-# signals.md, errors.md, faults.md.
+# signals.md, causes.md, errors.md, faults.md.
 # usage: write_reference.sh ROOT BENCH PANEL STUDY [FOLDER]     FOLDER: write there instead of docs/reference
 #        write_reference.sh --check ROOT BENCH PANEL STUDY      exit 1 where the pages differ from the programs
 # shellcheck disable=SC2016  # the backticks are Markdown
@@ -50,6 +50,12 @@ help_of() { # help_of PROGRAM VERB
   printf '```\n'
 } >"$out/signals.md"
 
+{
+  printf '# Causes\n\nWhat a diagnosis can name (`./towbench diagnose --causes`): the registry of `study/prediction/*_effects.cc`. Numbers in brackets are the\nthesis'"'"'s. Written by `tools/write_reference.sh`.\n\n```text\n'
+  "$study" diagnose --causes
+  printf '```\n'
+} >"$out/causes.md"
+
 # Numbers and names from core/error.h, phrases from core/error.cc.
 {
   printf '# Errors\n\nA number is grouped by its origin and never used again for another error. Written by `tools/write_reference.sh` from\n'
@@ -97,7 +103,7 @@ help_of() { # help_of PROGRAM VERB
 
 if $check; then
   status=0
-  for page in verbs metrics signals errors faults; do
+  for page in verbs metrics signals causes errors faults; do
     if ! diff -u "$root/docs/reference/$page.md" "$out/$page.md"; then
       echo "docs/reference/$page.md differs: run tools/write_reference.sh" >&2
       status=1

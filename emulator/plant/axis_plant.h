@@ -74,6 +74,9 @@ class AxisPlant {
   AxisPlant(const AxisParameters& parameters, double carriage_m,
             double tick_s = core::kPlantTick_s);
 
+  // Between two steps both bodies are put further and faster, as one: what is bent or flows stays.
+  TOWBENCH_REALTIME void displace(double by_m, double by_m_per_s) noexcept;
+
   // Advances by one tick. `segments` describes the motor shaft during it, without gaps.
   TOWBENCH_REALTIME void step(const AxisInput& input, MotionSegments& segments) noexcept;
 

@@ -13,6 +13,7 @@
 #include "study/commands/diagnose_active.h"
 #include "study/commands/diagnose_logs.h"
 #include "study/commands/verbs.h"
+#include "study/diagnose/cause_list.h"
 #include "study/diagnose/diagnosis_json.h"
 #include "study/diagnose/explain.h"
 #include "study/diagnose/headline.h"
@@ -82,6 +83,13 @@ void add_diagnose(CLI::App& app, int& exit_code) {
   verb->add_option("--explain", options->explain,
                    "why this effect was named, or not; may be repeated")
       ->check(CLI::IsMember(names_of_effects()));
+  verb->add_flag_callback(
+      "--causes",
+      [] {
+        std::fputs(diagnose::cause_list().c_str(), stdout);
+        throw CLI::Success();
+      },
+      "print what can be named, with laws and sources, and exit");
   verb->add_option("--out", options->out, "folder to write to")->check(harness::folder_to_write());
   verb->add_option("--seed", options->seed, "of the bootstrap and the simulated references")
       ->check(harness::whole_number());
@@ -95,6 +103,7 @@ void add_diagnose(CLI::App& app, int& exit_code) {
       "         towbench diagnose --model plant.toml --data a.csv --data b.csv --columns map.toml\n"
       "         towbench diagnose --data log.csv\n"
       "         towbench diagnose --data runs/FOLDER --explain backlash\n"
+      "         towbench diagnose --causes\n"
       "A log alone is explained, with a map to correct; with its map and no model, mass and "
       "friction "
       "are estimated.\n"

@@ -1,5 +1,8 @@
 #include "study/commands/diagnose_logs.h"
 
+#include <algorithm>
+#include <numbers>
+
 #include "harness/commands/progress_line.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/proof/run_manifest.h"
@@ -11,6 +14,7 @@
 #include "study/diagnose/proposed_map.h"
 #include "study/diagnose/run_reader.h"
 #include "study/diagnosis_page/page.h"
+#include "study/extended_plant/emulated_log.h"
 #include "study/extended_plant/extended_plant.h"
 #include "study/logs/column_map.h"
 #include "study/logs/read_table.h"
@@ -70,8 +74,35 @@ toml::table estimated_plant(const diagnose::Diagnosis& d) {
                    {"coulomb_friction_N", at_least_0(diagnose::Key::kCoulomb)},
                    {"force_gain_N_per_V", d.context.input_max_N / kFull_V},
                    {"pwm_amplitude_V", kFull_V}};
+  if (d.context.stated.rotary) {
+    axis.insert_or_assign("transmission", toml::table{{"kind", "direct"}});
+  }
+  constexpr double kMostCounts = 40'000;  // a motor turn, by the plant file
+  const double metres_a_turn = d.context.stated.rotary ? 2 * std::numbers::pi : 0.05;
+  if (d.context.resolution_m > 0) {
+    axis.insert_or_assign(
+        "encoder_counts_per_m",
+        std::clamp(1 / d.context.resolution_m, 4 / metres_a_turn, kMostCounts / metres_a_turn));
+  }
   return toml::table{{"schema", 1},
                      {"axis", toml::table{{d.context.stated.axis, std::move(axis)}}}};
+}
+
+toml::table plant_before(const DiagnoseOptions& options, const PlantModel& plant,
+                         const diagnose::Diagnosis& d) {
+  return has_no_model(options) ? estimated_plant(d) : plant.plant;
+}
+
+// The emulator on the logs that judge.
+diagnose::Emulated emulated(const DiagnoseOptions& options, const PlantModel& plant,
+                            const diagnose::Request& request, const diagnose::Diagnosis& d) {
+  const toml::table before = plant_before(options, plant, d);
+  const diagnose::ExtendedPlant extended = diagnose::extend_plant(before, d);
+  diagnose::Emulated out =
+      diagnose::emulate(request.holdout.empty() ? request.runs : request.holdout, d.context.stated,
+                        before, toml::parse(extended.text));
+  out.left_out = extended.left_out;
+  return out;
 }
 
 }  // namespace
@@ -142,6 +173,10 @@ diagnose::Diagnosis diagnose_logs(const DiagnoseOptions& options, PlantModel pla
   harness::ProgressLine progress(!options.quiet);
   request.progress = [&progress](const std::string& line) { progress.show(line); };
   diagnose::Diagnosis d = diagnose::diagnose(request);
+  if (!is_fatal(d.findings)) {
+    progress.show("the emulator on the logs");
+    d.emulated = emulated(options, plant, request, d);
+  }
   d.findings.insert(d.findings.begin(), findings.begin(), findings.end());
   return d;
 }
@@ -153,9 +188,8 @@ void write_diagnosis(const DiagnoseOptions& options, const PlantModel& plant,
   std::filesystem::create_directories(folder);
   harness::write_atomically(folder / "diagnosis.json", diagnose::diagnosis_json(d));
   const bool none = has_no_model(options);
-  harness::write_atomically(
-      folder / "extended_plant.toml",
-      diagnose::extend_plant(none ? estimated_plant(d) : plant.plant, d).text);
+  harness::write_atomically(folder / "extended_plant.toml",
+                            diagnose::extend_plant(plant_before(options, plant, d), d).text);
   diagnose::write_series(d, folder);
   harness::write_atomically(
       folder / "report.html",

@@ -8,13 +8,15 @@ namespace towbench::study {
 namespace {
 
 constexpr double kDegrees = 57.29577951308232;  // of a radian
+constexpr double kRounding = 1e-9;              // of two levels that a file means to be one
 
 void add_stated_terms(diagnose::NominalModel& m, const emulator::AxisParameters& p,
                       const toml::table& stated) {
   const double r = m.metres_per_motor_rad;
   const auto friction = stated["friction"];
   if (friction["breakaway_Nm"]) {
-    m.breakaway_excess_N = (p.friction.breakaway_Nm - p.coulomb_friction_Nm) / r;
+    const double excess_Nm = p.friction.breakaway_Nm - p.coulomb_friction_Nm;
+    m.breakaway_excess_N = excess_Nm > kRounding * p.coulomb_friction_Nm ? excess_Nm / r : 0;
     m.stribeck_speed_m_per_s = p.friction.stribeck_speed_rad_per_s * r;
     m.stribeck_is_lorentz = p.friction.stribeck_form == emulator::StribeckForm::kLorentz;
   }

@@ -75,9 +75,10 @@ struct Diagnosis {
   std::vector<NotTestable> not_testable;
   Scored scored;
   FreeRun free_run;
-  Parameters extended;       // the model with what was found
-  double bandwidth = 0;      // rad/s
-  double innovations_m = 0;  // rms that is left
+  std::optional<Emulated> emulated;  // by whoever has a plant file
+  Parameters extended;               // the model with what was found
+  double bandwidth = 0;              // rad/s
+  double innovations_m = 0;          // rms that is left
   std::size_t tried = 0;
   Series series;  // for pictures
 };

@@ -117,17 +117,33 @@ Json heldout(const Diagnosis& d) {
 
 Json free_run(const FreeRun& f) {
   Json out{{"window_s", kWindow_s},
-           {"windows", f.windows},
+           {"windows", f.windows.count},
            {"whole_run_rms_mm",
             {{"supplied", 1e3 * f.whole_supplied_m},
              {"refitted", 1e3 * f.whole_refitted_m},
              {"extended", 1e3 * f.whole_extended_m}}}};
   out["position_error"] = nullptr;
-  if (f.windows > 0) {
-    out["position_error"] = {{"supplied_rms_mm", 1e3 * f.supplied_m},
+  if (f.windows.count > 0) {
+    out["position_error"] = {{"supplied_rms_mm", 1e3 * f.windows.supplied_m},
                              {"refitted_rms_mm", 1e3 * f.refitted_m},
-                             {"extended_rms_mm", 1e3 * f.extended_m},
-                             {"gain_pct", interval(f.gain95, 100, "ci95")}};
+                             {"extended_rms_mm", 1e3 * f.windows.extended_m},
+                             {"gain_pct", interval(f.windows.gain95, 100, "ci95")}};
+  }
+  return out;
+}
+
+Json emulated(const std::optional<Emulated>& e) {
+  if (!e) return nullptr;
+  Json out{{"window_s", kWindow_s},
+           {"windows", e->windows.count},
+           {"whole_run_rms_mm",
+            {{"supplied", 1e3 * e->whole_supplied_m}, {"extended", 1e3 * e->whole_extended_m}}},
+           {"left_out", e->left_out}};
+  out["position_error"] = nullptr;
+  if (e->windows.count > 0) {
+    out["position_error"] = {{"supplied_rms_mm", 1e3 * e->windows.supplied_m},
+                             {"extended_rms_mm", 1e3 * e->windows.extended_m},
+                             {"gain_pct", interval(e->windows.gain95, 100, "ci95")}};
   }
   return out;
 }
@@ -171,6 +187,7 @@ std::string diagnosis_json(const Diagnosis& d) {
   }
   out["heldout"] = heldout(d);
   out["confirmed"] = free_run(d.free_run);
+  out["emulated"] = emulated(d.emulated);
   out["noise_floor"] = {{"innovations_rms_m", d.innovations_m},
                         {"encoder_step_m", d.context.resolution_m}};
   out["method"] = {

@@ -65,13 +65,12 @@ double whole(const Data& data, const Model& model) {
   return std::sqrt(sum / static_cast<double>(run.size()));
 }
 
-VectorXd blocks_of(const std::vector<double>& squares) {
-  constexpr std::size_t kInBlock = 10;  // windows overlap
-  VectorXd out(std::ssize(squares) / static_cast<std::ptrdiff_t>(kInBlock));
+VectorXd blocks_of(const std::vector<double>& squares, Index in_block) {
+  VectorXd out(std::ssize(squares) / in_block);
   for (Index i = 0; i < out.size(); ++i) {
     out[i] = 0;
-    for (std::size_t j = 0; j < kInBlock; ++j) {
-      out[i] += squares[static_cast<std::size_t>(i) * kInBlock + j];
+    for (Index j = 0; j < in_block; ++j) {
+      out[i] += squares[static_cast<std::size_t>(i * in_block + j)];
     }
   }
   return out;
@@ -85,6 +84,19 @@ double rms(const std::vector<double>& squares) {
 
 }  // namespace
 
+Windows compare_windows(const std::vector<double>& supplied, const std::vector<double>& extended,
+                        Index in_block) {
+  Windows out;
+  if (std::ssize(supplied) < kFewest) return out;
+  out.count = std::ssize(supplied);
+  out.supplied_m = rms(supplied);
+  out.extended_m = rms(extended);
+  const Comparison gain =
+      compare(blocks_of(supplied, in_block), blocks_of(extended, in_block), statistics::kNormal95);
+  out.gain95 = {gain.gain, gain.low, gain.high};
+  return out;
+}
+
 FreeRun run_free(const Data& data, const Search& search) {
   const Model supplied{parameters_of(search.context.stated),
                        std::vector<OfRun>(data.scenes.size())};
@@ -97,18 +109,13 @@ FreeRun run_free(const Data& data, const Search& search) {
   const Model extended = fits(search.final.fitted.model);
   FreeRun out;
   const double w = force_bandwidth(search.context, extended.parameters[Key::kMass]);
-  const auto before = windows_of(data, supplied, w);
-  const auto after = windows_of(data, extended, w);
+  constexpr Index kOverlapping = 10;
+  out.windows =
+      compare_windows(windows_of(data, supplied, w), windows_of(data, extended, w), kOverlapping);
+  if (out.windows.count > 0) out.refitted_m = rms(windows_of(data, refitted, w));
   out.whole_supplied_m = whole(data, supplied);
   out.whole_refitted_m = whole(data, refitted);
   out.whole_extended_m = whole(data, extended);
-  if (std::ssize(before) < kFewest) return out;
-  out.windows = std::ssize(before);
-  out.supplied_m = rms(before);
-  out.refitted_m = rms(windows_of(data, refitted, w));
-  out.extended_m = rms(after);
-  const Comparison gain = compare(blocks_of(before), blocks_of(after), statistics::kNormal95);
-  out.gain95 = {gain.gain, gain.low, gain.high};
   return out;
 }
 

@@ -67,11 +67,14 @@ std::string how_sure(const Diagnosis& d) {
       std::max(worst, 1e-300), d.tried, d.scored.same_session ? "" : "; scored on held-out runs");
 }
 
-std::string simulated(const FreeRun& f, const Units& units) {
-  return f.windows == 0
+std::string simulated(const Diagnosis& d, const Units& units) {
+  const Windows& w = d.emulated ? d.emulated->windows : d.free_run.windows;
+  return w.count == 0
              ? std::string{}
-             : fmt::format("; left to itself for {:g} s, it ends {:.3g} instead of {:.3g} {} off",
-                           kWindow_s, 1e3 * f.extended_m, 1e3 * f.supplied_m, units.thousandth);
+             : fmt::format(
+                   "; {} for {:g} s, it ends {:.3g} instead of {:.3g} {} off",
+                   d.emulated ? "in the emulator under the measured input alone" : "left to itself",
+                   kWindow_s, 1e3 * w.extended_m, 1e3 * w.supplied_m, units.thousandth);
 }
 
 std::string what_it_gains(const Diagnosis& d) {
@@ -88,7 +91,7 @@ std::string what_it_gains(const Diagnosis& d) {
   const Interval& gain = named ? s.gain95 : s.over_supplied95;
   return fmt::format("{:.1f} % of the {}, {:.3g} to {:.3g} {} rms (95 %: {:.1f} to {:.1f} %){}",
                      100 * gain.value, of, named ? s.before_rms_N : s.supplied_rms_N, s.after_rms_N,
-                     units.force, 100 * gain.low, 100 * gain.high, simulated(d.free_run, units));
+                     units.force, 100 * gain.low, 100 * gain.high, simulated(d, units));
 }
 
 std::string in_one_line(const Diagnosis& d) {
@@ -98,6 +101,22 @@ std::string in_one_line(const Diagnosis& d) {
                        shift.fitted.value, shift.unit, shift.fitted.low, shift.fitted.high);
   }
   return "Estimated:     " + out + ".\n";
+}
+
+// What is written may lack a cause, and that one may be most of it.
+std::string about_the_file(const Diagnosis& d) {
+  if (!d.emulated) return "use extended_plant.toml";
+  const Windows& w = d.emulated->windows;
+  std::string without;
+  for (const std::string& cause : d.emulated->left_out) {
+    without += (without.empty() ? "" : ", ") + cause;
+  }
+  if (w.count > 0 && w.extended_m >= w.supplied_m) {
+    return "keep the supplied plant: the emulator with extended_plant.toml ends no nearer" +
+           (without.empty() ? "" : ", for it cannot have " + without);
+  }
+  return "use extended_plant.toml" +
+         (without.empty() ? "" : "; the emulator's plant cannot have " + without);
 }
 
 std::string next_step(const Diagnosis& d) {
@@ -123,7 +142,7 @@ std::string next_step(const Diagnosis& d) {
   }
   return d.verdicts.front() == "model_adequate"
              ? "nothing; see not_testable for what was out of reach"
-             : "use extended_plant.toml";
+             : about_the_file(d);
 }
 
 }  // namespace

@@ -107,12 +107,21 @@ std::string confirmed(const Diagnosis& d) {
     return fmt::format("{:.3g} {}", 1e3 * metres, of.thousandth);
   };
   std::vector<Row> rows;
-  if (f.windows > 0) {
-    rows.push_back({fmt::format("after {:g} s, {} windows", diagnose::kWindow_s, f.windows),
-                    mm(f.supplied_m), mm(f.refitted_m), mm(f.extended_m)});
+  if (f.windows.count > 0) {
+    rows.push_back({fmt::format("after {:g} s, {} windows", diagnose::kWindow_s, f.windows.count),
+                    mm(f.windows.supplied_m), mm(f.refitted_m), mm(f.windows.extended_m)});
   }
   rows.push_back({"over the whole longest run", mm(f.whole_supplied_m), mm(f.whole_refitted_m),
                   mm(f.whole_extended_m)});
+  if (d.emulated) {
+    const diagnose::Emulated& e = *d.emulated;
+    if (e.windows.count > 0) {
+      rows.push_back({fmt::format("in the emulator, after {:g} s", diagnose::kWindow_s),
+                      mm(e.windows.supplied_m), "", mm(e.windows.extended_m)});
+    }
+    rows.push_back({"in the emulator, over the whole longest run", mm(e.whole_supplied_m), "",
+                    mm(e.whole_extended_m)});
+  }
   return table({"distance from the measured place, rms", "as supplied", "refitted", "extended"},
                rows);
 }

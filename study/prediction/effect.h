@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "study/prediction/context.h"
+#include "study/prediction/plant_values.h"
 
 namespace towbench::study::diagnose {
 
@@ -17,6 +18,8 @@ struct Effect {
   std::string name = {};
   std::string cause = {};  // in words, after "the model lacks"
   std::string needs = {};  // the data that would show it
+  std::string law = {};    // what is added to the forces that act, load side
+  std::string source = {};
   // Linear in the force: one column each. Empty: the effect as it is set is one column, and its
   // coefficient is 1 where it is right.
   std::vector<Key> amplitudes = {};
@@ -39,6 +42,10 @@ struct Effect {
   // Sets scales and whatever else it needs; amplitudes stay.
   void (*set)(Parameters&, const Context&, std::span<const double>) = nullptr;
   double (*step)(const Context&) = nullptr;  // of an amplitude, for its derivative
+  // Keys of the plant file below [axis.NAME], or of its water, and their values. Empty: the
+  // emulator cannot have it.
+  std::vector<std::string> plant_keys = {};
+  PlantValues (*plant_values)(const Parameters&, const StatedPlant&) = nullptr;
 };
 
 // The families; each in a file of its own.

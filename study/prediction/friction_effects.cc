@@ -1,5 +1,6 @@
 // Friction: by direction, speed, load, path and time; laws of 3.2.2 of the thesis and their kin.
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -27,6 +28,65 @@ std::vector<Scales> warming_times(const Context& c) {
   return multiples({0.15, 0.5, 5}, c.duration_s);
 }
 
+// Of a level: a tenth of it must be left.
+constexpr double kMostTaken = 0.9;
+constexpr double kDrySpring = 0.5;  // of kPresliding, that follows the way
+
+// Break-away is alike in both directions, unless it would lie below what slides.
+PlantValues coulomb_asymmetry_values(const Parameters& p, const StatedPlant& stated) {
+  const FileFriction f = file_friction(p, stated);
+  const double share = p[Key::kCoulombAsymmetry] / f.coulomb_N;
+  if (!(std::abs(share) <= kMostTaken)) return {};
+  const double breakaway_N = f.coulomb_N + f.excess_N;
+  const bool below = breakaway_N < f.coulomb_N * (1 + std::abs(share));
+  return {share, below ? share * f.coulomb_N / breakaway_N : 0.0};
+}
+
+PlantValues viscous_asymmetry_values(const Parameters& p, const StatedPlant& /*stated*/) {
+  const double share = p[Key::kViscousAsymmetry] / p[Key::kViscous];
+  return std::abs(share) <= kMostTaken ? PlantValues{share} : PlantValues{};
+}
+
+// What holds the object is in the water, too.
+PlantValues drag_values(const Parameters& p, const StatedPlant& stated) {
+  const double drag = p[Key::kDrag] - stated.shaft_drag_N_s2_per_m2;
+  return stated.tows && drag >= 0 ? PlantValues{true, drag} : PlantValues{};
+}
+
+PlantValues load_friction_values(const Parameters& p, const StatedPlant& /*stated*/) {
+  return {std::max(0.0, p[Key::kLoadFriction])};
+}
+
+const std::vector<std::string> kStribeckKeys{
+    "friction.breakaway_Nm", "friction.stribeck_speed_rad_per_s", "friction.stribeck_form"};
+// Also what only leaves rest: the plant has one curve for both. Of two scales, none.
+PlantValues stribeck_values(const Parameters& p, const StatedPlant& stated) {
+  if (p[Key::kStribeck] != 0 && p[Key::kBreakaway] != 0) return {};
+  const FileFriction f = file_friction(p, stated);
+  const double r = stated.metres_per_motor_rad;
+  const bool falls_both_ways = p[Key::kStribeck] != 0;
+  const bool lorentz = falls_both_ways && stated.model.stribeck_is_lorentz;
+  return {(f.coulomb_N + f.excess_N) * r,
+          p[falls_both_ways ? Key::kStribeckSpeed : Key::kBreakawaySpeed] / r,
+          std::string(lorentz ? "lorentz" : "gaussian")};
+}
+
+// Dahl's bristles as Prandtl's element that takes as much work from a reversal: 2 b l = 2 C travel.
+PlantValues presliding_values(const Parameters& p, const StatedPlant& stated) {
+  const double coulomb_N = p[Key::kCoulomb];
+  const double bristles_N = std::min(kDrySpring * p[Key::kPresliding], coulomb_N);
+  if (coulomb_N <= 0) return {};
+  return {p[Key::kPreslidingTravel] * bristles_N / (coulomb_N * stated.metres_per_motor_rad), 0.0};
+}
+
+// k W = depth W' of a store that the power depth C v_top / k fills.
+PlantValues warming_values(const Parameters& p, const StatedPlant& stated) {
+  const double k = p[Key::kWorkWarming];
+  if (k <= 0 || k > kMostTaken) return {};
+  return {kMostTaken, kMostTaken * p[Key::kCoulomb] * stated.top_speed_m_per_s / k,
+          p[Key::kWorkWarmingTime]};
+}
+
 }  // namespace
 
 void add_friction_effects(std::vector<Effect>& library) {
@@ -36,31 +96,46 @@ void add_friction_effects(std::vector<Effect>& library) {
   library.push_back({.name = "coulomb_asymmetry",
                      .cause = "dry friction that differs between the two directions",
                      .needs = both,
+                     .law = "dry friction C + d sgn v",
+                     .source = "Armstrong-Helouvry 1991",
                      .amplitudes = {Key::kCoulombAsymmetry},
                      .amplitude_names = {"half_difference_N"},
                      .grid = no_scale,
                      .set = set_nothing,
-                     .step = force_step});
+                     .step = force_step,
+                     .plant_keys = {"friction.asymmetry.coulomb", "friction.asymmetry.breakaway"},
+                     .plant_values = coulomb_asymmetry_values});
   library.push_back({.name = "viscous_asymmetry",
                      .cause = "viscous friction that differs between the two directions",
                      .needs = "both directions, each at two or more speeds",
+                     .law = "d |v|",
+                     .source = "Armstrong-Helouvry 1991",
                      .amplitudes = {Key::kViscousAsymmetry},
                      .amplitude_names = {"half_difference_N_s_per_m"},
                      .grid = no_scale,
                      .set = set_nothing,
-                     .step = viscous_step});
-  library.push_back({.name = "quadratic_drag",
-                     .cause = "drag growing with the square of speed",
-                     .needs = fast,
-                     .amplitudes = {Key::kDrag},
-                     .amplitude_names = {"drag_N_s2_per_m2"},
-                     .positive = true,
-                     .grid = no_scale,
-                     .set = set_nothing,
-                     .step = drag_step});
+                     .step = viscous_step,
+                     .plant_keys = {"friction.asymmetry.viscous"},
+                     .plant_values = viscous_asymmetry_values});
+  library.push_back(
+      {.name = "quadratic_drag",
+       .cause = "drag growing with the square of speed",
+       .needs = fast,
+       .law = "D v |v|",
+       .source = "(3.7)",
+       .amplitudes = {Key::kDrag},
+       .amplitude_names = {"drag_N_s2_per_m2"},
+       .positive = true,
+       .grid = no_scale,
+       .set = set_nothing,
+       .step = drag_step,
+       .plant_keys = {"water.object.in_water", "water.object.quadratic_drag_N_s2_per_m2"},
+       .plant_values = drag_values});
   library.push_back({.name = "cubic_viscous",
                      .cause = "friction growing with the cube of speed",
                      .needs = fast,
+                     .law = "k v^3",
+                     .source = "assumed: the next odd power of speed",
                      .amplitudes = {Key::kCubic},
                      .amplitude_names = {"coefficient_N_s3_per_m3"},
                      .grid = no_scale,
@@ -69,26 +144,37 @@ void add_friction_effects(std::vector<Effect>& library) {
   library.push_back({.name = "load_dependent_friction",
                      .cause = "friction growing with the transmitted force",
                      .needs = "accelerating and coasting at the same speed",
+                     .law = "dry friction + mu |F|, F that the transmission passes on",
+                     .source = "Hamon, Gautier, Garrec 2010",
                      .amplitudes = {Key::kLoadFriction},
                      .amplitude_names = {"friction_per_load_ratio"},
                      .positive = true,
                      .grid = no_scale,
                      .set = set_nothing,
-                     .step = share_step});
-  library.push_back({.name = "stribeck",
-                     .cause = "friction rising towards zero speed (Stribeck)",
-                     .needs = slow,
-                     .amplitudes = {Key::kStribeck},
-                     .amplitude_names = {"rise_N"},
-                     .scales = {Key::kStribeckSpeed},
-                     .scale_names = {"stribeck_speed_m_per_s"},
-                     .positive = true,
-                     .grid = low_speeds,
-                     .set = set_scale<Key::kStribeckSpeed>,
-                     .step = force_step});
+                     .step = share_step,
+                     .plant_keys = {"friction.load_ratio"},
+                     .plant_values = load_friction_values});
+  library.push_back(
+      {.name = "stribeck",
+       .cause = "friction rising towards zero speed (Stribeck)",
+       .needs = slow,
+       .law = "dry friction + d exp(-(v/v_s)^2), or d / (1 + (v/v_s)^2) where the file says so",
+       .source = "(3.25), (3.26)",
+       .amplitudes = {Key::kStribeck},
+       .amplitude_names = {"rise_N"},
+       .scales = {Key::kStribeckSpeed},
+       .scale_names = {"stribeck_speed_m_per_s"},
+       .positive = true,
+       .grid = low_speeds,
+       .set = set_scale<Key::kStribeckSpeed>,
+       .step = force_step,
+       .plant_keys = kStribeckKeys,
+       .plant_values = stribeck_values});
   library.push_back({.name = "low_speed_rolloff",
                      .cause = "friction falling towards zero speed",
                      .needs = slow,
+                     .law = "dry friction - d exp(-|v|/v_s)",
+                     .source = "assumed",
                      .amplitudes = {Key::kRolloff},
                      .amplitude_names = {"fall_N"},
                      .scales = {Key::kRolloffSpeed},
@@ -100,6 +186,8 @@ void add_friction_effects(std::vector<Effect>& library) {
   library.push_back({.name = "stiction",
                      .cause = "a break-away force above the sliding friction",
                      .needs = "many starts from rest, with slow ramps",
+                     .law = "dry friction + d exp(-(v/v_s)^2), at rest and while speed grows",
+                     .source = "Karnopp 1985",
                      .amplitudes = {Key::kBreakaway},
                      .amplitude_names = {"excess_N"},
                      .scales = {Key::kBreakawaySpeed},
@@ -107,21 +195,30 @@ void add_friction_effects(std::vector<Effect>& library) {
                      .positive = true,
                      .grid = low_speeds,
                      .set = set_scale<Key::kBreakawaySpeed>,
-                     .step = force_step});
-  library.push_back({.name = "presliding",
-                     .cause = "friction that builds up over a path after each reversal",
-                     .needs = "small reversals at two speeds",
-                     .amplitudes = {Key::kPresliding},
-                     .amplitude_names = {"missing_at_reversal_N"},
-                     .scales = {Key::kPreslidingTravel},
-                     .scale_names = {"travel_m"},
-                     .positive = true,
-                     .grid = travels,
-                     .set = set_scale<Key::kPreslidingTravel>,
-                     .step = force_step});
+                     .step = force_step,
+                     .plant_keys = kStribeckKeys,
+                     .plant_values = stribeck_values});
+  library.push_back(
+      {.name = "presliding",
+       .cause = "friction that builds up over a path after each reversal",
+       .needs = "small reversals at two speeds",
+       .law = "dry friction - d/2 (1 - z sgn v), l dz/d|x| = sgn v - z",
+       .source = "Dahl 1968",
+       .amplitudes = {Key::kPresliding},
+       .amplitude_names = {"missing_at_reversal_N"},
+       .scales = {Key::kPreslidingTravel},
+       .scale_names = {"travel_m"},
+       .positive = true,
+       .grid = travels,
+       .set = set_scale<Key::kPreslidingTravel>,
+       .step = force_step,
+       .plant_keys = {"friction.presliding.travel_rad", "friction.presliding.damping_ratio"},
+       .plant_values = presliding_values});
   library.push_back({.name = "thermal_drift",
                      .cause = "friction that changes in the course of the session",
                      .needs = "the same motion cold and warm",
+                     .law = "dry friction - d (1 - exp(-t/T)), t since the session began",
+                     .source = "assumed: one heat store",
                      .amplitudes = {Key::kWarming},
                      .amplitude_names = {"fall_over_session_N"},
                      .scales = {Key::kWarmingTime},
@@ -133,6 +230,8 @@ void add_friction_effects(std::vector<Effect>& library) {
   library.push_back({.name = "thermal_drift",
                      .cause = "friction that falls with what it has dissipated",
                      .needs = "the same motion cold and warm",
+                     .law = "dry friction (1 - k W), T W' = power / power at top speed - W",
+                     .source = "assumed: one heat store",
                      .amplitudes = {Key::kWorkWarming},
                      .amplitude_names = {"fall_at_top_speed_ratio"},
                      .scales = {Key::kWorkWarmingTime},
@@ -140,7 +239,10 @@ void add_friction_effects(std::vector<Effect>& library) {
                      .shares_mean_with = Key::kCoulomb,
                      .grid = warming_times,
                      .set = set_scale<Key::kWorkWarmingTime>,
-                     .step = share_step});
+                     .step = share_step,
+                     .plant_keys = {"friction.warming.depth", "friction.warming.full_power_W",
+                                    "friction.warming.time_constant_s"},
+                     .plant_values = warming_values});
 }
 
 }  // namespace towbench::study::diagnose

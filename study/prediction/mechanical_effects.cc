@@ -1,5 +1,6 @@
 // Masses that are not where the rigid model has them, and the other axis.
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -66,6 +67,26 @@ double play_step(const Context& c) {
   return std::max(0.5 * c.resolution_m, 1e-6);
 }
 
+// Play is of the gear; other slack stays as stated.
+PlantValues play_alone_values(const Parameters& p, const StatedPlant& stated) {
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  const double arc_m = p[Key::kPlay] - stated.slack_m;
+  return arc_m >= 0 ? PlantValues{arc_m / stated.output_radius_m * kDegrees} : PlantValues{};
+}
+
+std::vector<std::string> play_keys() {
+  std::vector<std::string> keys = transmission_keys();
+  keys.emplace_back("gear.backlash_deg");
+  return keys;
+}
+PlantValues play_values(const Parameters& p, const StatedPlant& stated) {
+  PlantValues values = transmission_values(p, stated);
+  const PlantValues play = play_alone_values(p, stated);
+  if (values.empty() || play.empty()) return {};
+  values.push_back(play.front());
+  return values;
+}
+
 }  // namespace
 
 void add_mechanical_effects(std::vector<Effect>& library) {
@@ -74,6 +95,8 @@ void add_mechanical_effects(std::vector<Effect>& library) {
   library.push_back({.name = "chain_elasticity",
                      .cause = "an elastic transmission between motor and load",
                      .needs = resolved,
+                     .law = "F_t = K d + B d', d of motor against load",
+                     .source = "(3.37), (3.38)",
                      .scales = {Key::kStiffness, Key::kDamping, Key::kMotorMass, Key::kLoadShare},
                      .scale_names = {"stiffness_N_per_m", "damping_N_s_per_m", "motor_mass_kg",
                                      "friction_share_of_load"},
@@ -81,19 +104,27 @@ void add_mechanical_effects(std::vector<Effect>& library) {
                      .whole = 1,
                      .grid = modes,
                      .set = set_elastic,
-                     .step = whole_step});
+                     .step = whole_step,
+                     .plant_keys = transmission_keys(),
+                     .plant_values = transmission_values});
   library.push_back({.name = "chain_elasticity",
                      .cause = "a transmission stiffer or softer, or damped otherwise, than stated",
                      .needs = resolved,
+                     .law = "the same, K and B other than stated",
+                     .source = "(3.37), (3.38)",
                      .amplitudes = {Key::kStiffness, Key::kDamping},
                      .amplitude_names = {"stiffness_N_per_m", "damping_N_s_per_m"},
                      .grid = where_elastic,
                      .set = set_nothing,
-                     .step = stiffness_step});
+                     .step = stiffness_step,
+                     .plant_keys = transmission_keys(),
+                     .plant_values = transmission_values});
   library.push_back(
       {.name = "backlash",
        .cause = "play: after the load lets go of a flank the motor moves without it",
        .needs = reversals,
+       .law = "F_t = 0 while |d| < p/2",
+       .source = "Nordin, Gutman 2002",
        .scales = {Key::kPlay, Key::kMotorMass, Key::kStiffness, Key::kDamping, Key::kLoadShare},
        .scale_names = {"play_m", "motor_mass_kg", "stiffness_N_per_m", "damping_N_s_per_m",
                        "friction_share_of_load"},
@@ -101,19 +132,27 @@ void add_mechanical_effects(std::vector<Effect>& library) {
        .whole = 1,
        .grid = plays,
        .set = set_loose,
-       .step = whole_step});
+       .step = whole_step,
+       .plant_keys = play_keys(),
+       .plant_values = play_values});
   library.push_back({.name = "backlash",
                      .cause = "play: after the load lets go of a flank the motor moves without it",
                      .needs = reversals,
+                     .law = "F_t = 0 while |d| < p/2",
+                     .source = "Nordin, Gutman 2002",
                      .amplitudes = {Key::kPlay},
                      .amplitude_names = {"play_m"},
                      .positive = true,
                      .grid = where_elastic,
                      .set = set_nothing,
-                     .step = play_step});
+                     .step = play_step,
+                     .plant_keys = {"gear.backlash_deg"},
+                     .plant_values = play_alone_values});
   library.push_back({.name = "cross_axis_coupling",
                      .cause = "forces from the other axis's motion",
                      .needs = "a log that has the other axis, moving",
+                     .law = "m a_other + b v_other",
+                     .source = "MACS-A-6",
                      .amplitudes = {Key::kOtherMass, Key::kOtherViscous},
                      .amplitude_names = {"mass_kg", "viscous_N_s_per_m"},
                      .grid = where_other,

@@ -1,5 +1,6 @@
 // What repeats with the turn of a shaft, with a tooth, or with time.
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -71,12 +72,53 @@ double reading_step(const Context& c) {
   return 0.3 * std::max(c.resolution_m, 1e-7 * c.stroke_m);
 }
 
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+// The fit has the force against the ripple, the file the ripple: -(a cos + b sin) = A sin(k theta +
+// phi).
+PlantValues ripple_values(const Parameters& p, const StatedPlant& stated) {
+  const double cosine = -p[Key::kRippleCosine];
+  const double sine = -p[Key::kRippleSine];
+  const double r = stated.metres_per_motor_rad;
+  return {std::hypot(cosine, sine) * r, p[Key::kRipplePerMetre] * kFullTurn * r,
+          std::atan2(cosine, sine) * kDegrees};
+}
+
+// w = (e / R) cos(phi + phi_0), phi the angle of the wheel
+PlantValues eccentric_wheel_values(const Parameters& p, const StatedPlant& stated) {
+  const double cosine = p[Key::kWheelCosine];
+  const double sine = p[Key::kWheelSine];
+  return {std::hypot(cosine, sine) * stated.output_radius_m, std::atan2(-sine, cosine) * kDegrees};
+}
+
+// Of N teeth: the first harmonic of what chords pay out is 2 R / N^3 sin(N phi), and the encoder
+// stays behind by it. Where it begins is the plant's own, so it must be that of the fit by half.
+PlantValues polygon_values(const Parameters& p, const StatedPlant& stated) {
+  const double radius_m = stated.output_radius_m;
+  const double teeth = std::round(p[Key::kReadPerMetre] * kFullTurn * radius_m);
+  const double cosine = p[Key::kReadCosine];
+  const double sine = p[Key::kReadSine];
+  const double off_m = std::hypot(cosine, sine + 2 * radius_m / (teeth * teeth * teeth));
+  return off_m < 0.5 * std::hypot(cosine, sine) ? PlantValues{teeth} : PlantValues{};
+}
+
+// A cos(alpha) + B sin(alpha) = e sin(alpha - phase)
+PlantValues eccentric_disk_values(const Parameters& p, const StatedPlant& stated) {
+  if (stated.model.metres_per_count <= 0) return {};
+  const double cosine = p[Key::kReadCosine];
+  const double sine = p[Key::kReadSine];
+  return {std::hypot(cosine, sine) / stated.model.metres_per_count,
+          std::atan2(-cosine, sine) * kDegrees};
+}
+
 }  // namespace
 
 void add_periodic_effects(std::vector<Effect>& library) {
   library.push_back({.name = "torque_ripple",
                      .cause = "a force repeating with a shaft's turn (cogging, commutation)",
                      .needs = "slow motion over several turns",
+                     .law = "a cos(2 pi f x) + b sin(2 pi f x)",
+                     .source = "harmonic of a shaft",
                      .amplitudes = {Key::kRippleCosine, Key::kRippleSine},
                      .amplitude_names = {"cosine_N", "sine_N"},
                      .scales = {Key::kRipplePerMetre},
@@ -84,10 +126,16 @@ void add_periodic_effects(std::vector<Effect>& library) {
                      .own = 0.1,  // of few turns it is a shape of the place
                      .grid = turns,
                      .set = set_scale<Key::kRipplePerMetre>,
-                     .step = force_step});
+                     .step = force_step,
+                     .plant_keys = {"disturbances.torque_ripple.amplitude_Nm",
+                                    "disturbances.torque_ripple.periods_per_turn",
+                                    "disturbances.torque_ripple.phase_deg"},
+                     .plant_values = ripple_values});
   library.push_back({.name = "sprocket_eccentricity",
                      .cause = "a wheel that runs out of round",
                      .needs = "travel over at least one wheel turn",
+                     .law = "(1 - a cos(2 pi f x) - b sin(2 pi f x)) u",
+                     .source = "assumed: the lever alone",
                      .amplitudes = {Key::kOutOfRoundCosine, Key::kOutOfRoundSine},
                      .amplitude_names = {"cosine_ratio", "sine_ratio"},
                      .scales = {Key::kOutOfRoundPerMetre},
@@ -98,36 +146,52 @@ void add_periodic_effects(std::vector<Effect>& library) {
   library.push_back({.name = "sprocket_eccentricity",
                      .cause = "a wheel that runs out of round: the load goes faster and slower",
                      .needs = "travel over at least one wheel turn",
+                     .law = "load goes (1 + w) times as far, w = a cos(2 pi f x) + b sin(2 pi f x)",
+                     .source = "virtual work on an eccentric wheel",
                      .amplitudes = {Key::kWheelCosine, Key::kWheelSine},
                      .amplitude_names = {"cosine_ratio", "sine_ratio"},
                      .scales = {Key::kWheelPerMetre},
                      .scale_names = {"spatial_frequency_per_m"},
                      .grid = wheel_turn,
                      .set = set_scale<Key::kWheelPerMetre>,
-                     .step = share_step});
+                     .step = share_step,
+                     .plant_keys = {"disturbances.wheel.eccentricity_m",
+                                    "disturbances.wheel.eccentricity_phase_deg"},
+                     .plant_values = eccentric_wheel_values});
   library.push_back({.name = "chain_polygon",
                      .cause = "links that lie on their wheel as a polygon",
                      .needs = "medium speed, where a tooth passes within the band",
+                     .law = "reads x + a cos(2 pi f x) + b sin(2 pi f x), f of a tooth",
+                     .source = "chords on a pitch circle",
                      .amplitudes = {Key::kReadCosine, Key::kReadSine},
                      .amplitude_names = {"cosine_m", "sine_m"},
                      .scales = {Key::kReadPerMetre},
                      .scale_names = {"spatial_frequency_per_m"},
                      .grid = teeth,
                      .set = set_scale<Key::kReadPerMetre>,
-                     .step = reading_step});
-  library.push_back({.name = "encoder_eccentricity",
-                     .cause = "an encoder disk that runs out of centre",
-                     .needs = "a turn of the motor within the band, at two speeds",
-                     .amplitudes = {Key::kReadCosine, Key::kReadSine},
-                     .amplitude_names = {"cosine_m", "sine_m"},
-                     .scales = {Key::kReadPerMetre},
-                     .scale_names = {"spatial_frequency_per_m"},
-                     .grid = motor_turn,
-                     .set = set_scale<Key::kReadPerMetre>,
-                     .step = reading_step});
+                     .step = reading_step,
+                     .plant_keys = {"disturbances.wheel.teeth"},
+                     .plant_values = polygon_values});
+  library.push_back(
+      {.name = "encoder_eccentricity",
+       .cause = "an encoder disk that runs out of centre",
+       .needs = "a turn of the motor within the band, at two speeds",
+       .law = "reads x + a cos(2 pi f x) + b sin(2 pi f x), f of the motor",
+       .source = "eccentric disk",
+       .amplitudes = {Key::kReadCosine, Key::kReadSine},
+       .amplitude_names = {"cosine_m", "sine_m"},
+       .scales = {Key::kReadPerMetre},
+       .scale_names = {"spatial_frequency_per_m"},
+       .grid = motor_turn,
+       .set = set_scale<Key::kReadPerMetre>,
+       .step = reading_step,
+       .plant_keys = {"encoder.eccentricity_counts", "encoder.eccentricity_phase_deg"},
+       .plant_values = eccentric_disk_values});
   library.push_back({.name = "periodic_force",
                      .cause = "a force that repeats in time, whatever the motion",
                      .needs = "several periods of it",
+                     .law = "a cos(2 pi f t) + b sin(2 pi f t)",
+                     .source = "a source of its own",
                      .amplitudes = {Key::kPeriodicCosine, Key::kPeriodicSine},
                      .amplitude_names = {"cosine_N", "sine_N"},
                      .scales = {Key::kPeriodicHertz},

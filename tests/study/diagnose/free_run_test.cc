@@ -69,10 +69,10 @@ TEST(FreeRun, AMissingForceEndsAWindowWhereTheClosedFormSays) {
   const FreeRun f =
       left_alone({pushed_swing()}, frictionless(kSwingMass_kg, 0), body(kSwingMass_kg, kPush_N));
   const double off_m = 0.5 * kPush_N * kWindow_s * kWindow_s / kSwingMass_kg;
-  ASSERT_GT(f.windows, 100);
-  EXPECT_NEAR(f.supplied_m, off_m, 0.1 * off_m);
-  EXPECT_LT(f.extended_m, 0.02 * off_m);
-  EXPECT_GT(f.gain95.low, 0.95);
+  ASSERT_GT(f.windows.count, 100);
+  EXPECT_NEAR(f.windows.supplied_m, off_m, 0.1 * off_m);
+  EXPECT_LT(f.windows.extended_m, 0.02 * off_m);
+  EXPECT_GT(f.windows.gain95.low, 0.95);
   // b t^2 / 2 M over 20 s, rms.
   EXPECT_NEAR(f.whole_supplied_m, 0.5 * kPush_N * 400 / kSwingMass_kg / std::sqrt(5.0), 0.3);
 }
@@ -80,7 +80,7 @@ TEST(FreeRun, AMissingForceEndsAWindowWhereTheClosedFormSays) {
 TEST(FreeRun, AWorseModelGainsLessThanNothing) {
   const FreeRun f = left_alone({pushed_swing()}, frictionless(kSwingMass_kg, kPush_N),
                                body(1.2 * kSwingMass_kg, kPush_N));
-  EXPECT_LT(f.gain95.high, 0);
+  EXPECT_LT(f.windows.gain95.high, 0);
 }
 
 TEST(FreeRun, OfTheExactModelStaysAtTheEncodersStep) {
@@ -91,13 +91,13 @@ TEST(FreeRun, OfTheExactModelStaysAtTheEncodersStep) {
   const FreeRun f = left_alone({simulated_run(truth, 20, kStep_m)}, lighter, truth);
   EXPECT_LT(f.whole_extended_m, kStep_m);
   // The corrected speed that a window begins with knows no more than the encoder's steps.
-  EXPECT_LT(f.extended_m, 5 * kStep_m);
-  EXPECT_GT(f.supplied_m, 500 * kStep_m);
+  EXPECT_LT(f.windows.extended_m, 5 * kStep_m);
+  EXPECT_GT(f.windows.supplied_m, 500 * kStep_m);
 }
 
 TEST(FreeRun, OfALogShorterThanItsWindowsSaysSo) {
   const Parameters truth = parameters_of(simple_model());
-  EXPECT_EQ(left_alone({simulated_run(truth, 0.8, 0)}, simple_model(), truth).windows, 0);
+  EXPECT_EQ(left_alone({simulated_run(truth, 0.8, 0)}, simple_model(), truth).windows.count, 0);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -124,6 +125,43 @@ TEST_F(ExtendedPlantFile, EffectsThatThePlantHasKeysForLoad) {
   add("load_dependent_friction", {{Key::kLoadFriction, 0.1}});
   add("backlash", {{Key::kPlay, 1e-3}});
   EXPECT_NEAR(reloaded().model.transmission.play_m, 1e-3, 1e-6);
+}
+
+// Of eight teeth, 2 R / N^3 of the reading is the polygon's; turned by half a tooth it is not.
+TEST_F(ExtendedPlantFile, AWheelHasTeethWhereTheReadingSwingsAsTheyMakeIt) {
+  const double radius_m = plant_.model.output_radius_m;
+  const double swing_m = 2 * radius_m / 512;
+  const double per_m = 8 / (2 * std::numbers::pi * radius_m);
+  for (const double sign : {-1.0, 1.0}) {
+    d_.causes.clear();
+    add("chain_polygon", {{Key::kReadCosine, 0.2 * swing_m},
+                          {Key::kReadSine, sign * 0.9 * swing_m},
+                          {Key::kReadPerMetre, per_m}});
+    const ExtendedPlant extended = extend_plant(plant_.plant, d_);
+    EXPECT_EQ(extended.text.find("teeth = 8.0") != std::string::npos, sign < 0) << extended.text;
+    EXPECT_EQ(extended.left_out.empty(), sign < 0);
+  }
+}
+
+TEST_F(ExtendedPlantFile, WhatTheEmulatorRefusesIsLeftOutAndTold) {
+  add("load_dependent_friction", {{Key::kLoadFriction, 0.95}});  // 0.9 at most
+  add("cable_spring", {{Key::kCable, 1.2}});
+  add("low_speed_rolloff", {{Key::kRolloff, 1.0}});
+  const ExtendedPlant extended = extend_plant(plant_.plant, d_);
+  EXPECT_THAT(extended.left_out,
+              testing::ElementsAre("load_dependent_friction", "low_speed_rolloff"));
+  EXPECT_THAT(extended.text, testing::HasSubstr("cannot have it: load_dependent_friction"));
+  EXPECT_THAT(extended.text, testing::HasSubstr("stiffness_N_per_m = 1.2"));
+  EXPECT_THAT(extended.text, testing::Not(testing::HasSubstr("load_ratio")));
+}
+
+// An asymmetry that the file states needs a break-away above what was found.
+TEST_F(ExtendedPlantFile, LoadsWhateverTheFileStatesBesides) {
+  auto& axis = *plant_.plant["axis"]["y"].as_table();
+  axis["friction"].as_table()->insert_or_assign("asymmetry", toml::table{{"coulomb", 0.4}});
+  d_.extended[Key::kStribeck] = 0;
+  move(Key::kCoulomb, "coulomb", 1.3 * plant_.model.coulomb_N);
+  EXPECT_NEAR(reloaded().model.coulomb_N, 1.3 * plant_.model.coulomb_N, 1e-6);
 }
 
 // What the command must make is s sin q + c cos q: the emulated joint is pulled by the opposite.

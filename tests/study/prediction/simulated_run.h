@@ -18,10 +18,11 @@ namespace towbench::tests {
   return m;
 }
 
-// Two sines of force after a rest; `step_m` 0: an encoder without steps.
-[[nodiscard]] inline study::diagnose::Run simulated_run(const study::diagnose::Parameters& truth,
-                                                        double duration_s, double step_m,
-                                                        double period_s = 1e-3) {
+// Two sines of force after a rest at `start_m`; `step_m` 0: an encoder without steps.
+[[nodiscard]] inline study::diagnose::Run simulated_run(
+    const study::diagnose::Parameters& truth, double duration_s, double step_m,
+    double period_s = 1e-3, const study::diagnose::NominalModel& stated = simple_model(),
+    double start_m = 0) {
   constexpr double kTurns = 2 * std::numbers::pi;
   constexpr double kRest_s = 0.1;
   study::diagnose::Run run;
@@ -36,10 +37,9 @@ namespace towbench::tests {
     const double t = period_s * static_cast<double>(k) - kRest_s;
     run.input_N[k] = t < 0 ? 0 : 10 * std::cos(kTurns * 0.7 * t) + 6 * std::cos(kTurns * 2.3 * t);
   }
-  const study::diagnose::NominalModel stated = simple_model();
   const study::diagnose::Scene scene(run, stated);
   study::diagnose::Axis axis(truth, scene);
-  axis.place(0.5 * step_m, 0);
+  axis.place(start_m + 0.5 * step_m, 0);
   for (Eigen::Index k = 0; k < n; ++k) {
     const double x = axis.reading_m();
     run.position_m[k] = step_m > 0 ? (std::floor(x / step_m) + 0.5) * step_m : x;
