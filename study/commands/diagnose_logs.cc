@@ -1,8 +1,5 @@
 #include "study/commands/diagnose_logs.h"
 
-#include <algorithm>
-#include <numbers>
-
 #include "harness/commands/progress_line.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/proof/run_manifest.h"
@@ -15,6 +12,7 @@
 #include "study/diagnose/run_reader.h"
 #include "study/diagnosis_page/page.h"
 #include "study/extended_plant/emulated_log.h"
+#include "study/extended_plant/estimated_plant.h"
 #include "study/extended_plant/extended_plant.h"
 #include "study/logs/column_map.h"
 #include "study/logs/read_table.h"
@@ -64,45 +62,23 @@ std::vector<diagnose::Run> read_logs(const std::vector<std::string>& paths,
   return runs;
 }
 
-// What was estimated, as a plant file of a direct drive whose full command makes the largest force
-// of the log. Without friction where it came out negative, which no plant file can state.
-toml::table estimated_plant(const diagnose::Diagnosis& d) {
-  constexpr double kFull_V = 10;
-  const auto at_least_0 = [&](diagnose::Key key) { return std::max(0.0, d.extended[key]); };
-  toml::table axis{{"mass_kg", d.extended[diagnose::Key::kMass]},
-                   {"viscous_friction_N_s_per_m", at_least_0(diagnose::Key::kViscous)},
-                   {"coulomb_friction_N", at_least_0(diagnose::Key::kCoulomb)},
-                   {"force_gain_N_per_V", d.context.input_max_N / kFull_V},
-                   {"pwm_amplitude_V", kFull_V}};
-  if (d.context.stated.rotary) {
-    axis.insert_or_assign("transmission", toml::table{{"kind", "direct"}});
-  }
-  constexpr double kMostCounts = 40'000;  // a motor turn, by the plant file
-  const double metres_a_turn = d.context.stated.rotary ? 2 * std::numbers::pi : 0.05;
-  if (d.context.resolution_m > 0) {
-    axis.insert_or_assign(
-        "encoder_counts_per_m",
-        std::clamp(1 / d.context.resolution_m, 4 / metres_a_turn, kMostCounts / metres_a_turn));
-  }
-  return toml::table{{"schema", 1},
-                     {"axis", toml::table{{d.context.stated.axis, std::move(axis)}}}};
-}
-
 toml::table plant_before(const DiagnoseOptions& options, const PlantModel& plant,
                          const diagnose::Diagnosis& d) {
-  return has_no_model(options) ? estimated_plant(d) : plant.plant;
+  return has_no_model(options) ? diagnose::estimated_plant(d) : plant.plant;
 }
 
-// The emulator on the logs that judge.
-diagnose::Emulated emulated(const DiagnoseOptions& options, const PlantModel& plant,
-                            const diagnose::Request& request, const diagnose::Diagnosis& d) {
+// The emulator on the logs that judge. None, and a note, of a machine beyond what it can step.
+void emulate(const DiagnoseOptions& options, const PlantModel& plant,
+             const diagnose::Request& request, diagnose::Diagnosis& d) {
   const toml::table before = plant_before(options, plant, d);
-  const diagnose::ExtendedPlant extended = diagnose::extend_plant(before, d);
-  diagnose::Emulated out =
-      diagnose::emulate(request.holdout.empty() ? request.runs : request.holdout, d.context.stated,
-                        before, toml::parse(extended.text));
-  out.left_out = extended.left_out;
-  return out;
+  try {
+    const diagnose::ExtendedPlant extended = diagnose::extend_plant(before, d);
+    d.emulated = diagnose::emulate(request.holdout.empty() ? request.runs : request.holdout,
+                                   d.context.stated, before, toml::parse(extended.text));
+    d.emulated->left_out = extended.left_out;
+  } catch (const harness::FixtureError& error) {
+    d.findings.push_back({logs::Finding::Kind::kNote, "plant_refused", error.what()});
+  }
 }
 
 }  // namespace
@@ -175,7 +151,7 @@ diagnose::Diagnosis diagnose_logs(const DiagnoseOptions& options, PlantModel pla
   diagnose::Diagnosis d = diagnose::diagnose(request);
   if (!is_fatal(d.findings)) {
     progress.show("the emulator on the logs");
-    d.emulated = emulated(options, plant, request, d);
+    emulate(options, plant, request, d);
   }
   d.findings.insert(d.findings.begin(), findings.begin(), findings.end());
   return d;
@@ -188,8 +164,11 @@ void write_diagnosis(const DiagnoseOptions& options, const PlantModel& plant,
   std::filesystem::create_directories(folder);
   harness::write_atomically(folder / "diagnosis.json", diagnose::diagnosis_json(d));
   const bool none = has_no_model(options);
-  harness::write_atomically(folder / "extended_plant.toml",
-                            diagnose::extend_plant(plant_before(options, plant, d), d).text);
+  std::filesystem::remove(folder / "extended_plant.toml");
+  if (d.emulated) {
+    harness::write_atomically(folder / "extended_plant.toml",
+                              diagnose::extend_plant(plant_before(options, plant, d), d).text);
+  }
   diagnose::write_series(d, folder);
   harness::write_atomically(
       folder / "report.html",

@@ -105,7 +105,7 @@ std::string in_one_line(const Diagnosis& d) {
 
 // What is written may lack a cause, and that one may be most of it.
 std::string about_the_file(const Diagnosis& d) {
-  if (!d.emulated) return "use extended_plant.toml";
+  if (!d.emulated) return "use the parameters and causes of diagnosis.json";
   const Windows& w = d.emulated->windows;
   std::string without;
   for (const std::string& cause : d.emulated->left_out) {
