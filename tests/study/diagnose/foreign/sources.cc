@@ -6,6 +6,7 @@
 
 #include "study/commands/plant_model.h"
 #include "tests/study/diagnose/bench_case.h"
+#include "tests/study/diagnose/generator/hidden_force.h"
 #include "tests/study/diagnose/hidden_case.h"
 
 namespace towbench::tests::foreign {
@@ -26,37 +27,14 @@ void describe(Posed& posed) {
 
 constexpr const char* kBenchPlant = "fixtures/plants/macs-nominal.toml";  // bench_case.cc's own
 
-// The names that this generator has; its one effect outside the library is called so.
-const std::vector<std::string> kHiddenAxis{"coulomb_asymmetry",
-                                           "viscous_asymmetry",
-                                           "quadratic_drag",
-                                           "cubic_viscous",
-                                           "load_dependent_friction",
-                                           "stribeck",
-                                           "low_speed_rolloff",
-                                           "stiction",
-                                           "presliding",
-                                           "added_mass",
-                                           "backlash",
-                                           "chain_elasticity",
-                                           "transport_delay",
-                                           "current_loop_lag",
-                                           "amplifier_gain",
-                                           "amplifier_deadband",
-                                           "command_saturation",
-                                           "voltage_saturation",
-                                           "constant_bias",
-                                           "position_force",
-                                           "cable_spring",
-                                           "position_friction",
-                                           "position_viscous",
-                                           "torque_ripple",
-                                           "sprocket_eccentricity",
-                                           "chain_polygon",
-                                           "encoder_eccentricity",
-                                           "periodic_force",
-                                           "thermal_drift",
-                                           "encoder_count_loss"};
+// What the tests' rigid axis hides; its one effect outside the library is called so.
+std::vector<std::string> hidden_axis_effects() {
+  std::vector<std::string> names;
+  for (const HiddenEffectRow& row : hidden_effects()) {
+    names.emplace_back(row.name);
+  }
+  return names;
+}
 
 void check(const std::vector<std::string>& names, const std::string& wished) {
   if (!wished.empty() && std::find(names.begin(), names.end(), wished) == names.end()) {
@@ -74,10 +52,11 @@ Posed pose_hidden_axis(const Wish& wish, std::uint64_t seed) {
   Dice dice(seed);
   HiddenAxis axis;
   axis.open_loop = wish.motion == "open_loop";
-  axis.effect = wish.kind == "outside" ? "outside" : wished_or_drawn(kHiddenAxis, wish, dice);
+  const std::vector<std::string> names = hidden_axis_effects();
+  axis.effect = wish.kind == "outside" ? "outside" : wished_or_drawn(names, wish, dice);
   if (wish.kind == "pair") {
     do {
-      axis.second_effect = dice.pick(kHiddenAxis);
+      axis.second_effect = dice.pick(names);
     } while (find(axis.second_effect)->family == find(axis.effect)->family);
   }
   axis.size = axis.second_size = wish.strength;
