@@ -142,14 +142,10 @@ bool skews_viscous(const AxisParameters& axis) noexcept {
 
 // What the fast path of a nominal axis does not know.
 bool any_term(const AxisModel& model) noexcept {
-  const FrictionOptions& options = model.parameters.friction.options;
-  const FrictionAsymmetry& asymmetry = options.asymmetry;
-  return model.ripple.present() || model.wheel.present() || model.position_force.present() ||
-         model.parameters.disturbances.gravity.torque_Nm != 0 || model.play.present() ||
+  const AxisParameters& p = model.parameters;
+  return p.disturbances.any_held() || p.friction.options.any_held() || model.play.present() ||
          model.gear_loss.present() || model.motor_contact.present() ||
-         model.carriage_contact.present() || options.load_ratio != 0 ||
-         options.warming.depth != 0 || asymmetry.coulomb != 0 || asymmetry.breakaway != 0 ||
-         asymmetry.viscous != 0;
+         model.carriage_contact.present();
 }
 
 }  // namespace

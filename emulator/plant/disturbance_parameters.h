@@ -89,6 +89,12 @@ struct DisturbanceParameters {
   GravityParameters gravity;
   double tilt_deg = 0;
 
+  // Whether held_terms.h has anything to add: cable and tilt are part of the linear mode.
+  [[nodiscard]] bool any_held() const noexcept {
+    return torque_ripple.amplitude_Nm != 0 || wheel.eccentricity_m != 0 || wheel.teeth != 0 ||
+           !position_force.position_m.empty() || gravity.torque_Nm != 0;
+  }
+
   template <typename Visitor>
   void visit(Visitor& v) {
     v.group("torque_ripple", torque_ripple, "torque that depends on the motor's angle");

@@ -55,6 +55,12 @@ struct FrictionOptions {
   Presliding presliding;
   double load_ratio = 0;
 
+  // Whether held_terms.h has anything to add; presliding counts where there is friction to bend.
+  [[nodiscard]] bool any_held() const noexcept {
+    return load_ratio != 0 || warming.depth != 0 || asymmetry.coulomb != 0 ||
+           asymmetry.breakaway != 0 || asymmetry.viscous != 0;
+  }
+
   template <typename Visitor>
   void visit(Visitor& v) {
     v.group("asymmetry", asymmetry, "friction that differs by direction");
