@@ -28,9 +28,13 @@ help_of() { # help_of PROGRAM VERB
 
 {
   printf '# Verbs\n\n`./towbench VERB --help`, as the programs print it. Written by `tools/write_reference.sh`.\n'
-  for verb in demo run list validate emulate control replay report campaign falsify conform new-machine export-fmu doctor completion; do help_of "$bench" "$verb"; done
-  help_of "$panel" panel
-  for verb in identify tow results diagnose; do help_of "$study" "$verb"; done
+  for verb in $("$bench" --help | awk '/^Subcommands:/ { on = 1; next } /^$/ { on = 0 } on { print $1 }'); do
+    case $verb in
+      panel) help_of "$panel" "$verb" ;;
+      identify | tow | results | diagnose) help_of "$study" "$verb" ;;
+      *) help_of "$bench" "$verb" ;;
+    esac
+  done
   for verb in test package; do
     printf '\n## %s\n```text\n' "$verb"
     bash "$root/towbench" "$verb" --help

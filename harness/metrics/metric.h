@@ -1,5 +1,5 @@
 // The metrics that a budget may name. One table (metric.cc) lists them all; the laws stand in
-// tracking_metrics.cc, safety_metrics.cc and path_metrics.cc.
+// {tracking,safety,path,motion}_metrics.cc.
 #pragma once
 
 #include <cstddef>

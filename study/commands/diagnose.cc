@@ -10,6 +10,7 @@
 #include "core/axis.h"
 #include "harness/checks/check.h"
 #include "harness/commands/option_checks.h"
+#include "harness/fixtures/nearest_key.h"
 #include "study/commands/diagnose_active.h"
 #include "study/commands/diagnose_logs.h"
 #include "study/commands/verbs.h"
@@ -51,6 +52,15 @@ std::vector<std::string> names_of_effects() {
   return names;
 }
 
+// Empty where it is one.
+std::string refused_as_a_cause(const std::string& name) {
+  const std::vector<std::string> known = names_of_effects();
+  if (std::find(known.begin(), known.end(), name) != known.end()) return {};
+  const std::string meant = harness::nearest_key(name, known);
+  return "no cause '" + name + "'; " +
+         (meant.empty() ? std::string() : "did you mean " + meant + "? ") + "--causes lists them";
+}
+
 int execute_diagnose(const DiagnoseOptions& options, const ActiveOptions& active) {
   try {
     return active.wanted ? diagnose_and_run(options, active) : diagnose_once(options);
@@ -82,7 +92,7 @@ void add_diagnose(CLI::App& app, int& exit_code) {
           std::vector<std::string>(core::kAxisNames.begin(), core::kAxisNames.end())));
   verb->add_option("--explain", options->explain,
                    "why this effect was named, or not; may be repeated")
-      ->check(CLI::IsMember(names_of_effects()));
+      ->check(CLI::Validator(refused_as_a_cause, ""));
   verb->add_flag_callback(
       "--causes",
       [] {

@@ -23,12 +23,28 @@ Output bash(const std::string& script) {
   return tests::output_of("bash -c '" + script + "'");
 }
 
+// As the program lists them, without those of other programs.
+std::vector<std::string> verbs() {
+  const std::set<std::string> elsewhere{"panel", "identify", "tow", "results", "diagnose"};
+  std::istringstream lines(towbench("--help").text);
+  std::vector<std::string> found;
+  std::string line;
+  while (std::getline(lines, line) && line != "Subcommands:") {
+  }
+  while (std::getline(lines, line) && !line.empty()) {
+    std::string verb;
+    std::istringstream(line) >> verb;
+    if (!elsewhere.contains(verb)) found.push_back(verb);
+  }
+  return found;
+}
+
 TEST(CommandLine, EveryVerbHasHelpWithAnExample) {
-  for (const char* verb : {"demo", "run", "list", "validate", "emulate", "control", "replay",
-                           "report", "new-machine", "export-fmu", "completion"}) {
-    const auto help = towbench(std::string(verb) + " --help");
+  ASSERT_GE(verbs().size(), 15);
+  for (const std::string& verb : verbs()) {
+    const auto help = towbench(verb + " --help");
     EXPECT_EQ(help.code, 0) << verb;
-    EXPECT_THAT(help.text, HasSubstr("Example: towbench " + std::string(verb)));
+    EXPECT_THAT(help.text, HasSubstr("Example: towbench " + verb));
   }
 }
 

@@ -53,7 +53,20 @@ TEST(Explain, IsPrintedBehindTheHeadlineForEveryEffectThatIsAskedFor) {
   EXPECT_THAT(told.text, HasSubstr("\ngravity: not to be seen in this data"));
   const auto unknown = brought.diagnose("--data log.csv --explain moonlight");
   EXPECT_EQ(unknown.code, 2);
-  EXPECT_THAT(unknown.text, HasSubstr("moonlight"));
+  EXPECT_THAT(unknown.text, HasSubstr("no cause 'moonlight'; --causes lists them"));
+  const auto misspelt = brought.diagnose("--data log.csv --explain backlsh");
+  EXPECT_EQ(misspelt.code, 2);
+  EXPECT_THAT(misspelt.text, HasSubstr("no cause 'backlsh'; did you mean backlash?"));
+}
+
+TEST(Explain, ListsWhatCanBeNamedWithoutALog) {
+  const auto told = BroughtCase().diagnose("--causes");
+  EXPECT_EQ(told.code, 0);
+  for (const Effect& effect : effects()) {
+    EXPECT_THAT(told.text, HasSubstr("\n" + effect.name + ": " + effect.cause + "\n"));
+    EXPECT_THAT(told.text, HasSubstr(effect.law));
+    for (const std::string& key : effect.plant_keys) EXPECT_THAT(told.text, HasSubstr(key));
+  }
 }
 
 }  // namespace
