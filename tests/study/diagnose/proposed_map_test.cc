@@ -130,6 +130,16 @@ TEST(ProposedMap, IsEnoughForADiagnosisWithoutAModel) {
   ASSERT_EQ(again.code, 0) << again.text;
   EXPECT_TRUE(brought.answer()["estimated"].empty());
   EXPECT_EQ(names_in(brought.answer()), "");
+
+  std::ofstream(brought.folder() / "map.toml", std::ios::app) << "rotary = true\n";
+  const auto joint = brought.diagnose_without_model("--data log.csv --columns map.toml");
+  ASSERT_EQ(joint.code, 0) << joint.text;
+  EXPECT_FALSE(brought.answer()["emulated"].is_null()) << joint.text;
+  EXPECT_EQ(brought
+                .diagnose_without_model(
+                    "--data log.csv --columns map.toml --model found/extended_plant.toml")
+                .code,
+            0);
 }
 
 }  // namespace
