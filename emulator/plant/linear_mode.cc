@@ -27,8 +27,10 @@ SquareMatrix<kAugmented> augmented(const ContinuousMode& mode, double tick_s) no
 }
 
 // The power of two by which row i must shrink and column i grow for the two to be of one size.
-// Inputs have no row: their column alone is brought below one.
-double balancing_factor(const SquareMatrix<kAugmented>& m, std::size_t i) noexcept {
+// Inputs have no row, and states that stand have none: their column alone is brought below one, of
+// states only where `standing_too`.
+double balancing_factor(const SquareMatrix<kAugmented>& m, std::size_t i,
+                        bool standing_too) noexcept {
   double column = 0;
   double row = 0;
   for (std::size_t k = 0; k < kAugmented; ++k) {
@@ -36,13 +38,12 @@ double balancing_factor(const SquareMatrix<kAugmented>& m, std::size_t i) noexce
     row += k == i ? 0.0 : std::fabs(m[k][i]);
   }
   double factor = 1.0;
-  if (column == 0 || (row == 0 && i < kStateCount)) {
+  const bool is_state = i < kStateCount;
+  if (column == 0 || (is_state && row == 0 && !standing_too)) {
     return factor;
   }
-  const double target = i < kStateCount ? row : 1.0;
-  const auto out_of_balance = [&](double f) {
-    return i < kStateCount ? column * f * f / target : column * f / target;
-  };
+  const bool has_row = is_state && row != 0;
+  const auto out_of_balance = [&](double f) { return has_row ? column * f * f / row : column * f; };
   constexpr int kMostDoublings = 80;
   for (int n = 0; n < kMostDoublings && out_of_balance(factor) > 2.0; ++n) {
     factor *= 0.5;
@@ -55,13 +56,13 @@ double balancing_factor(const SquareMatrix<kAugmented>& m, std::size_t i) noexce
 
 // Osborne's balancing by powers of two: exact, and it leaves the exponential what it is. Amperes,
 // metres and radians otherwise differ so much that a norm says nothing.
-Balanced balanced(const ContinuousMode& mode, double tick_s) noexcept {
+Balanced balanced(const ContinuousMode& mode, double tick_s, bool standing_too) noexcept {
   Balanced b{.matrix = augmented(mode, tick_s)};
   b.scale.fill(1.0);
   constexpr int kSweeps = 12;
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (std::size_t i = 0; i < kAugmented; ++i) {
-      const double factor = balancing_factor(b.matrix, i);
+      const double factor = balancing_factor(b.matrix, i, standing_too);
       b.scale[i] *= factor;
       for (std::size_t k = 0; k < kAugmented; ++k) {
         b.matrix[i][k] *= factor;
@@ -86,7 +87,10 @@ int terms_for(double norm) noexcept {
 }  // namespace
 
 bool discretise(ContinuousMode& mode, double tick_s, DiscreteMode& out) noexcept {
-  const Balanced balance = balanced(mode, tick_s);
+  Balanced balance = balanced(mode, tick_s, false);
+  if (!(one_norm(balance.matrix) <= kLargestNorm)) {
+    balance = balanced(mode, tick_s, true);
+  }
   const double norm = one_norm(balance.matrix);
   if (!(norm <= kLargestNorm)) {
     return false;

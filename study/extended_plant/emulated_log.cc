@@ -20,6 +20,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kLine_s = 0.04;  // whose line is a speed
+constexpr double kEnough_V = 1e6;
 constexpr double kTick_s = core::kPlantTick_s;
 constexpr double kRadians = 2 * std::numbers::pi;  // of a turn
 
@@ -41,6 +42,27 @@ LogUnits units_of_log(const emulator::RigAxisParameters& axis) {
           kRadians * r / static_cast<double>(axis.encoder.counts_per_turn)};
 }
 
+// Of a file without a motor: current follows the command at once, whatever the speed.
+void make_ideal(emulator::AxisParameters& plant) {
+  const double r = plant.output_radius_m / plant.gear_ratio;
+  const double amperes = plant.torque_constant_Nm_per_A / r;  // where a newton takes one
+  plant.torque_constant_Nm_per_A = r;
+  plant.amplifier_gain_A_per_V *= amperes;
+  plant.current_limit_A *= amperes;
+  plant.winding = {.resistance_ohm = 1, .inductance_H = 0.4e-3, .choke_inductance_H = 0};
+}
+
+// What a log does not show is left out: stops, and a motor that the file does not state.
+emulator::AxisParameters replayed(emulator::AxisParameters plant, const NominalModel& stated,
+                                  const emulator::WaterParameters& water) {
+  plant.hard_ends.fitted = false;
+  if (stated.no_load_speed_m_per_s <= 0) make_ideal(plant);
+  if (water.present() && core::is_planar(*core::axis_named(stated.axis))) {
+    plant.water_mass_kg = added_mass_kg(water);
+  }
+  return plant;
+}
+
 // A machine that stands where a log begins.
 class EmulatedAxis {
  public:
@@ -49,9 +71,9 @@ class EmulatedAxis {
       : axis_(axis_of(machine, stated)),
         which_(*core::axis_named(stated.axis)),
         units_(units),
-        plant_(without_stops(axis_.plant, machine.water, which_), at_m) {
+        plant_(replayed(axis_.plant, stated, machine.water), at_m) {
     if (machine.water.present() && core::is_planar(which_)) water_.emplace(machine.water);
-    input_.supply_V = machine.supply.voltage_V;
+    input_.supply_V = stated.no_load_speed_m_per_s > 0 ? machine.supply.voltage_V : kEnough_V;
     input_.amplifier_enabled = true;
     off_m_ = reading_m() - at_m;
   }
@@ -86,14 +108,6 @@ class EmulatedAxis {
   }
 
  private:
-  static emulator::AxisParameters without_stops(emulator::AxisParameters plant,
-                                                const emulator::WaterParameters& water,
-                                                core::Axis which) {
-    plant.hard_ends.fitted = false;
-    if (water.present() && core::is_planar(which)) plant.water_mass_kg = added_mass_kg(water);
-    return plant;
-  }
-
   [[nodiscard]] bool on_load() const { return axis_.encoder.side == emulator::EncoderSide::kLoad; }
   // What a radian of the motor adds to the reading.
   [[nodiscard]] double told_per_rad(double motor_rad) const {

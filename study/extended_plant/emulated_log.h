@@ -10,8 +10,9 @@
 
 namespace towbench::study::diagnose {
 
-// Of two plant files: how far the place that the encoder tells is from the measured one. Stops are
-// left out: the zero of a log is not the machine's. Throws FixtureError.
+// Of two plant files: how far the place that the encoder tells is from the measured one. Left out
+// are stops, for the zero of a log is not the machine's, and of a load-side file motor and supply,
+// which it does not state. Throws FixtureError.
 [[nodiscard]] Emulated emulate(const std::vector<Run>& runs, const NominalModel& stated,
                                const toml::table& supplied, const toml::table& extended);
 

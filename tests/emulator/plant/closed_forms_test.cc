@@ -271,6 +271,33 @@ TEST(ClosedForms, LoadSideAndMotorSideInputGiveTheSameTrajectory) {
   }
 }
 
+// A drive without a gear: while it stands, a huge back-EMF constant acts on a speed of nothing.
+// Each mode of such an axis fits the tick, and J w' = K_T i - C.
+TEST(ClosedForms, AHeavyDirectDriveIsSteppedToo) {
+  AxisParameters joint = linear_axis();
+  joint.elasticity.rigid = true;
+  joint.inertia_kg_m2 = 4.0;
+  joint.rotor_inertia_kg_m2 = 1.0;
+  joint.viscous_friction_Nm_s_per_rad = 0;
+  joint.coulomb_friction_Nm = 36;
+  joint.friction.breakaway_Nm = 36;
+  joint.gear_ratio = 1;
+  joint.output_radius_m = 1;
+  joint.torque_constant_Nm_per_A = 100;
+  ASSERT_EQ(emulator::inconsistency(joint), nullptr);
+  Bench bench(joint, 0.0);
+  bench.input.supply_V = 1e5;
+  bench.ask_current(joint, 0.3);  // 30 Nm: it stands
+  bench.run(0.1);
+  EXPECT_EQ(bench.plant.state().carriage_m, 0.0);
+  bench.ask_current(joint, 1.0);
+  bench.run(0.5);
+  const double integral_gain = 2 * std::numbers::pi * joint.amplifier.current_loop_bandwidth_Hz *
+                               joint.winding.resistance_ohm;
+  const double way_rad = 0.5 * (100 - 36) / (4.0 + 100 * 100 / integral_gain) * 0.25;
+  EXPECT_NEAR(bench.plant.state().carriage_m, way_rad, 2e-3 * way_rad);
+}
+
 TEST(ClosedForms, ALoadSideDriveAcceleratesByForceOverMass) {
   AxisParameters axis;
   axis.gear_ratio = 1.0;

@@ -185,6 +185,18 @@ TEST_P(EmulatedEffect, FollowsTheLogOfTheAxisThatPredicts) {
   }
 }
 
+// 230 N/V at 1 A/V would be a back-EMF of 230 V s/m from a supply of 12 V.
+TEST(Emulated, AFileThatStatesNoMotorIsAsGoodAsItsForce) {
+  std::string toml = kLoadSide;
+  toml.replace(toml.find("amplifier_gain_A_per_V = 10.0\n"), 30, "");
+  toml.replace(toml.find("25.0"), 4, "230.0");
+  const study::PlantModel plant = loaded(toml);
+  const auto run = simulated_run(parameters_of(plant.model), 8, 0, 1e-3, plant.model, 0.4);
+  const Emulated e = emulate({run}, plant.model, plant.plant, plant.plant);
+  const double way_m = run.position_m.maxCoeff() - run.position_m.minCoeff();
+  EXPECT_LT(e.whole_extended_m, 1e-3 * way_m);
+}
+
 constexpr int kAny = kRigid | kElastic | kRotary;
 INSTANTIATE_TEST_SUITE_P(
     Causes, EmulatedEffect,
