@@ -9,9 +9,13 @@
 namespace towbench::study::diagnose {
 namespace {
 
+bool any_moved(const Diagnosis& d) {
+  return std::any_of(d.parameters.begin(), d.parameters.end(),
+                     [](const ParameterShift& shift) { return shift.moved; });
+}
 bool has_moved(const Diagnosis& d, const char* name) {
   return std::any_of(d.parameters.begin(), d.parameters.end(), [&](const ParameterShift& shift) {
-    return shift.moved && (*name == 0 || shift.name == name);
+    return shift.moved && shift.name == name;
   });
 }
 
@@ -60,7 +64,7 @@ ExtendedPlant extend_plant(const toml::table& plant, const Diagnosis& d) {
     out.left_out.push_back(name);
     head += fmt::format("# found, but the emulator's plant cannot have it: {} ({})\n", name, cause);
   };
-  if (!d.causes.empty() || has_moved(d, "")) {
+  if (!d.causes.empty() || any_moved(d)) {
     if (!write_parameters(file, d.extended)) leave_out("parameters", "mass and friction");
   }
   if (has_moved(d, "bias") && !write_bias(file, d.extended)) {
