@@ -164,10 +164,12 @@ void write_diagnosis(const DiagnoseOptions& options, const PlantModel& plant,
   std::filesystem::create_directories(folder);
   harness::write_atomically(folder / "diagnosis.json", diagnose::diagnosis_json(d));
   const bool none = has_no_model(options);
-  std::filesystem::remove(folder / "extended_plant.toml");
+  const auto extended = folder / "extended_plant.toml";
   if (d.emulated) {
-    harness::write_atomically(folder / "extended_plant.toml",
+    harness::write_atomically(extended,
                               diagnose::extend_plant(plant_before(options, plant, d), d).text);
+  } else {
+    std::filesystem::remove(extended);  // an earlier diagnosis wrote it
   }
   diagnose::write_series(d, folder);
   harness::write_atomically(

@@ -115,37 +115,34 @@ Json heldout(const Diagnosis& d) {
           {"same_session", s.same_session}};
 }
 
+// Null where there is none.
+Json position_error(const Windows& w) {
+  if (w.count == 0) return nullptr;
+  return {{"supplied_rms_mm", 1e3 * w.supplied_m},
+          {"extended_rms_mm", 1e3 * w.extended_m},
+          {"gain_pct", interval(w.gain95, 100, "ci95")}};
+}
+
 Json free_run(const FreeRun& f) {
   Json out{{"window_s", kWindow_s},
            {"windows", f.windows.count},
            {"whole_run_rms_mm",
             {{"supplied", 1e3 * f.whole_supplied_m},
              {"refitted", 1e3 * f.whole_refitted_m},
-             {"extended", 1e3 * f.whole_extended_m}}}};
-  out["position_error"] = nullptr;
-  if (f.windows.count > 0) {
-    out["position_error"] = {{"supplied_rms_mm", 1e3 * f.windows.supplied_m},
-                             {"refitted_rms_mm", 1e3 * f.refitted_m},
-                             {"extended_rms_mm", 1e3 * f.windows.extended_m},
-                             {"gain_pct", interval(f.windows.gain95, 100, "ci95")}};
-  }
+             {"extended", 1e3 * f.whole_extended_m}}},
+           {"position_error", position_error(f.windows)}};
+  if (f.windows.count > 0) out["position_error"]["refitted_rms_mm"] = 1e3 * f.refitted_m;
   return out;
 }
 
 Json emulated(const std::optional<Emulated>& e) {
   if (!e) return nullptr;
-  Json out{{"window_s", kWindow_s},
-           {"windows", e->windows.count},
-           {"whole_run_rms_mm",
-            {{"supplied", 1e3 * e->whole_supplied_m}, {"extended", 1e3 * e->whole_extended_m}}},
-           {"left_out", e->left_out}};
-  out["position_error"] = nullptr;
-  if (e->windows.count > 0) {
-    out["position_error"] = {{"supplied_rms_mm", 1e3 * e->windows.supplied_m},
-                             {"extended_rms_mm", 1e3 * e->windows.extended_m},
-                             {"gain_pct", interval(e->windows.gain95, 100, "ci95")}};
-  }
-  return out;
+  return {{"window_s", kWindow_s},
+          {"windows", e->windows.count},
+          {"whole_run_rms_mm",
+           {{"supplied", 1e3 * e->whole_supplied_m}, {"extended", 1e3 * e->whole_extended_m}}},
+          {"position_error", position_error(e->windows)},
+          {"left_out", e->left_out}};
 }
 
 }  // namespace

@@ -103,20 +103,30 @@ std::string in_one_line(const Diagnosis& d) {
   return "Estimated:     " + out + ".\n";
 }
 
-// What is written may lack a cause, and that one may be most of it.
-std::string about_the_file(const Diagnosis& d) {
-  if (!d.emulated) return "use the parameters and causes of diagnosis.json";
+// With what is written the emulator is no better: it may lack a cause, and that one may be most.
+bool ends_no_nearer(const Diagnosis& d) {
   const Windows& w = d.emulated->windows;
-  std::string without;
+  return w.count > 0 && w.extended_m >= w.supplied_m;
+}
+
+std::string what_to_use(const Diagnosis& d) {
+  if (!d.emulated) return "use the parameters and causes of diagnosis.json";
+  return ends_no_nearer(d) ? "keep the supplied plant" : "use extended_plant.toml";
+}
+
+// What the written plant file is not.
+std::string about_the_file(const Diagnosis& d) {
+  if (!d.emulated || d.verdicts.front() == "model_adequate") return {};
+  std::string out;
   for (const std::string& cause : d.emulated->left_out) {
-    without += (without.empty() ? "" : ", ") + cause;
+    out += fmt::format(
+        "  extended_plant.toml      lacks {}: the emulator's plant cannot express it\n", cause);
   }
-  if (w.count > 0 && w.extended_m >= w.supplied_m) {
-    return "keep the supplied plant: the emulator with extended_plant.toml ends no nearer" +
-           (without.empty() ? "" : ", for it cannot have " + without);
-  }
-  return "use extended_plant.toml" +
-         (without.empty() ? "" : "; the emulator's plant cannot have " + without);
+  return ends_no_nearer(d)
+             ? out +
+                   "  extended_plant.toml      in the emulator ends no nearer to the log than the "
+                   "supplied plant\n"
+             : out;
 }
 
 std::string next_step(const Diagnosis& d) {
@@ -142,7 +152,7 @@ std::string next_step(const Diagnosis& d) {
   }
   return d.verdicts.front() == "model_adequate"
              ? "nothing; see not_testable for what was out of reach"
-             : about_the_file(d);
+             : what_to_use(d);
 }
 
 }  // namespace
@@ -170,6 +180,7 @@ std::string headline(const Diagnosis& d) {
                        cause.effect->name, cause.effect->cause, 100 * cause.gain99.value,
                        100 * cause.gain99.low, 100 * cause.gain99.high);
   }
+  out += about_the_file(d);
   for (const logs::Finding& finding : d.findings) {
     out += fmt::format("  note, {}: {}\n", finding.name, finding.sentence);
   }

@@ -142,5 +142,24 @@ TEST(ProposedMap, IsEnoughForADiagnosisWithoutAModel) {
             0);
 }
 
+// A load of a milligram is beyond what the emulator steps: told, and no file of an earlier answer
+// stays.
+TEST(ProposedMap, OfALogWhosePlantTheEmulatorRefusesGivesNoPlantFile) {
+  const HiddenAxis axis;
+  const BroughtCase brought(axis);
+  brought.write("log.csv", csv_of(axis, make_hidden_log(axis, 11)));
+  brought.write("map.toml",
+                fmt::format("time = \"time_s\"\nposition = \"y_count\"\nposition_is_count = true\n"
+                            "position_scale_m = {}\ninput = \"y_duty_pct\"\ninput_scale_N = {}\n",
+                            1 / axis.counts_per_m, 1e-6 / axis.mass_kg * axis.newton_per_duty_pct));
+  std::filesystem::create_directories(brought.out());
+  brought.write("found/extended_plant.toml", "old");
+  const auto told = brought.diagnose_without_model("--data log.csv --columns map.toml");
+  EXPECT_EQ(told.code, 0) << told.text;
+  EXPECT_THAT(told.text, HasSubstr("note, plant_refused: "));
+  EXPECT_TRUE(brought.answer()["emulated"].is_null());
+  EXPECT_FALSE(std::filesystem::exists(brought.out() / "extended_plant.toml"));
+}
+
 }  // namespace
 }  // namespace towbench::tests

@@ -1,0 +1,56 @@
+// What the answer says of the plant file that was written.
+#include "study/diagnose/headline.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace towbench::tests {
+namespace {
+
+using namespace study::diagnose;
+using testing::HasSubstr;
+using testing::Not;
+
+// Play was named; the emulator ends so far off, in metres.
+Diagnosis found(double supplied_m, double extended_m) {
+  Diagnosis d;
+  d.verdicts = {"cause_found"};
+  d.causes.push_back({find_effect("backlash"), {}, 1e-9, {0.3, 0.2, 0.4}, {}, {}});
+  d.emulated = Emulated{};
+  d.emulated->windows.count = 40;
+  d.emulated->windows.supplied_m = supplied_m;
+  d.emulated->windows.extended_m = extended_m;
+  return d;
+}
+
+TEST(Headline, SaysHowFarTheEmulatorIsFromTheLogWithEitherPlant) {
+  const std::string text = headline(found(4e-3, 1e-3));
+  EXPECT_THAT(text, HasSubstr("in the emulator under the measured input alone for 0.5 s, it ends 1 "
+                              "instead of 4 mm off"));
+  EXPECT_THAT(text, HasSubstr("What to do:    use extended_plant.toml."));
+  EXPECT_THAT(text, Not(HasSubstr("  extended_plant.toml")));
+}
+
+TEST(Headline, KeepsTheSuppliedPlantWhereTheEmulatorEndsNoNearer) {
+  const std::string text = headline(found(1e-3, 1e-3));
+  EXPECT_THAT(text, HasSubstr("What to do:    keep the supplied plant."));
+  EXPECT_THAT(text, HasSubstr("  extended_plant.toml      in the emulator ends no nearer"));
+}
+
+TEST(Headline, NamesWhatTheFileLacksWhateverIsToBeDoneNext) {
+  Diagnosis d = found(4e-3, 1e-3);
+  d.causes.front().alternatives = {"presliding"};
+  d.emulated->left_out = {"transport_delay"};
+  const std::string text = headline(d);
+  EXPECT_THAT(text, HasSubstr("What to do:    no motion in reach tells"));
+  EXPECT_THAT(text, HasSubstr("  extended_plant.toml      lacks transport_delay: "));
+}
+
+TEST(Headline, SendsToTheNumbersWhereNoPlantFileWasWritten) {
+  Diagnosis d = found(4e-3, 1e-3);
+  d.emulated.reset();
+  EXPECT_THAT(headline(d), Not(HasSubstr("extended_plant.toml")));
+}
+
+}  // namespace
+}  // namespace towbench::tests
