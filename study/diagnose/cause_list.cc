@@ -23,7 +23,7 @@ std::string entry(const Effect& effect) {
   line("numbers", fmt::format("{}", fmt::join(numbers, ", ")));
   line("needs", effect.needs);
   line("plant file", effect.plant_keys.empty()
-                         ? "cannot have it"
+                         ? "cannot express it"
                          : fmt::format("{}", fmt::join(effect.plant_keys, ", ")));
   return out;
 }

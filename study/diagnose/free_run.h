@@ -30,7 +30,7 @@ struct Emulated {
   Windows windows;
   double whole_supplied_m = 0;
   double whole_extended_m = 0;
-  std::vector<std::string> left_out;  // causes that its plant cannot have
+  std::vector<std::string> left_out;  // causes that its plant cannot express
 };
 
 struct FreeRun {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <optional>
 
@@ -20,7 +19,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kLine_s = 0.04;  // whose line is a speed
-constexpr double kEnough_V = 1e6;
+constexpr double kUnlimited_V = 1e6;
 constexpr double kTick_s = core::kPlantTick_s;
 constexpr double kRadians = 2 * std::numbers::pi;  // of a turn
 
@@ -42,13 +41,13 @@ LogUnits units_of_log(const emulator::RigAxisParameters& axis) {
           kRadians * r / static_cast<double>(axis.encoder.counts_per_turn)};
 }
 
-// Of a file without a motor: current follows the command at once, whatever the speed.
+// Of a file without a motor: an ampere makes a newton at any speed.
 void make_ideal(emulator::AxisParameters& plant) {
   const double r = plant.output_radius_m / plant.gear_ratio;
-  const double amperes = plant.torque_constant_Nm_per_A / r;  // where a newton takes one
+  const double newton_per_A = plant.torque_constant_Nm_per_A / r;
   plant.torque_constant_Nm_per_A = r;
-  plant.amplifier_gain_A_per_V *= amperes;
-  plant.current_limit_A *= amperes;
+  plant.amplifier_gain_A_per_V *= newton_per_A;
+  plant.current_limit_A *= newton_per_A;
   plant.winding = {.resistance_ohm = 1, .inductance_H = 0.4e-3, .choke_inductance_H = 0};
 }
 
@@ -73,7 +72,7 @@ class EmulatedAxis {
         units_(units),
         plant_(replayed(axis_.plant, stated, machine.water), at_m) {
     if (machine.water.present() && core::is_planar(which_)) water_.emplace(machine.water);
-    input_.supply_V = stated.no_load_speed_m_per_s > 0 ? machine.supply.voltage_V : kEnough_V;
+    input_.supply_V = stated.no_load_speed_m_per_s > 0 ? machine.supply.voltage_V : kUnlimited_V;
     input_.amplifier_enabled = true;
     off_m_ = reading_m() - at_m;
   }
@@ -81,8 +80,8 @@ class EmulatedAxis {
   // So that its encoder reads so much more and faster.
   void displace(double by_m, double by_m_per_s) {
     const double r = axis_.plant.output_radius_m / axis_.plant.gear_ratio;
-    const double told = on_load() ? 1 : told_per_rad(plant_.state().motor_angle_rad) / r;
-    plant_.displace(by_m / told, by_m_per_s / told);
+    const double read_per_m = on_load() ? 1 : read_per_rad(plant_.state().motor_angle_rad) / r;
+    plant_.displace(by_m / read_per_m, by_m_per_s / read_per_m);
   }
 
   void tick(double input_N, double known_N) {
@@ -110,7 +109,7 @@ class EmulatedAxis {
  private:
   [[nodiscard]] bool on_load() const { return axis_.encoder.side == emulator::EncoderSide::kLoad; }
   // What a radian of the motor adds to the reading.
-  [[nodiscard]] double told_per_rad(double motor_rad) const {
+  [[nodiscard]] double read_per_rad(double motor_rad) const {
     const emulator::EncoderParameters& e = axis_.encoder;
     const double wave = std::cos(motor_rad - kRadians * e.eccentricity_phase_deg / 360);
     return (static_cast<double>(e.counts_per_turn) / kRadians + e.eccentricity_counts * wave) *

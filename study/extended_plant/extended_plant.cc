@@ -62,7 +62,8 @@ ExtendedPlant extend_plant(const toml::table& plant, const Diagnosis& d) {
   std::string head = "# Written by towbench diagnose: the plant file with what was found.\n";
   const auto leave_out = [&](const std::string& name, const std::string& cause) {
     out.left_out.push_back(name);
-    head += fmt::format("# found, but the emulator's plant cannot have it: {} ({})\n", name, cause);
+    head +=
+        fmt::format("# found, but the emulator's plant cannot express it: {} ({})\n", name, cause);
   };
   if (!d.causes.empty() || any_moved(d)) {
     if (!write_parameters(file, d.extended)) leave_out("parameters", "mass and friction");

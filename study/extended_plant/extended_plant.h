@@ -1,4 +1,4 @@
-// The plant file with what was found written into it, as far as the emulator can have it.
+// The plant file with what was found written into it, as far as the emulator can express it.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace towbench::study::diagnose {
 
 struct ExtendedPlant {
   std::string text;                   // TOML, with what could not be said as comments on top
-  std::vector<std::string> left_out;  // causes that the emulator's plant cannot have
+  std::vector<std::string> left_out;  // causes that the emulator's plant cannot express
 };
 
 // `plant`: the parsed file that the model came from, motor side or load side. Where something was

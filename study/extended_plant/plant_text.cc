@@ -101,8 +101,8 @@ void PlantText::read() {
   const auto& shaft = machine_.water.shaft;
   stated_.shaft_drag_N_s2_per_m2 = shaft.in_water ? shaft.quadratic_drag_N_s2_per_m2 : 0;
   const auto& object = machine_.water.object;
-  stated_.tows = core::is_planar(which) && !axis.load_turns && object.yaw_deg == 0 &&
-                 object.across_drag_ratio == 1;
+  stated_.in_water_plane = core::is_planar(which) && !axis.load_turns && object.yaw_deg == 0 &&
+                           object.across_drag_ratio == 1;
 }
 
 void PlantText::put(toml::table& plant, const std::string& given, const PlantValue& value) const {

@@ -43,7 +43,7 @@ struct Effect {
   void (*set)(Parameters&, const Context&, std::span<const double>) = nullptr;
   double (*step)(const Context&) = nullptr;  // of an amplitude, for its derivative
   // Keys of the plant file below [axis.NAME], or of its water, and their values. Empty: the
-  // emulator cannot have it.
+  // emulator cannot express it.
   std::vector<std::string> plant_keys = {};
   PlantValues (*plant_values)(const Parameters&, const StatedPlant&) = nullptr;
 };

@@ -50,7 +50,7 @@ PlantValues viscous_asymmetry_values(const Parameters& p, const StatedPlant& /*s
 // What holds the object is in the water, too.
 PlantValues drag_values(const Parameters& p, const StatedPlant& stated) {
   const double drag = p[Key::kDrag] - stated.shaft_drag_N_s2_per_m2;
-  return stated.tows && drag >= 0 ? PlantValues{true, drag} : PlantValues{};
+  return stated.in_water_plane && drag >= 0 ? PlantValues{true, drag} : PlantValues{};
 }
 
 PlantValues load_friction_values(const Parameters& p, const StatedPlant& /*stated*/) {

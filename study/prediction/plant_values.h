@@ -33,7 +33,7 @@ struct StatedPlant {
   double counts_per_turn = 0;
   double slack_m = 0;
   double shaft_drag_N_s2_per_m2 = 0;  // of what holds the object in the water
-  bool tows = false;                  // in the plane of the water
+  bool in_water_plane = false;        // one of the two axes that water acts on
 };
 
 // Dry friction as the file has it: one level, and what is added to it by place, never negative.

@@ -150,7 +150,7 @@ TEST_F(ExtendedPlantFile, WhatTheEmulatorRefusesIsLeftOutAndTold) {
   const ExtendedPlant extended = extend_plant(plant_.plant, d_);
   EXPECT_THAT(extended.left_out,
               testing::ElementsAre("load_dependent_friction", "low_speed_rolloff"));
-  EXPECT_THAT(extended.text, testing::HasSubstr("cannot have it: load_dependent_friction"));
+  EXPECT_THAT(extended.text, testing::HasSubstr("cannot express it: load_dependent_friction"));
   EXPECT_THAT(extended.text, testing::HasSubstr("stiffness_N_per_m = 1.2"));
   EXPECT_THAT(extended.text, testing::Not(testing::HasSubstr("load_ratio")));
 }
