@@ -39,7 +39,7 @@ const NamedCause* gain_cause(const Diagnosis& d) {
 
 // Whether a wrong gain is named, as a cause or as what stands behind all parameters.
 bool gain_is_named(const Diagnosis& d) {
-  return gain_cause(d) != nullptr || diagnose::common_cause(d.parameters) == kAmplifierGain;
+  return gain_cause(d) != nullptr || diagnose::may_be_gain(d.parameters);
 }
 
 // Slow and smooth, over a good part of the stroke: what counts is how long each direction lasts.

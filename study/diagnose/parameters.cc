@@ -62,28 +62,33 @@ bool agree(const Ratio& a, const Ratio& b) {
          std::max(3 * std::hypot(a.error, b.error), 0.1 * std::abs(a.value - 1));
 }
 
-// What stands behind inertia, viscous and Coulomb friction together; empty: nothing does.
-using Common = std::array<std::string, 3>;
+// What may stand behind a shift of inertia, of viscous and of Coulomb friction, each.
+using Behind = std::array<std::vector<std::string>, 3>;
 
-Common common_causes(const std::vector<ParameterShift>& shifts) {
+constexpr const char* kGain = "amplifier_gain";
+constexpr const char* kCounts = "encoder_count_loss";
+
+Behind behind(const std::vector<ParameterShift>& shifts) {
   if (!shifts[kInertia].moved || shifts[kViscousFriction].supplied == 0 ||
       shifts[kDryFriction].supplied == 0) {
     return {};
   }
   const Ratio mass = ratio_of(shifts[kInertia]);
   const Ratio viscous = ratio_of(shifts[kViscousFriction]);
-  const Ratio coulomb = ratio_of(shifts[kDryFriction]);
-  if (agree(mass, coulomb) && agree(mass, viscous)) {
-    return {"amplifier_gain", "amplifier_gain", "amplifier_gain"};
-  }
-  if (!agree(mass, viscous) || std::abs(viscous.value - 1) < 3 * viscous.error) {
+  if (!agree(mass, viscous)) {
     return {};
   }
-  if (!shifts[kDryFriction].moved) {
-    return {"encoder_count_loss", "encoder_count_loss", ""};
-  }
   // Lost counts scale what moves, a wrong gain that and what only rubs.
-  return {"encoder_count_loss", "encoder_count_loss", "amplifier_gain"};
+  const bool by_gain = agree(mass, ratio_of(shifts[kDryFriction]));
+  const bool rubs_as_stated = !shifts[kDryFriction].moved;
+  if (!by_gain && !rubs_as_stated) {
+    const bool viscous_is_off = std::abs(viscous.value - 1) >= 3 * viscous.error;
+    return viscous_is_off ? Behind{{{kCounts}, {kCounts}, {kGain}}} : Behind{};
+  }
+  std::vector<std::string> one;
+  if (by_gain) one.emplace_back(kGain);
+  if (rubs_as_stated) one.emplace_back(kCounts);
+  return {one, one, one};
 }
 
 }  // namespace
@@ -126,20 +131,19 @@ std::vector<ParameterShift> judge_parameters(const Data& data, const Search& sea
   if (shifts[kConstantForce].moved) {
     shifts[kConstantForce].indistinguishable_from = {"constant_bias", "coulomb_asymmetry"};
   }
-  const Common common = common_causes(shifts);
-  for (std::size_t i = 0; i < common.size(); ++i) {
-    if (shifts[i].moved && !common[i].empty()) {
-      shifts[i].indistinguishable_from.push_back(common[i]);
-    }
+  const Behind causes = behind(shifts);
+  for (std::size_t i = 0; i < causes.size(); ++i) {
+    auto& alike = shifts[i].indistinguishable_from;
+    if (shifts[i].moved) alike.insert(alike.end(), causes[i].begin(), causes[i].end());
   }
   return shifts;
 }
 
-std::string common_cause(const std::vector<ParameterShift>& shifts) {
-  const Common common = common_causes(shifts);
-  const bool of_all = common[kInertia] == common[kViscousFriction] &&
-                      (common[kDryFriction].empty() || common[kDryFriction] == common[kInertia]);
-  return of_all ? common[kInertia] : std::string{};
+bool may_be_gain(const std::vector<ParameterShift>& shifts) {
+  const Behind causes = behind(shifts);
+  return std::all_of(causes.begin(), causes.end(), [](const auto& of_one) {
+    return std::find(of_one.begin(), of_one.end(), kGain) != of_one.end();
+  });
 }
 
 }  // namespace towbench::study::diagnose

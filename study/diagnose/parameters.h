@@ -24,11 +24,11 @@ enum BaseParameter : std::size_t { kInertia, kViscousFriction, kDryFriction, kCo
 // A parameter has moved when it lies more than 4 standard errors and 1 % of the input's rms from
 // what was supplied, and no accepted cause shares its mean with it.
 // Classes: {inertia, added_mass}; all by one ratio: {amplifier_gain}; inertia and viscous by one
-// ratio, Coulomb not: {encoder_count_loss}; Coulomb by another: {amplifier_gain} beside it, two
-// things; bias: {constant_bias, coulomb_asymmetry}.
+// ratio, Coulomb as stated: {encoder_count_loss}, or both where the data allow either; Coulomb by
+// another ratio: {amplifier_gain} beside it, two things; bias: {constant_bias, coulomb_asymmetry}.
 [[nodiscard]] std::vector<ParameterShift> judge_parameters(const Data& data, const Search& search);
 
-// The one effect that stands behind several shifts, by name; empty when there is none.
-[[nodiscard]] std::string common_cause(const std::vector<ParameterShift>& shifts);
+// Whether a wrong gain may stand behind the shifts of inertia, viscous and dry friction.
+[[nodiscard]] bool may_be_gain(const std::vector<ParameterShift>& shifts);
 
 }  // namespace towbench::study::diagnose
