@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 namespace towbench::study::diagnose {
@@ -13,6 +14,8 @@ using Eigen::VectorXd;
 constexpr int kBins = 12;
 constexpr int kPlaces = 4;
 constexpr int kSpeeds = 5;
+constexpr Index kWaves = 6;                         // half waves over the stroke, at most
+constexpr Index kPowers = 3;                        // of the speed
 constexpr double kMemories_s[] = {0.1, 0.3, 1, 3};  // of a part that gives way
 constexpr double kHeats_s[] = {1, 3, 10};           // of friction that its own work changes
 constexpr Index kEach = 5;                          // of so many samples one is looked at
@@ -94,6 +97,28 @@ std::optional<FreeShape> along_place_and_speed(const std::vector<Motion>& motion
   return shape;
 }
 
+// Products of the slowest shapes of place and of powers of the speed: smooth in both, and finer
+// over the place than the grid.
+FreeShape smooth_in_place_and_speed(const std::vector<Motion>& motions) {
+  double least_m = motions.front().position_m[0];
+  double most_m = least_m;
+  double top_m_per_s = 0;
+  for (const Motion& m : motions) {
+    least_m = std::min(least_m, m.position_m.minCoeff());
+    most_m = std::max(most_m, m.position_m.maxCoeff());
+    top_m_per_s = std::max(top_m_per_s, m.speed_m_per_s.cwiseAbs().maxCoeff());
+  }
+  FreeShape shape{.coordinate = "position and speed", .columns = kWaves * kPowers};
+  shape.force = [=](Index column, const Motion& m) -> VectorXd {
+    const double per_m =
+        std::numbers::pi * static_cast<double>(1 + column % kWaves) / (most_m - least_m);
+    const auto speed = (m.speed_m_per_s / top_m_per_s).array();
+    return ((m.position_m.array() - least_m) * per_m).cos() *
+           speed.pow(static_cast<double>(1 + column / kWaves));
+  };
+  return shape;
+}
+
 // A low pass of a signal, of time constant `memory_s`.
 VectorXd low_pass(const VectorXd& signal, const Motion& m, double memory_s) {
   const double period_s =
@@ -131,6 +156,7 @@ std::vector<FreeShape> free_shapes(const std::vector<Motion>& motions) {
     if (auto shape = along(coordinate, motions)) shapes.push_back(std::move(*shape));
   }
   if (auto grid = along_place_and_speed(motions)) shapes.push_back(std::move(*grid));
+  shapes.push_back(smooth_in_place_and_speed(motions));
   shapes.push_back(of_the_past(motions));
   return shapes;
 }

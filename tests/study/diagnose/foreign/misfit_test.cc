@@ -39,6 +39,16 @@ TEST(Misfit, OfPlaceAndSpeedTogetherIsNotCalledFrictionOfThePlace) {
   expect_unexplained("outside_place_and_speed", 81008);
 }
 
+// A screw whose runs have five waves of it: finer over the place than a grid of four.
+TEST(Misfit, OfWavesOverPlaceAndSpeedIsNotCalledFrictionOfThePlace) {
+  Wish wish;
+  wish.kind = "outside";
+  wish.effect = "outside_place_and_speed";
+  const auto answer = answer_of(study::diagnose::diagnose(request_of(draw_case(wish, 84019))));
+  EXPECT_THAT(causes_of(answer), IsEmpty());
+  EXPECT_TRUE(answer.unexplained);
+}
+
 TEST(Misfit, OfASpringThatCreepsIsNotCalledACable) {
   expect_unexplained("outside_memory", 81020);
 }
