@@ -8,7 +8,6 @@ logs::ColumnMap bench_columns(const logs::Table& table, const NominalModel& mode
                               const std::string& file, logs::Findings& findings) {
   logs::ColumnMap map;
   const std::string axis = model.axis + "_";
-  const std::string other = model.axis == "y" ? "x_" : "y_";
   if (table.find(axis + "count") != nullptr && model.metres_per_count > 0) {
     map.position = axis + "count";
     map.position_scale_m = model.metres_per_count;
@@ -25,8 +24,9 @@ logs::ColumnMap bench_columns(const logs::Table& table, const NominalModel& mode
   if (table.find(axis + "reference_m") != nullptr) {
     map.reference = axis + "reference_m";
   }
-  if (table.find(other + "position_m") != nullptr) {
-    map.other_position = other + "position_m";
+  const std::string other = (model.axis == "y" ? "x" : "y") + std::string("_position_m");
+  if (table.find(other) != nullptr) {
+    map.others.push_back({.position = other});
   }
   for (const auto* name : {&map.time, &map.position, &map.input}) {
     if (table.find(*name) == nullptr) {

@@ -1,6 +1,7 @@
 #include "study/diagnose/cause_list.h"
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -32,13 +33,19 @@ std::string entry(const Effect& effect) {
 
 std::string cause_list() {
   std::vector<const Effect*> all;
-  for (const Effect& effect : effects()) all.push_back(&effect);
+  for (const Effect& effect : effects()) {
+    if (effect.other <= 0) all.push_back(&effect);
+  }
   std::stable_sort(all.begin(), all.end(),
                    [](const Effect* a, const Effect* b) { return a->name < b->name; });
   std::string out =
       "Added to M a = u - B v - b - dry friction C: x place, v speed, a acceleration, u the input "
       "as a force.\n"
-      "Beside them the fit moves M, B, C and b themselves.\n";
+      "Beside them the fit moves M, B, C and b themselves. What another axis does is sought for "
+      "each\n"
+      "of up to " +
+      std::to_string(kOthers) +
+      " in the log: NAME for the first of the map, NAME_2 for the second.\n";
   for (const Effect* effect : all) out += "\n" + entry(*effect);
   return out;
 }

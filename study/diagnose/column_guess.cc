@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "study/prediction/parameters.h"
+
 namespace towbench::study::diagnose {
 namespace {
 
@@ -146,6 +148,8 @@ class Guesser {
     find_position();
     find_velocities();
     find_reference();
+    find_others();
+    find_temperature();
     find_input();
     return std::move(guesses_);
   }
@@ -261,6 +265,28 @@ class Guesser {
       is(i, Role::kReference,
          fmt::format("{} follows it {} rows later", guesses_[*position_].name,
                      std::max<std::ptrdiff_t>(0, lag(columns_[i], columns_[*position_]))));
+      return;
+    }
+  }
+
+  // Named as the position is, and moving on their own.
+  void find_others() {
+    if (!position_ || named_as_position(*position_) <= 0) return;
+    int found = 0;
+    for (std::size_t i = 0; i < guesses_.size() && found < kOthers; ++i) {
+      if (!open(i) || named_as_position(i) < named_as_position(*position_)) continue;
+      if (std::abs(correlation(columns_[i], columns_[*position_])) > kAlike) continue;
+      is(i, Role::kOther, "a position by its name");
+      ++found;
+    }
+  }
+
+  void find_temperature() {
+    for (std::size_t i = 0; i < guesses_.size(); ++i) {
+      if (!open(i) || !says(guesses_[i].name, {"temp", "temperature", "celsius", "kelvin"})) {
+        continue;
+      }
+      is(i, Role::kTemperature, "by its name");
       return;
     }
   }

@@ -8,7 +8,16 @@
 
 namespace towbench::study::diagnose {
 
-enum class Role { kNone, kTime, kPosition, kReference, kVelocity, kInput };
+enum class Role {
+  kNone,
+  kTime,
+  kPosition,
+  kReference,
+  kVelocity,
+  kInput,
+  kOther,  // the position of another axis
+  kTemperature
+};
 
 struct ColumnGuess {
   std::string name;
@@ -19,7 +28,7 @@ struct ColumnGuess {
   double high = 0;
 };
 
-// In the order of the header. At most one time, position, reference and input.
+// In the order of the header. At most one time, position, reference, input and temperature.
 [[nodiscard]] std::vector<ColumnGuess> guess_columns(const logs::Table& table);
 
 }  // namespace towbench::study::diagnose

@@ -111,7 +111,9 @@ bool ends_no_nearer(const Diagnosis& d) {
 
 std::string what_to_use(const Diagnosis& d) {
   if (!d.emulated) return "use the parameters and causes of diagnosis.json";
-  return ends_no_nearer(d) ? "keep the supplied plant" : "use extended_plant.toml";
+  if (!ends_no_nearer(d)) return "use extended_plant.toml";
+  return d.emulated->left_out.empty() ? "keep the supplied plant"
+                                      : "use the sizes in diagnosis.json; the emulator lacks them";
 }
 
 // What the written plant file is not.

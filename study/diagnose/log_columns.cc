@@ -28,13 +28,21 @@ class Finder {
     c.position = needed(map_.position);
     c.input = needed(map_.input);
     c.reference = optional(map_.reference);
-    c.other_position = optional(map_.other_position);
+    if (!map_.temperature.empty()) c.temperature = needed(map_.temperature);
+    for (const logs::OtherColumn& other : map_.others) c.others.push_back(needed(other.position));
     if (is_fatal(findings_)) {
       return c;
     }
-    c.rows = usable_rows({c.time, c.position, c.input});
+    std::vector<const std::vector<double>*> used{c.time, c.position, c.input};
+    if (c.temperature != nullptr) used.push_back(c.temperature);
+    used.insert(used.end(), c.others.begin(), c.others.end());
+    c.rows = usable_rows(used);
     drop_absurd(c.rows, *c.position, map_.position);
     drop_absurd(c.rows, *c.input, map_.input);
+    if (c.temperature != nullptr) drop_absurd(c.rows, *c.temperature, map_.temperature);
+    for (std::size_t i = 0; i < c.others.size(); ++i) {
+      drop_absurd(c.rows, *c.others[i], map_.others[i].position);
+    }
     if (c.rows.size() < kFewestSamples) {
       tell(Kind::kFatal, "too_short",
            fmt::format("{}: {} usable samples; at least {} are needed", file_, c.rows.size(),
@@ -98,8 +106,8 @@ class Finder {
     }
     if (first_refused < table_.rows()) {
       tell(Kind::kNote, "not_a_number",
-           fmt::format("{}:{}: {} row{} left out from here on, time, position or input is not a "
-                       "number there",
+           fmt::format("{}:{}: {} row{} left out from here on, time, position, input or another "
+                       "column of the map is not a number there",
                        file_, table_.line[first_refused], table_.rows() - rows.size(),
                        table_.rows() - rows.size() == 1 ? "" : "s"));
     }

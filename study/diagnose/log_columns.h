@@ -15,9 +15,10 @@ struct LogColumns {
   const std::vector<double>* time = nullptr;
   const std::vector<double>* position = nullptr;
   const std::vector<double>* input = nullptr;
-  const std::vector<double>* reference = nullptr;       // null: none
-  const std::vector<double>* other_position = nullptr;  // null: none
-  std::vector<std::size_t> rows;  // with sane numbers in time, position and input
+  const std::vector<double>* reference = nullptr;    // null: none
+  const std::vector<double>* temperature = nullptr;  // null: none
+  std::vector<const std::vector<double>*> others;    // positions of other axes
+  std::vector<std::size_t> rows;                     // with sane numbers in all but the reference
 };
 
 // Named findings: column_missing, column_twice, bad_rows, not_a_number, absurd_values, too_short,

@@ -102,6 +102,14 @@ std::string line(const char* key, const ColumnGuess* column) {
                            : fmt::format("# {} = \"\"  which column is it?\n", key);
 }
 
+std::string other_of(const ColumnGuess& g) {
+  const double scale = length_a_unit(g.unit);
+  std::string out = "[[other]]\n" + line("position", &g);
+  if (scale == 0) out += "# position_scale_m = 1.0  metres or radians a unit\n";
+  if (scale != 0 && scale != 1) out += fmt::format("position_scale_m = {:.10g}\n", scale);
+  return out + (turns(&g, nullptr) ? "rotary = true\n" : "# rotary = true  if it is a joint\n");
+}
+
 std::string map_of(const Found& f) {
   std::string out = line("time", f.time);
   if (f.time != nullptr && f.seconds() != 1) {
@@ -120,14 +128,22 @@ std::string map_of(const Found& f) {
   out += line("input", f.input);
   if (!f.force_is_known()) out += fmt::format("# input_scale_N = 1.0  {} a unit\n", f.force());
   if (f.reference != nullptr) out += line("reference", f.reference);
+  out += of_role(f.all, Role::kTemperature) != nullptr
+             ? line("temperature", of_role(f.all, Role::kTemperature))
+             : std::string{};
   if (f.rotary) out += "rotary = true\n";
+  for (const ColumnGuess& g : f.all) {
+    if (g.role == Role::kOther) out += other_of(g);
+  }
   return out;
 }
 
 std::string columns_of(const Found& f) {
   static const std::map<Role, const char*> kRoles{
-      {Role::kNone, "not used"}, {Role::kTime, "time"},           {Role::kPosition, "position"},
-      {Role::kInput, "input"},   {Role::kReference, "reference"}, {Role::kVelocity, "not used"}};
+      {Role::kNone, "not used"},       {Role::kTime, "time"},
+      {Role::kPosition, "position"},   {Role::kInput, "input"},
+      {Role::kReference, "reference"}, {Role::kVelocity, "not used"},
+      {Role::kOther, "another axis"},  {Role::kTemperature, "temperature"}};
   std::size_t width = 0;
   for (const ColumnGuess& g : f.all) width = std::max(width, g.name.size());
   std::string out;

@@ -54,8 +54,13 @@ Run make_run(const logs::Table& table, const logs::ColumnMap& map, std::string n
     run.reference_m =
         grid.resampled(*columns.reference, map.position_is_count ? 1.0 : map.position_scale_m);
   }
-  if (columns.other_position != nullptr) {
-    run.other_position_m = grid.resampled(*columns.other_position, map.other_position_scale_m);
+  if (columns.temperature != nullptr) {
+    run.temperature_K = grid.resampled(*columns.temperature, 1);
+  }
+  for (std::size_t i = 0; i < columns.others.size(); ++i) {
+    const logs::OtherColumn& other = map.others[i];
+    run.others.push_back(
+        {grid.resampled(*columns.others[i], other.position_scale_m), other.rotary});
   }
   if (map.position_is_count) {
     run.position_m.array() += 0.5 * map.position_scale_m;

@@ -35,6 +35,11 @@ bool stated_in_another_way(const Search& s, const Effect& effect) {
                      [&](const Candidate& c) { return c.effect->name == effect.name; });
 }
 
+bool repeats(const std::vector<NotTestable>& out, const Effect& effect) {
+  return std::any_of(out.begin(), out.end(),
+                     [&](const NotTestable& entry) { return entry.effect == effect.name; });
+}
+
 // Rms of what the effect makes of its own when it is just detected.
 double detectable_rms_N(const Search& s, const Candidate& c) {
   const double to_force = s.final.fitted.model.parameters[Key::kMass] * s.bandwidth * s.bandwidth;
@@ -48,7 +53,8 @@ std::vector<NotTestable> find_not_testable(const Search& s) {
   std::vector<NotTestable> out;
   const double force = s.context.input_rms_N;
   for (const Effect& effect : effects()) {
-    if (accepted(s, effect) || stated_in_another_way(s, effect)) {
+    if (accepted(s, effect) || stated_in_another_way(s, effect) || repeats(out, effect) ||
+        effect.other >= std::max<std::ptrdiff_t>(1, std::ssize(s.context.others))) {
       continue;
     }
     const Candidate* c = tried(s, effect);

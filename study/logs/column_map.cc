@@ -1,5 +1,6 @@
 #include "study/logs/column_map.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -38,6 +39,26 @@ bool assign(const toml::node& node, bool& field) {
   return given.has_value();
 }
 
+constexpr std::size_t kMostOthers = 5;
+
+bool assign(const toml::table& table, OtherColumn& other) {
+  for (const auto& [key, node] : table) {
+    const bool taken = (key == "position" && assign(node, other.position)) ||
+                       (key == "position_scale_m" && assign(node, other.position_scale_m)) ||
+                       (key == "rotary" && assign(node, other.rotary));
+    if (!taken) return false;
+  }
+  return !other.position.empty();
+}
+
+bool assign(const toml::node& node, std::vector<OtherColumn>& others) {
+  const toml::array* tables = node.as_array();
+  if (tables == nullptr || tables->empty() || tables->size() > kMostOthers) return false;
+  return std::all_of(tables->begin(), tables->end(), [&](const toml::node& table) {
+    return table.is_table() && assign(*table.as_table(), others.emplace_back());
+  });
+}
+
 constexpr std::int64_t kSchema = 1;
 
 // False when the key is unknown or its value is of the wrong kind.
@@ -50,12 +71,12 @@ bool set(ColumnMap& map, std::string_view key, const toml::node& node) {
   if (key == "duty") return assign(node, map.duty);
   if (key == "current") return assign(node, map.current);
   if (key == "reference") return assign(node, map.reference);
-  if (key == "other_position") return assign(node, map.other_position);
+  if (key == "temperature") return assign(node, map.temperature);
+  if (key == "other") return assign(node, map.others);
   if (key == "time_scale_s") return assign(node, map.time_scale_s);
   if (key == "position_scale_m") return assign(node, map.position_scale_m);
   if (key == "input_scale_N") return assign(node, map.input_scale_N);
   if (key == "duty_scale_pct") return assign(node, map.duty_scale_pct);
-  if (key == "other_position_scale_m") return assign(node, map.other_position_scale_m);
   if (key == "position_is_count") return assign(node, map.position_is_count);
   if (key == "input_hold") return assign(node, map.input_hold);
   if (key == "rotary") return assign(node, map.rotary);
@@ -80,11 +101,13 @@ ColumnMap read_column_map(const std::filesystem::path& path, Findings& findings)
     const toml::table table = toml::parse(std::get<std::string>(text), path.string());
     for (const auto& [key, node] : table) {
       if (!set(map, key.str(), node)) {
-        fatal(findings, fmt::format("{}:{}: '{}' is no key of a column map, or its value is of the "
-                                    "wrong kind; known: schema time position count input duty "
-                                    "current reference other_position, *_scale_*, "
-                                    "position_is_count, input_hold, rotary",
-                                    path.string(), node.source().begin.line, key.str()));
+        fatal(findings,
+              fmt::format("{}:{}: '{}' is no key of a column map, or its value is of the "
+                          "wrong kind; known: schema time position count input duty "
+                          "current reference temperature, *_scale_*, "
+                          "position_is_count, input_hold, rotary, and [[other]] with "
+                          "position, position_scale_m and rotary, at most {}",
+                          path.string(), node.source().begin.line, key.str(), kMostOthers));
       }
     }
   } catch (const toml::parse_error& error) {

@@ -8,18 +8,28 @@
 //   duty = "u"            instead: per cent of full drive, or duty_scale_pct per unit
 //   current = "i"         optional, A: `identify` takes it
 //   reference = "qg_m"    optional, same scale as position
-//   other_position = ""   optional, metres, for cross-axis coupling
+//   temperature = "t_C"   optional, of the axis, in kelvin or degrees Celsius
 //   input_hold = false    the input is not held for one sample in the baseline model
 //   rotary = true         a joint: position in rad, input in Nm
+//   [[other]]             another axis of the machine, up to five
+//   position = "q2"       metres, or position_scale_m per unit
+//   rotary = true         a joint, in rad
 #pragma once
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "study/logs/finding.h"
 
 namespace towbench::study::logs {
+
+struct OtherColumn {
+  std::string position;
+  double position_scale_m = 1;
+  bool rotary = false;
+};
 
 struct ColumnMap {
   std::string time = "time_s";
@@ -29,12 +39,12 @@ struct ColumnMap {
   std::string duty;
   std::string current;
   std::string reference;
-  std::string other_position;
+  std::string temperature;
+  std::vector<OtherColumn> others;
   double time_scale_s = 1;
   double position_scale_m = 1;
   double input_scale_N = 1;
   double duty_scale_pct = 1;
-  double other_position_scale_m = 1;
   bool position_is_count = false;  // then the middle of a count is half a count above its number
   std::optional<bool> input_hold;
   bool rotary = false;

@@ -9,6 +9,7 @@ namespace towbench::study::diagnose {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kLeastOfMass = 0.1;  // that another axis leaves
 constexpr double kStepsPerMode = 25;  // substeps in a period of the transmission's mode
 
 double sign(double x) {
@@ -64,14 +65,17 @@ Axis::Axis(const Parameters& parameters, const Scene& scene)
       two_(parameters[Key::kMotorMass] > 0),
       drive_(any(p_, {Key::kDeadband, Key::kClipShare, Key::kStallShare, Key::kLag,
                       Key::kOutOfRoundPerMetre})),
-      on_motor_(any(p_, {Key::kRipplePerMetre, Key::kWheelPerMetre, Key::kOtherMass,
-                         Key::kOtherViscous}) ||
+      on_motor_(any(p_, {Key::kRipplePerMetre, Key::kWheelPerMetre}) || has_others(p_) ||
                 scene.run->known_N.size() > 0 || scene.extra_N.size() > 0),
-      on_load_(place_force_ ||
+      on_load_(place_force_ || has_others(p_) ||
                any(p_, {Key::kViscousAsymmetry, Key::kDrag, Key::kCubic, Key::kCable,
-                        Key::kGravityCosine, Key::kGravitySine, Key::kPeriodicHertz})),
+                        Key::kGravityCosine, Key::kGravitySine, Key::kPeriodicHertz,
+                        Key::kTemperatureViscous})),
       dry_(any(p_, {Key::kCoulombAsymmetry, Key::kStribeck, Key::kRolloff, Key::kPresliding,
-                    Key::kWarming, Key::kBreakaway, Key::kWorkWarming})) {
+                    Key::kWarming, Key::kBreakaway, Key::kWorkWarming, Key::kTemperatureDry})),
+      others_(has_others(p_)),
+      temperature_(any(p_, {Key::kTemperatureDry, Key::kTemperatureViscous}) &&
+                   scene.run->temperature_K.size() > 0) {
   bristles_N_ = std::min(0.5 * p_[Key::kPresliding], p_[Key::kCoulomb]);
   const double load = p_[Key::kMass] - p_[Key::kMotorMass];
   substeps_ = scene.substeps;
@@ -122,7 +126,17 @@ double Axis::reading_m() const {
                         p_[Key::kReadPerMetre] * motor_.x + p_[Key::kReadTurns]);
 }
 
+void Axis::look_up(Eigen::Index k) {
+  if (temperature_) warmer_K_ = scene_.run->temperature_K[k] - scene_.mean_temperature_K;
+  if (!others_) return;
+  of_others_ = of_others(p_, scene_, k, motor_.x);
+  const double own = two_ ? p_[Key::kMass] - p_[Key::kMotorMass] : p_[Key::kMass];
+  const double mass = std::max(kLeastOfMass * own, own + of_others_.mass_kg);
+  (two_ ? load_slides_ : motor_slides_) = sliding(mass, two_ ? p_[Key::kLoadShare] : 1, true);
+}
+
 void Axis::step(Eigen::Index k) {
+  look_up(k);
   const bool precomputed = p_[Key::kDelay] == 0 && substeps_ == scene_.substeps;
   for (int i = 0; i < substeps_; ++i) {
     const double t_s = static_cast<double>(k) * scene_.run->period_s + i * h_;
@@ -179,10 +193,7 @@ double Axis::on_motor_N(Eigen::Index k) const {
   if (p_[Key::kWheelPerMetre] != 0) {
     force += wheel_N();
   }
-  if (p_[Key::kOtherMass] != 0 || p_[Key::kOtherViscous] != 0) {
-    force += p_[Key::kOtherMass] * scene_.other_m_per_s2[k] +
-             p_[Key::kOtherViscous] * scene_.other_m_per_s[k];
-  }
+  force += of_others_.force_N;
   if (scene_.run->known_N.size() > 0) {
     force += scene_.run->known_N[k];
   }
@@ -212,7 +223,8 @@ double Axis::on_load_N(const Body& body, double t_s) const {
   }
   const double speed = std::abs(v);
   double force = p_[Key::kBias] + p_[Key::kViscousAsymmetry] * speed + p_[Key::kDrag] * v * speed +
-                 p_[Key::kCubic] * v * v * v + p_[Key::kCable] * (x - middle_m_);
+                 p_[Key::kCubic] * v * v * v + p_[Key::kCable] * (x - middle_m_) +
+                 (of_others_.mass_kg_per_s - p_[Key::kTemperatureViscous] * warmer_K_) * v;
   if (place_force_) {
     force += shape(p_, Key::kPlaceForce1, cosine_) + v * shape(p_, Key::kPlaceViscous1, cosine_);
   }
@@ -232,7 +244,7 @@ double Axis::shared_dry_N(const Body& body, double direction, double t_s) const 
   }
   const double speed = std::abs(body.v);
   double asymmetry_N = p_[Key::kCoulombAsymmetry] * direction;
-  double level = p_[Key::kCoulomb];
+  double level = p_[Key::kCoulomb] - p_[Key::kTemperatureDry] * warmer_K_;
   if (p_[Key::kStribeck] != 0) {
     const double s = speed / p_[Key::kStribeckSpeed];
     const double fade = scene_.stated->stribeck_is_lorentz ? 1 / (1 + s * s) : faded(s * s);

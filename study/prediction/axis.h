@@ -5,6 +5,7 @@
 #pragma once
 
 #include "study/prediction/correction.h"
+#include "study/prediction/other_axes.h"
 #include "study/prediction/parameters.h"
 #include "study/prediction/scene.h"
 
@@ -39,6 +40,8 @@ class Axis {
     bool load = true;       // has the load's own friction
   };
   [[nodiscard]] Sliding sliding(double mass_kg, double share, bool load) const;
+  // What holds over sample `k`.
+  void look_up(Eigen::Index k);
   template <bool two>
   void substep(double t_s, double mean_N, Eigen::Index k);
   [[nodiscard]] double transmission_N() const;
@@ -68,6 +71,10 @@ class Axis {
   bool on_motor_ = false;
   bool on_load_ = false;
   bool dry_ = false;
+  bool others_ = false;
+  bool temperature_ = false;
+  OfOthers of_others_;
+  double warmer_K_ = 0;  // than the mean of all runs
   Sliding motor_slides_;
   Sliding load_slides_;
   double cosine_ = 1;  // of the slowest shape, where the load is

@@ -2,13 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace towbench::study::diagnose {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+double least_of(const Eigen::VectorXd& values) {
+  return values.size() > 0 ? values.minCoeff() : kNone;
+}
+
+}  // namespace
+
 Context make_context(const NominalModel& stated, const Data& data) {
   Context c;
   c.stated = stated;
   double energy = 0;
+  double coldest_K = kNone;
+  double warmest_K = -kNone;
   for (const Scene& scene : data.scenes) {
     const Run& run = *scene.run;
     energy += run.input_N.squaredNorm();
@@ -16,9 +29,15 @@ Context make_context(const NominalModel& stated, const Data& data) {
     c.period_s = std::max(c.period_s, run.period_s);
     c.duration_s += run.period_s * static_cast<double>(run.size());
     c.resolution_m = std::max(c.resolution_m, run.resolution_m);
-    c.has_other = c.has_other ||
-                  (scene.other_m_per_s.size() > 0 && scene.other_m_per_s.cwiseAbs().maxCoeff() > 0);
+    c.others.resize(std::max(c.others.size(), scene.others.size()));
+    for (std::size_t i = 0; i < scene.others.size(); ++i) {
+      c.others[i].moves |= scene.others[i].m_per_s.cwiseAbs().maxCoeff() > 0;
+      c.others[i].rotary = run.others[i].rotary;
+    }
+    coldest_K = std::min(coldest_K, least_of(run.temperature_K));
+    warmest_K = std::max(warmest_K, -least_of(-run.temperature_K));
   }
+  c.temperature_range_K = std::max(0.0, warmest_K - coldest_K);
   c.input_rms_N = std::sqrt(energy / static_cast<double>(data.samples()));
   c.top_speed_m_per_s = data.scenes.front().top_speed_m_per_s;
   c.mass_least_kg = stated.mass_kg / kMassOff;

@@ -11,6 +11,11 @@ namespace towbench::study::diagnose {
 // From what is stated, or from what the momentum over windows says, at most.
 inline constexpr double kMassOff = 5;
 
+struct OtherInLog {
+  bool moves = false;
+  bool rotary = false;
+};
+
 struct Context {
   NominalModel stated;
   double input_rms_N = 0;
@@ -26,8 +31,9 @@ struct Context {
   // Frequencies at which the innovations repeat (lines.h), along the way and in time.
   std::vector<double> lines_per_m;
   std::vector<double> lines_Hz;
-  double searched = 0;     // how many were looked at
-  bool has_other = false;  // another axis is in the log, and moves
+  double searched = 0;  // how many were looked at
+  std::vector<OtherInLog> others;
+  double temperature_range_K = 0;  // in the log; 0: none
 };
 
 [[nodiscard]] Context make_context(const NominalModel& stated, const Data& data);

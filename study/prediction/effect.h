@@ -35,6 +35,7 @@ struct Effect {
   bool flexible = false;    // a free shape, that takes on what is not its own
   double whole = 0;         // the amplitude that its law fixes; 0: none
   bool structural = false;  // so large where it acts that no fit without it means anything
+  int other = -1;           // which of the log's other axes it is about; -1: none
   // The base key that the mean of its shape falls into: with the effect found, that parameter is
   // not comparable with the supplied one. kCount: none.
   Key shares_mean_with = Key::kCount;
@@ -54,6 +55,7 @@ void add_drive_effects(std::vector<Effect>& library);
 void add_mechanical_effects(std::vector<Effect>& library);
 void add_place_effects(std::vector<Effect>& library);
 void add_periodic_effects(std::vector<Effect>& library);
+void add_cross_axis_effects(std::vector<Effect>& library);
 
 [[nodiscard]] const std::vector<Effect>& effects();
 [[nodiscard]] const Effect* find_effect(std::string_view name);

@@ -12,6 +12,7 @@ const std::vector<Effect>& effects() {
     add_mechanical_effects(library);
     add_place_effects(library);
     add_periodic_effects(library);
+    add_cross_axis_effects(library);
     return library;
   }();
   return kAll;

@@ -1,22 +1,70 @@
 #include "study/prediction/first_fits.h"
 
+#include <algorithm>
+#include <map>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace towbench::study::diagnose {
 namespace {
 
-using Eigen::VectorXd;
-
 constexpr int kFirstRounds = 3;
 
-State fitted_from(const Frame& frame, const State& now, const Effect& effect, const Model& start) {
-  Candidate c;
-  c.effect = &effect;
-  c.scales = effect.grid(frame.context).front();
-  c.b = VectorXd::Zero(std::ssize(effect.amplitudes));
-  State from = now;
-  from.fitted.model = start;
-  return with(frame, from, c, start);
+bool is_believed(const Comparison& gain, double least_errors) {
+  return gain.gain > kFresh && gain.standard_errors > least_errors;
+}
+
+using Effects = std::vector<const Effect*>;
+
+// With `added`, none of which has a scale to be fitted.
+State fitted_from(const Frame& frame, const State& now, const Effects& added, const Model& start) {
+  std::vector<Accepted> accepted = now.accepted;
+  for (const Effect* effect : added) {
+    Accepted& a = accepted.emplace_back(Accepted{effect, {}, false});
+    for (const Key key : effect->amplitudes) {
+      a.free.push_back({.key = key, .step = effect->step(frame.context)});
+    }
+  }
+  return make_state(frame, std::move(accepted), start);
+}
+
+// Compared at the bandwidth that they need: that of a model without them follows the measured
+// places instead of predicting them.
+void accept_if_believed(Frame& frame, const Effects& added, const Model& start, double least_errors,
+                        State& now) {
+  State other = fitted_from(frame, now, added, start);
+  set_bandwidth(frame, other.fitted.model);
+  other = make_state(frame, other.accepted, other.fitted.model);
+  const State rest = make_state(frame, now.accepted, now.fitted.model);
+  if (is_believed(compare(rest.loss, other.loss, 2), least_errors)) {
+    now = std::move(other);
+  } else {
+    set_bandwidth(frame, now.fitted.model);
+  }
+}
+
+bool is_tried(const Frame& frame, const State& now, const Effect& effect) {
+  return !effect.grid(frame.context).empty() && !is_in(frame, now, effect);
+}
+
+// All that other axes may do, and what is structural beside it; of several laws of one name the
+// `law`-th. Empty where there are fewer.
+Effects all_of_others(const Frame& frame, const State& now, std::size_t law) {
+  Effects out;
+  std::size_t most = 0;
+  std::map<std::string, std::size_t> laws;
+  std::map<std::string, const Effect*> chosen;
+  for (const Effect& effect : effects()) {
+    if (!is_tried(frame, now, effect)) continue;
+    if (effect.other < 0 && effect.structural) out.push_back(&effect);
+    if (effect.other < 0) continue;
+    std::size_t& count = laws[effect.name];
+    if (count <= law) chosen[effect.name] = &effect;
+    most = std::max(most, ++count);
+  }
+  for (const auto& [name, effect] : chosen) out.push_back(effect);
+  return law < most ? out : Effects{};
 }
 
 // The level of a clip that predicts best; without scales where there is none.
@@ -40,25 +88,27 @@ Candidate best_level(const Frame& frame, const Effect& effect, const Model& star
   return chosen;
 }
 
-bool is_believed(const Comparison& gain, double least_errors) {
-  return gain.gain > kFresh && gain.standard_errors > least_errors;
-}
-
 }  // namespace
 
-// Compared at the bandwidth that it needs: that of a model without it follows the measured places
-// instead of predicting them.
+void accept_others(Frame& frame, const Model& start, double least_errors, State& now) {
+  Effects best;
+  double least = 0;
+  for (std::size_t law = 0;; ++law) {
+    const Effects all = all_of_others(frame, now, law);
+    if (all.empty()) break;
+    const double cost = fitted_from(frame, now, all, start).fitted.cost;
+    if (best.empty() || cost < least) {
+      least = cost;
+      best = all;
+    }
+  }
+  if (!best.empty()) accept_if_believed(frame, best, start, least_errors, now);
+}
+
 void accept_structural(Frame& frame, const Model& start, double least_errors, State& now) {
   for (const Effect& effect : effects()) {
-    if (!effect.structural || effect.grid(frame.context).empty()) continue;
-    State other = fitted_from(frame, now, effect, start);
-    set_bandwidth(frame, other.fitted.model);
-    other = make_state(frame, other.accepted, other.fitted.model);
-    const State rest = make_state(frame, now.accepted, now.fitted.model);
-    if (is_believed(compare(rest.loss, other.loss, 2), least_errors)) {
-      now = std::move(other);
-    } else {
-      set_bandwidth(frame, now.fitted.model);
+    if (effect.structural && is_tried(frame, now, effect)) {
+      accept_if_believed(frame, {&effect}, start, least_errors, now);
     }
   }
 }

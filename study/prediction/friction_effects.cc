@@ -28,6 +28,14 @@ std::vector<Scales> warming_times(const Context& c) {
   return multiples({0.15, 0.5, 5}, c.duration_s);
 }
 
+std::vector<Scales> where_warm(const Context& c) {
+  constexpr double kLeast_K = 0.5;
+  return c.temperature_range_K > kLeast_K ? std::vector<Scales>{{}} : std::vector<Scales>{};
+}
+double temperature_step(const Context& c) {
+  return force_step(c) / c.temperature_range_K;
+}
+
 // Of a level: a tenth of it must be left.
 constexpr double kMostTaken = 0.9;
 constexpr double kDrySpring = 0.5;  // of kPresliding, that follows the way
@@ -243,6 +251,16 @@ void add_friction_effects(std::vector<Effect>& library) {
                      .plant_keys = {"friction.warming.depth", "friction.warming.full_power_W",
                                     "friction.warming.time_constant_s"},
                      .plant_values = warming_values});
+  library.push_back({.name = "temperature_friction",
+                     .cause = "friction that falls with the measured temperature",
+                     .needs = "a log that has the temperature, cold and warm",
+                     .law = "dry friction - d (T - mean), viscous friction - b (T - mean)",
+                     .source = "Bittencourt, Gunnarsson 2012; here linear in T",
+                     .amplitudes = {Key::kTemperatureDry, Key::kTemperatureViscous},
+                     .amplitude_names = {"dry_fall_N_per_K", "viscous_fall_N_s_per_m_per_K"},
+                     .grid = where_warm,
+                     .set = set_nothing,
+                     .step = temperature_step});
 }
 
 }  // namespace towbench::study::diagnose

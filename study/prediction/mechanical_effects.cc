@@ -1,4 +1,4 @@
-// Masses that are not where the rigid model has them, and the other axis.
+// Masses that are not where the rigid model has them.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -55,9 +55,6 @@ std::vector<Scales> plays(const Context& c) {
 
 std::vector<Scales> where_elastic(const Context& c) {
   return c.stated.elastic() ? std::vector<Scales>{{}} : std::vector<Scales>{};
-}
-std::vector<Scales> where_other(const Context& c) {
-  return c.has_other ? std::vector<Scales>{{}} : std::vector<Scales>{};
 }
 
 double stiffness_step(const Context& c) {
@@ -148,16 +145,6 @@ void add_mechanical_effects(std::vector<Effect>& library) {
                      .step = play_step,
                      .plant_keys = {"gear.backlash_deg"},
                      .plant_values = play_alone_values});
-  library.push_back({.name = "cross_axis_coupling",
-                     .cause = "forces from the other axis's motion",
-                     .needs = "a log that has the other axis, moving",
-                     .law = "m a_other + b v_other",
-                     .source = "MACS-A-6",
-                     .amplitudes = {Key::kOtherMass, Key::kOtherViscous},
-                     .amplitude_names = {"mass_kg", "viscous_N_s_per_m"},
-                     .grid = where_other,
-                     .set = set_nothing,
-                     .step = force_step});
 }
 
 }  // namespace towbench::study::diagnose

@@ -11,6 +11,9 @@
 
 namespace towbench::study::diagnose {
 
+inline constexpr int kOthers = 5;  // axes beside this one
+inline constexpr int kOtherKeys = 10;
+
 enum class Key : std::uint8_t {
   kMass,     // kg, of everything that moves
   kViscous,  // N s/m
@@ -33,10 +36,12 @@ enum class Key : std::uint8_t {
   kPlaceFriction4,
   kPlaceFriction5,
   kPlaceFriction6,
-  kWarming,          // N that friction has fallen by at the end
-  kWarmingTime,      // s
-  kWorkWarming,      // of friction, its fall at top speed for ever: what it dissipates warms it
-  kWorkWarmingTime,  // s
+  kWarming,             // N that friction has fallen by at the end
+  kWarmingTime,         // s
+  kTemperatureDry,      // N that friction is lower a kelvin above the mean
+  kTemperatureViscous,  // N s/m, the same of viscous friction
+  kWorkWarming,         // of friction, its fall at top speed for ever: what it dissipates warms it
+  kWorkWarmingTime,     // s
   // Forces that act whatever the direction, and drag.
   kViscousAsymmetry,  // N s/m
   kDrag,              // N s2/m2, (3.7)
@@ -62,8 +67,9 @@ enum class Key : std::uint8_t {
   kPeriodicCosine,  // N
   kPeriodicSine,
   kPeriodicHertz,
-  kOtherMass,     // kg: force by the other axis's acceleration
-  kOtherViscous,  // N s/m: by its speed
+  // Of each other axis in the log, kOtherKeys (other_axes.h).
+  kOther,
+  kOtherLast = kOther + kOthers * kOtherKeys - 1,
   // Drive: from the logged input to the force.
   kGainLoss,          // of the drive's force
   kDelay,             // s

@@ -37,6 +37,17 @@ double top_speed_of(const std::vector<Run>& runs) {
   return speeds.empty() ? 0 : statistics::quantile(std::move(speeds), 0.99);
 }
 
+// Zero where there is none.
+double mean_temperature_K_of(const std::vector<Run>& runs) {
+  double sum = 0;
+  double samples = 0;
+  for (const Run& run : runs) {
+    sum += run.temperature_K.sum();
+    samples += static_cast<double>(run.temperature_K.size());
+  }
+  return samples > 0 ? sum / samples : 0;
+}
+
 }  // namespace
 
 Data make_data(const std::vector<Run>& runs, const NominalModel& stated) {
@@ -54,11 +65,13 @@ Data make_data(const std::vector<Run>& runs, const NominalModel& stated) {
     data.starts.push_back(data.starts.back() + run.size());
   }
   const double top_speed = top_speed_of(runs);
+  const double temperature_K = mean_temperature_K_of(runs);
   for (Scene& scene : data.scenes) {
     scene.top_speed_m_per_s = top_speed;
     scene.stroke_min_m = low;
     scene.stroke_max_m = high;
     scene.session_length_s = session_s;
+    scene.mean_temperature_K = temperature_K;
   }
   return data;
 }
@@ -71,6 +84,7 @@ Data make_data_like(const Data& fitted, const std::vector<Run>& runs, const Nomi
     scene.session_length_s = fitted.scenes.front().session_length_s;
     scene.top_speed_m_per_s = fitted.scenes.front().top_speed_m_per_s;
     scene.session_start_s = 0;
+    scene.mean_temperature_K = fitted.scenes.front().mean_temperature_K;
   }
   return data;
 }

@@ -7,6 +7,12 @@
 
 namespace towbench::study::diagnose {
 
+// Another axis of the machine.
+struct OtherAxis {
+  Eigen::VectorXd position_m;
+  bool rotary = false;  // in rad
+};
+
 struct Run {
   std::string name;
   double period_s = 0;          // between samples
@@ -14,11 +20,11 @@ struct Run {
   Eigen::VectorXd input_N;      // force that the nominal model says the command makes
   Eigen::VectorXd known_N;      // force of terms that the model already has; empty: none
   Eigen::VectorXd reference_m;  // empty when the log has none
-  // The other axis of the machine, empty when the log has none.
-  Eigen::VectorXd other_position_m;
-  std::vector<char> missing;  // 1 where the sample is an interpolation
-  double resolution_m = 0;    // smallest step of the position; 0 when it has none
-  double input_step_N = 0;    // smallest step of the input; 0 when it has none
+  std::vector<OtherAxis> others;
+  Eigen::VectorXd temperature_K;  // of the axis, from any zero; empty when the log has none
+  std::vector<char> missing;      // 1 where the sample is an interpolation
+  double resolution_m = 0;        // smallest step of the position; 0 when it has none
+  double input_step_N = 0;        // smallest step of the input; 0 when it has none
 
   [[nodiscard]] Eigen::Index size() const noexcept { return position_m.size(); }
 };

@@ -23,6 +23,14 @@ VectorXd speed_of(const VectorXd& x, double period_s, Index reach) {
 
 }  // namespace
 
+OtherMotion motion_of(const OtherAxis& other, double period_s) {
+  const auto reach = std::max<Index>(2, std::lround(0.01 / period_s));
+  OtherMotion m;
+  m.m_per_s = speed_of(other.position_m, period_s, reach);
+  m.m_per_s2 = speed_of(m.m_per_s, period_s, reach);
+  return m;
+}
+
 Scene::Scene(const Run& given, const NominalModel& model)
     : run(&given),
       stated(&model),
@@ -38,11 +46,7 @@ Scene::Scene(const Run& given, const NominalModel& model)
   }
   mean_N.resize(u.size() * substeps);
   for (Index i = 0; i < u.size(); ++i) set_means(i);
-  if (run->other_position_m.size() == run->size()) {
-    const auto reach = std::max<Index>(2, std::lround(0.01 / run->period_s));
-    other_m_per_s = speed_of(run->other_position_m, run->period_s, reach);
-    other_m_per_s2 = speed_of(other_m_per_s, run->period_s, reach);
-  }
+  for (const OtherAxis& other : run->others) others.push_back(motion_of(other, run->period_s));
 }
 
 void Scene::set_means(Index k) noexcept {

@@ -41,6 +41,7 @@ class Searcher {
     }
     State now = make_state(frame_, {}, model);
     out_.base = now;
+    accept_others(frame_, start_, limits_.least_errors, now);
     accept_structural(frame_, start_, limits_.least_errors, now);
     if (accept_clip(frame_, start_, limits_.least_errors, now)) {
       set_bandwidth(frame_, now.fitted.model);

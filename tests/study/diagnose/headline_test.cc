@@ -37,6 +37,13 @@ TEST(Headline, KeepsTheSuppliedPlantWhereTheEmulatorEndsNoNearer) {
   EXPECT_THAT(text, HasSubstr("  extended_plant.toml      in the emulator ends no nearer"));
 }
 
+TEST(Headline, SendsToTheSizesWhereTheEmulatorCannotHaveThem) {
+  Diagnosis d = found(1e-3, 1e-3);
+  d.emulated->left_out = {"cross_axis_coupling"};
+  EXPECT_THAT(headline(d), HasSubstr("What to do:    use the sizes in diagnosis.json; the emulator "
+                                     "lacks them."));
+}
+
 TEST(Headline, NamesWhatTheFileLacksWhateverIsToBeDoneNext) {
   Diagnosis d = found(4e-3, 1e-3);
   d.causes.front().alternatives = {"presliding"};

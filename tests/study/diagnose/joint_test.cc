@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "study/diagnose/diagnosis.h"
+#include "tests/study/diagnose/cause_names.h"
 #include "tests/study/diagnose/pendulum_data.h"
 
 namespace towbench::tests {
@@ -68,15 +69,9 @@ NominalModel answered_at_once(NominalModel model) {
   return model;
 }
 
-std::vector<std::string> named(const Diagnosis& d) {
-  std::vector<std::string> names;
-  for (const NamedCause& cause : d.causes) names.push_back(cause.effect->name);
-  return names;
-}
-
 TEST(Joint, ItsWeightIsNamedWithItsSizeThoughTheStatedInertiaIsAThird) {
   const Diagnosis d = diagnosed(swinging(joint(0.2), 4, 1), answered_at_once(joint(0.0667)));
-  ASSERT_THAT(named(d), ElementsAre("gravity"));
+  ASSERT_THAT(cause_names(d), ElementsAre("gravity"));
   EXPECT_THAT(d.causes.front().alternatives, IsEmpty());
   EXPECT_NEAR(d.causes.front().size("sine_Nm"), 4, 0.12);
   EXPECT_NEAR(d.causes.front().size("cosine_Nm"), 0, 0.05);
@@ -85,7 +80,7 @@ TEST(Joint, ItsWeightIsNamedWithItsSizeThoughTheStatedInertiaIsAThird) {
 
 TEST(Joint, OneThatLiesFlatHasNoWeight) {
   const Diagnosis d = diagnosed(swinging(joint(0.2), 0, 2), answered_at_once(joint(0.2)));
-  EXPECT_THAT(named(d), IsEmpty());
+  EXPECT_THAT(cause_names(d), IsEmpty());
 }
 
 class Pendulum : public testing::TestWithParam<std::string> {
@@ -110,7 +105,7 @@ TEST_F(Pendulum, ItsWeightIsNamedOfTwoSwingsAndIsOneSize) {
   std::vector<double> sizes;
   for (const char* file : {"ddp", "direct_collocation"}) {
     const Diagnosis d = of(file);
-    ASSERT_THAT(named(d), ElementsAre("gravity")) << file;
+    ASSERT_THAT(cause_names(d), ElementsAre("gravity")) << file;
     EXPECT_THAT(d.causes.front().alternatives, IsEmpty()) << file;
     sizes.push_back(d.causes.front().size("sine_Nm"));
   }
@@ -123,13 +118,13 @@ using PendulumOfLittle = Pendulum;
 TEST_P(PendulumOfLittle, NothingFalseIsNamed) {
   const Diagnosis d = of(GetParam());
   if (GetParam() == "ilqr" || GetParam() == "sac") {
-    ASSERT_THAT(named(d), ElementsAre("gravity"));
+    ASSERT_THAT(cause_names(d), ElementsAre("gravity"));
     // Whatever the torque's scale: 17.9 to 20 of the two swings, 16 of its authors.
     const double per_inertia = d.causes.front().size("sine_Nm") / d.extended[Key::kMass];
     EXPECT_GT(per_inertia, 16);
     EXPECT_LT(per_inertia, 22);
   } else {
-    EXPECT_THAT(named(d), IsEmpty());
+    EXPECT_THAT(cause_names(d), IsEmpty());
     EXPECT_TRUE(is_fatal(d.findings) || d.unexplained);
   }
 }

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/study/diagnose/generator/two_link_arm.h"
+
 namespace towbench::tests {
 namespace {
 
@@ -45,6 +47,27 @@ TEST(Momentum, ExplainsLessWhereTheInputIsLate) {
   // A sine that is late is a sum of its speed and acceleration; dry friction is not.
   const double aligned = fit_momentum({run}, false, 0).explained;
   EXPECT_LT(1 - aligned, 0.5 * (1 - fit_momentum({run}, false, 0.2).explained));
+}
+
+// Of a joint that another moves more than its own drive does.
+TEST(Momentum, HasWhatTheOtherJointDoesBesideIt) {
+  TwoLinkArm arm;
+  arm.second_share = 0.3;
+  arm.weight_2_Nm = 12;
+  const ArmLog log = make_arm_log(arm, 6);
+  const auto vector_of = [](const std::vector<double>& values) {
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values)));
+  };
+  study::diagnose::Run run;
+  run.period_s = arm.period_s;
+  run.position_m = vector_of(log.q2_rad);
+  run.input_N = vector_of(log.torque2_Nm);
+  EXPECT_LT(fit_momentum({run}, true, 0).explained, 0.9);
+  run.others.push_back({vector_of(log.q1_rad), true});
+  const Momentum fit = fit_momentum({run}, true, 0);
+  EXPECT_GT(fit.explained, 0.99);
+  EXPECT_NEAR(fit.mass_kg, arm.d_kg_m2, 0.05 * arm.d_kg_m2);
+  EXPECT_NEAR(fit.coulomb_N, arm.coulomb_Nm, 0.15 * arm.coulomb_Nm);
 }
 
 }  // namespace

@@ -67,6 +67,23 @@ TEST(ProposedMap, OfANameThatTomlWritesOtherwiseIsReadBack) {
   EXPECT_EQ(map.position, "pos \"a\\b\"");
 }
 
+TEST(ProposedMap, HasOtherAxesAndATemperatureByTheirNames) {
+  logs::Table table = moving({"t", "q1_set", "q1_rad", "q1_rad_per_s", "tau1_Nm"});
+  table.names.insert(table.names.end(), {"q2_deg", "motor_temp"});
+  table.columns.resize(7);
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    table.columns[5].push_back(30 * std::cos(1.7e-3 * static_cast<double>(i)));
+    table.columns[6].push_back(20 + 1e-3 * static_cast<double>(i));
+  }
+  const auto map = map_in(proposed_map(table));
+  EXPECT_EQ(map.position, "q1_rad");
+  EXPECT_EQ(map.temperature, "motor_temp");
+  ASSERT_EQ(map.others.size(), 1);
+  EXPECT_EQ(map.others[0].position, "q2_deg");
+  EXPECT_NEAR(map.others[0].position_scale_m, 0.0174533, 1e-6);
+  EXPECT_TRUE(map.others[0].rotary);
+}
+
 TEST(ProposedMap, OfNamesThatSayNothingComesFromTheNumbers) {
   const auto guesses = guess_columns(moving({"a", "b", "c", "d", "e"}));
   EXPECT_EQ(guesses[0].role, Role::kTime);

@@ -1,0 +1,116 @@
+// Several axes in one log: what one does to another is named, with its size, by joints and by
+// rails; and nothing is where they leave each other alone.
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "study/diagnose/diagnosis.h"
+#include "study/diagnose/headline.h"
+#include "tests/study/diagnose/cause_names.h"
+#include "tests/study/diagnose/generator/two_link_arm.h"
+
+namespace towbench::tests {
+namespace {
+
+using namespace study::diagnose;
+using ::testing::ElementsAre;
+using ::testing::UnorderedElementsAre;
+
+Eigen::VectorXd vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+}
+
+Run run_of(const TwoLinkArm& arm, const std::vector<double>& own, const std::vector<double>& torque,
+           const std::vector<double>& other) {
+  Run run;
+  run.name = "arm";
+  run.period_s = arm.period_s;
+  run.position_m = vector_of(own);
+  run.input_N = vector_of(torque);
+  run.others.push_back({vector_of(other), true});
+  run.missing.assign(own.size(), 0);
+  run.resolution_m = 1 / arm.counts_per_rad;
+  return run;
+}
+
+NominalModel joint(double inertia_kg_m2, const TwoLinkArm& arm) {
+  NominalModel model;
+  model.mass_kg = inertia_kg_m2;
+  model.viscous_N_s_per_m = arm.viscous_Nm_s_per_rad;
+  model.coulomb_N = arm.coulomb_Nm;
+  model.rotary = true;
+  return model;
+}
+
+const NamedCause& named(const Diagnosis& d, const std::string& name) {
+  static const NamedCause kNone;
+  for (const NamedCause& cause : d.causes) {
+    if (cause.effect->name == name) return cause;
+  }
+  ADD_FAILURE() << name << " is not named";
+  return kNone;
+}
+
+Diagnosis of_first(const TwoLinkArm& arm, std::uint64_t seed) {
+  const ArmLog log = make_arm_log(arm, seed);
+  Request request;
+  request.model = joint(arm.a_kg_m2, arm);
+  request.runs.push_back(run_of(arm, log.q1_rad, log.torque1_Nm, log.q2_rad));
+  return study::diagnose::diagnose(request);
+}
+
+Diagnosis of_second(const TwoLinkArm& arm, std::uint64_t seed) {
+  const ArmLog log = make_arm_log(arm, seed);
+  Request request;
+  request.model = joint(arm.d_kg_m2, arm);
+  request.runs.push_back(run_of(arm, log.q2_rad, log.torque2_Nm, log.q1_rad));
+  return study::diagnose::diagnose(request);
+}
+
+TEST(OtherAxes, TheInertiaOfAJointDependsOnThePlaceOfTheNext) {
+  const TwoLinkArm arm;
+  const Diagnosis d = of_first(arm, 1);
+  EXPECT_THAT(cause_names(d), UnorderedElementsAre("cross_axis_inertia", "cross_axis_coupling"))
+      << headline(d);
+  const double twice_b = 2 * arm.b_kg_m2;
+  EXPECT_NEAR(named(d, "cross_axis_inertia").size("cosine_kg"), twice_b, 0.05 * twice_b);
+  const NamedCause& coupling = named(d, "cross_axis_coupling");
+  EXPECT_NEAR(coupling.size("mass_kg"), arm.d_kg_m2, 0.05 * arm.d_kg_m2);
+  EXPECT_NEAR(coupling.size("cosine_kg"), arm.b_kg_m2, 0.05 * arm.b_kg_m2);
+}
+
+TEST(OtherAxes, TheSecondJointFeelsTheFirstByItsOwnPlace) {
+  const TwoLinkArm arm;
+  const Diagnosis d = of_second(arm, 2);
+  EXPECT_THAT(cause_names(d), ElementsAre("cross_axis_coupling")) << headline(d);
+  EXPECT_NEAR(named(d, "cross_axis_coupling").size("mass_kg"), arm.d_kg_m2, 0.05 * arm.d_kg_m2);
+  EXPECT_NEAR(named(d, "cross_axis_coupling").size("cosine_kg"), arm.b_kg_m2, 0.05 * arm.b_kg_m2);
+}
+
+TEST(OtherAxes, TheSecondLinksWeightHangsOnBoth) {
+  TwoLinkArm arm;
+  arm.weight_2_Nm = 12;
+  const Diagnosis d = of_second(arm, 3);
+  EXPECT_THAT(cause_names(d), UnorderedElementsAre("cross_axis_coupling", "cross_axis_gravity"))
+      << headline(d);
+  EXPECT_NEAR(named(d, "cross_axis_gravity").size("sine_Nm"), 12, 0.5);
+}
+
+TEST(OtherAxes, NothingIsNamedOfAnAxisThatTheOtherLeavesAlone) {
+  TwoLinkArm arm;
+  arm.second_moves = false;
+  arm.b_kg_m2 = 0;
+  const ArmLog log = make_arm_log(arm, 4);
+  const ArmLog elsewhere = make_arm_log(TwoLinkArm{}, 5);
+  Request request;
+  request.model = joint(arm.a_kg_m2, arm);
+  request.runs.push_back(run_of(arm, log.q1_rad, log.torque1_Nm, elsewhere.q2_rad));
+  const Diagnosis d = study::diagnose::diagnose(request);
+  EXPECT_THAT(cause_names(d), ElementsAre()) << headline(d);
+  EXPECT_EQ(d.verdicts.front(), "model_adequate");
+}
+
+}  // namespace
+}  // namespace towbench::tests
