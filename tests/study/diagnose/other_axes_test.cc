@@ -1,5 +1,8 @@
 // Several axes in one log: what one does to another is named, with its size, by joints and by
 // rails; and nothing is where they leave each other alone.
+#include <array>
+#include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -96,6 +99,60 @@ TEST(OtherAxes, TheSecondLinksWeightHangsOnBoth) {
   EXPECT_THAT(cause_names(d), UnorderedElementsAre("cross_axis_coupling", "cross_axis_gravity"))
       << headline(d);
   EXPECT_NEAR(named(d, "cross_axis_gravity").size("sine_Nm"), 12, 0.5);
+}
+
+// A sum of two sines and its derivatives.
+struct Swing {
+  double fast_Hz;
+  double slow_Hz;
+  std::array<double, 3> at(double t) const {
+    std::array<double, 3> out{};
+    for (const double w : {6.283185307 * fast_Hz, 6.283185307 * slow_Hz}) {
+      out[0] += 0.2 * std::sin(w * t);
+      out[1] += 0.2 * w * std::cos(w * t);
+      out[2] -= 0.2 * w * w * std::sin(w * t);
+    }
+    return out;
+  }
+};
+
+// Three rails, of which the third pushes the first: the closed form of each force.
+Run pushed_by_the_third() {
+  const Swing own{0.4, 0.13};
+  const std::array<Swing, 2> others{Swing{0.53, 0.11}, Swing{0.61, 0.19}};
+  constexpr Eigen::Index kSamples = 20000;
+  Run run;
+  run.period_s = 1e-3;
+  run.resolution_m = 5e-6;
+  run.position_m.resize(kSamples);
+  run.input_N.resize(kSamples);
+  run.missing.assign(kSamples, 0);
+  for (int i = 0; i < 2; ++i) run.others.push_back({Eigen::VectorXd(kSamples), false});
+  std::mt19937_64 draw(7);
+  std::normal_distribution<double> noise(0, 0.2);
+  for (Eigen::Index k = 0; k < kSamples; ++k) {
+    const double t = 1e-3 * static_cast<double>(k);
+    const auto [x, v, a] = own.at(t);
+    const auto [q, w, b] = others[1].at(t);
+    run.position_m[k] = 5e-6 * std::round(x / 5e-6);
+    run.input_N[k] = 8 * a + 5 * v + 2 * (v > 0 ? 1 : -1) + 1.5 * b + 3 * w + noise(draw);
+    run.others[0].position_m[k] = others[0].at(t)[0];
+    run.others[1].position_m[k] = q;
+  }
+  return run;
+}
+
+TEST(OtherAxes, WhichOfTwoRailsPushesIsTold) {
+  Request request;
+  request.model.mass_kg = 8;
+  request.model.viscous_N_s_per_m = 5;
+  request.model.coulomb_N = 2;
+  request.model.input_is_held = false;
+  request.runs.push_back(pushed_by_the_third());
+  const Diagnosis d = study::diagnose::diagnose(request);
+  ASSERT_THAT(cause_names(d), ElementsAre("cross_axis_coupling_2")) << headline(d);
+  EXPECT_NEAR(d.causes.front().size("mass_kg"), 1.5, 0.05);
+  EXPECT_NEAR(d.causes.front().size("viscous_N_s_per_m"), 3, 0.1);
 }
 
 TEST(OtherAxes, NothingIsNamedOfAnAxisThatTheOtherLeavesAlone) {
