@@ -3,6 +3,7 @@
 #include "core/axis.h"
 #include "emulator/plant/derived_mechanics.h"
 #include "harness/fixtures/rig_fixture.h"
+#include "study/extended_plant/stated_terms.h"
 
 namespace towbench::study {
 namespace {
@@ -10,8 +11,8 @@ namespace {
 constexpr double kDegrees = 57.29577951308232;  // of a radian
 constexpr double kRounding = 1e-9;              // of two levels that a file means to be one
 
-void add_stated_terms(diagnose::NominalModel& m, const emulator::AxisParameters& p,
-                      const toml::table& stated) {
+void add_friction_and_transmission(diagnose::NominalModel& m, const emulator::AxisParameters& p,
+                                   const toml::table& stated) {
   const double r = m.metres_per_motor_rad;
   const auto friction = stated["friction"];
   if (friction["breakaway_Nm"]) {
@@ -65,7 +66,8 @@ PlantModel load_plant_model(const std::filesystem::path& path, const std::string
   m.output_radius_m = p.output_radius_m;
   const double volts = p.amplifier.output_limit_ratio * rig.parameters.supply.voltage_V;
   m.no_load_speed_m_per_s = volts / p.torque_constant_Nm_per_A * r;
-  add_stated_terms(m, p, *stated);
+  add_friction_and_transmission(m, p, *stated);
+  diagnose::add_stated_terms(rig.parameters, which, m);
   if (stated->contains("mass_kg")) {
     // A direct drive: gear, wheel and turn of the motor come from no statement of the file.
     m.metres_per_motor_rad = stated->contains("gear_ratio") ? r : 0;

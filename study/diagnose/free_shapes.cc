@@ -99,7 +99,7 @@ std::optional<FreeShape> along_place_and_speed(const std::vector<Motion>& motion
 
 // Products of the slowest shapes of place and of powers of the speed: smooth in both, and finer
 // over the place than the grid.
-FreeShape smooth_in_place_and_speed(const std::vector<Motion>& motions) {
+std::optional<FreeShape> smooth_in_place_and_speed(const std::vector<Motion>& motions) {
   double least_m = motions.front().position_m[0];
   double most_m = least_m;
   double top_m_per_s = 0;
@@ -108,7 +108,8 @@ FreeShape smooth_in_place_and_speed(const std::vector<Motion>& motions) {
     most_m = std::max(most_m, m.position_m.maxCoeff());
     top_m_per_s = std::max(top_m_per_s, m.speed_m_per_s.cwiseAbs().maxCoeff());
   }
-  FreeShape shape{.coordinate = "position and speed", .columns = kWaves * kPowers};
+  if (most_m <= least_m || top_m_per_s <= 0) return std::nullopt;
+  FreeShape shape{.coordinate = "position times speed", .columns = kWaves * kPowers};
   shape.force = [=](Index column, const Motion& m) -> VectorXd {
     const double per_m =
         std::numbers::pi * static_cast<double>(1 + column % kWaves) / (most_m - least_m);
@@ -156,7 +157,7 @@ std::vector<FreeShape> free_shapes(const std::vector<Motion>& motions) {
     if (auto shape = along(coordinate, motions)) shapes.push_back(std::move(*shape));
   }
   if (auto grid = along_place_and_speed(motions)) shapes.push_back(std::move(*grid));
-  shapes.push_back(smooth_in_place_and_speed(motions));
+  if (auto smooth = smooth_in_place_and_speed(motions)) shapes.push_back(std::move(*smooth));
   shapes.push_back(of_the_past(motions));
   return shapes;
 }

@@ -29,18 +29,30 @@ std::string moved_parameters(const Diagnosis& d) {
   return out;
 }
 
+bool is_stated(const Diagnosis& d, const NamedCause& cause) {
+  const auto& keys = cause.effect->amplitudes;
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](Key key) { return d.context.stated.terms[key] != 0; });
+}
+
 std::string what_is_wrong(const Diagnosis& d) {
-  std::string causes;
+  std::string lacking;
+  std::string otherwise;
   for (const NamedCause& cause : d.causes) {
-    causes += (causes.empty() ? "" : ", ") + class_of(cause);
+    std::string& list = is_stated(d, cause) ? otherwise : lacking;
+    list += (list.empty() ? "" : ", ") + class_of(cause);
+  }
+  std::string causes = lacking.empty() ? "" : "the model lacks " + lacking;
+  if (!otherwise.empty()) {
+    causes +=
+        (causes.empty() ? "the model has another size of " : "; has another size of ") + otherwise;
   }
   const std::string moved = moved_parameters(d);
   if (causes.empty() && moved.empty()) {
     return d.unexplained ? "something is missing in the model that no known effect describes"
                          : "nothing: the model explains this data as well as the data can tell";
   }
-  std::string out =
-      causes.empty() ? "the structure is right, but off: " + moved : "the model lacks " + causes;
+  std::string out = causes.empty() ? "the structure is right, but off: " + moved : causes;
   if (!causes.empty() && !moved.empty()) {
     out += "; and off: " + moved;
   }

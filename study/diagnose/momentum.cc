@@ -71,7 +71,6 @@ Momentum fit_momentum(const std::vector<Run>& runs, bool rotary, double shift_s)
       double cosine = 0;
       for (Index i = from; i < from + w; ++i) {
         impulse += run.input_N[std::clamp<Index>(i + shift, 0, run.size() - 1)];
-        impulse -= run.known_N.size() > 0 ? run.known_N[i] : 0;
         const double v = m.speed_m_per_s[i];
         direction += v > 0 ? 1 : v < 0 ? -1 : 0;
         sine += std::sin(run.position_m[i]);

@@ -84,9 +84,9 @@ class EmulatedAxis {
     plant_.displace(by_m / read_per_m, by_m_per_s / read_per_m);
   }
 
-  void tick(double input_N, double known_N) {
+  void tick(double input_N) {
     input_.command_V = input_N / units_.newton_per_volt;
-    input_.carriage_force_N = -known_N;
+    input_.carriage_force_N = 0;
     if (water_) {
       core::PerPlanarAxis<double> velocity{};
       velocity[which_] = plant_.state().carriage_speed_m_per_s;
@@ -138,10 +138,7 @@ class Replayed {
     const double at_s = static_cast<double>(k) * run.period_s;
     while (now_s() < at_s - 1e-9) {
       before_m_ = axis_.reading_m();
-      const auto sample =
-          std::min<Index>(static_cast<Index>(now_s() / run.period_s + 1e-6), run.size() - 1);
-      axis_.tick(scene_.mean_input_N(now_s(), kTick_s),
-                 run.known_N.size() > 0 ? run.known_N[sample] : 0.0);
+      axis_.tick(scene_.mean_input_N(now_s(), kTick_s));
       ++ticks_;
     }
     const double after_m = axis_.reading_m();

@@ -19,16 +19,30 @@ bool has_moved(const Diagnosis& d, const char* name) {
   });
 }
 
+// A constant force beside a cause whose mean is one too: no shift of its own, but part of the fit.
+bool has_a_causes_mean(const Diagnosis& d) {
+  const bool shared = std::any_of(d.causes.begin(), d.causes.end(), [](const NamedCause& cause) {
+    return cause.effect->shares_mean_with == Key::kBias;
+  });
+  return shared && std::any_of(d.parameters.begin(), d.parameters.end(), [](const auto& shift) {
+           const Interval& fitted = shift.fitted;
+           return shift.name == "bias" && !shift.moved &&
+                  (fitted.low > shift.supplied || fitted.high < shift.supplied);
+         });
+}
+
 bool write_parameters(PlantText& file, const Parameters& p) {
   const StatedPlant& stated = file.stated();
   const double r = stated.metres_per_motor_rad;
   const FileFriction friction = file_friction(p, stated);
   const double coulomb_Nm = friction.coulomb_N * r;
   const auto with_breakaway = [&](double breakaway_Nm) {
-    return file.set({"inertia_kg_m2", "rotor_inertia_kg_m2", "viscous_friction_Nm_s_per_rad",
-                     "coulomb_friction_Nm", "friction.breakaway_Nm"},
-                    {std::max(1e-12, p[Key::kMass]) * r * r, motor_kg(p, stated) * r * r,
-                     std::max(0.0, p[Key::kViscous]) * r * r, coulomb_Nm, breakaway_Nm});
+    return file.set(
+        {"inertia_kg_m2", "rotor_inertia_kg_m2", "viscous_friction_Nm_s_per_rad",
+         "coulomb_friction_Nm", "friction.breakaway_Nm"},
+        {std::max(1e-12, p[Key::kMass] - stated.water_kg) * r * r, motor_kg(p, stated) * r * r,
+         std::max(0.0, p[Key::kViscous] - stated.water_viscous_N_s_per_m) * r * r, coulomb_Nm,
+         breakaway_Nm});
   };
   // An asymmetry that the file states may need more of it than was found.
   const double stated_ratio = stated.breakaway_ratio;
@@ -71,6 +85,7 @@ ExtendedPlant extend_plant(const toml::table& plant, const Diagnosis& d) {
   if (has_moved(d, "bias") && !write_bias(file, d.extended)) {
     leave_out("constant_bias", "a constant force");
   }
+  if (has_a_causes_mean(d)) write_bias(file, d.extended);
   for (const NamedCause& cause : d.causes) {
     if (!write_cause(file, *cause.effect, d.extended)) {
       leave_out(cause.effect->name, cause.effect->cause);

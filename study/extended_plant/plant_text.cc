@@ -57,6 +57,10 @@ toml::table& table_of(toml::table& in, std::string_view& key) {
   return *table;
 }
 
+double linear_drag_N_s_per_m(const emulator::WaterBodyParameters& body) {
+  return body.in_water ? body.linear_drag_N_s_per_m : 0;
+}
+
 struct Inserted {
   toml::table& in;
   std::string_view key;
@@ -101,6 +105,10 @@ void PlantText::read() {
   const auto& shaft = machine_.water.shaft;
   stated_.shaft_drag_N_s2_per_m2 = shaft.in_water ? shaft.quadratic_drag_N_s2_per_m2 : 0;
   const auto& object = machine_.water.object;
+  const bool wet = machine_.water.present() && core::is_planar(which);
+  stated_.water_kg = wet ? added_mass_kg(machine_.water) : 0;
+  stated_.water_viscous_N_s_per_m =
+      wet ? linear_drag_N_s_per_m(shaft) + linear_drag_N_s_per_m(object) : 0;
   stated_.in_water_plane = core::is_planar(which) && !axis.load_turns && object.yaw_deg == 0 &&
                            object.across_drag_ratio == 1;
 }

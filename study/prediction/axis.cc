@@ -61,13 +61,14 @@ Axis::Axis(const Parameters& parameters, const Scene& scene)
       middle_m_(0.5 * (scene.stroke_min_m + scene.stroke_max_m)),
       per_stroke_(std::numbers::pi / (scene.stroke_max_m - scene.stroke_min_m)),
       place_force_(any_shape(p_, Key::kPlaceForce1) || any_shape(p_, Key::kPlaceViscous1)),
+      stated_force_(!scene.stated->force_at_m.empty() || scene.stated->cable_N_per_m != 0),
       place_friction_(any_shape(p_, Key::kPlaceFriction1)),
       two_(parameters[Key::kMotorMass] > 0),
       drive_(any(p_, {Key::kDeadband, Key::kClipShare, Key::kStallShare, Key::kLag,
                       Key::kOutOfRoundPerMetre})),
       on_motor_(any(p_, {Key::kRipplePerMetre, Key::kWheelPerMetre}) || has_others(p_) ||
-                scene.run->known_N.size() > 0 || scene.extra_N.size() > 0),
-      on_load_(place_force_ || has_others(p_) ||
+                scene.extra_N.size() > 0),
+      on_load_(place_force_ || stated_force_ || has_others(p_) ||
                any(p_, {Key::kViscousAsymmetry, Key::kDrag, Key::kCubic, Key::kCable,
                         Key::kGravityCosine, Key::kGravitySine, Key::kPeriodicHertz,
                         Key::kTemperatureViscous})),
@@ -194,9 +195,6 @@ double Axis::on_motor_N(Eigen::Index k) const {
     force += wheel_N();
   }
   force += of_others_.force_N;
-  if (scene_.run->known_N.size() > 0) {
-    force += scene_.run->known_N[k];
-  }
   if (scene_.extra_N.size() > 0) {
     force += scene_.extra_N[k];
   }
@@ -225,6 +223,9 @@ double Axis::on_load_N(const Body& body, double t_s) const {
   double force = p_[Key::kBias] + p_[Key::kViscousAsymmetry] * speed + p_[Key::kDrag] * v * speed +
                  p_[Key::kCubic] * v * v * v + p_[Key::kCable] * (x - middle_m_) +
                  (of_others_.mass_kg_per_s - p_[Key::kTemperatureViscous] * warmer_K_) * v;
+  if (stated_force_) {
+    force += stated_force_N(*scene_.stated, x);
+  }
   if (place_force_) {
     force += shape(p_, Key::kPlaceForce1, cosine_) + v * shape(p_, Key::kPlaceViscous1, cosine_);
   }

@@ -64,6 +64,7 @@ class Axis {
   double per_stroke_;  // radians of the slowest shape a metre
   double warm_end_ = 1;
   bool place_force_ = false;
+  bool stated_force_ = false;
   bool place_friction_ = false;
   bool two_ = false;
   // Whether anything beyond the base parameters acts there.

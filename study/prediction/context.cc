@@ -49,6 +49,9 @@ Context make_context(const NominalModel& stated, const Data& data) {
 
 Parameters parameters_of(const NominalModel& stated) {
   Parameters p;
+  for (std::size_t key = 0; key < kKeys; ++key) {
+    p[static_cast<Key>(key)] = stated.terms[static_cast<Key>(key)];
+  }
   p[Key::kMass] = stated.mass_kg;
   p[Key::kViscous] = stated.viscous_N_s_per_m;
   p[Key::kCoulomb] = stated.coulomb_N;

@@ -21,7 +21,8 @@ double time_step(const Context& c) {
 // In the span of mass and friction, but for what the model states beyond them.
 std::vector<Scales> where_more_is_stated(const Context& c) {
   const NominalModel& m = c.stated;
-  const bool more = m.elastic() || !m.friction_at_m.empty() || m.breakaway_excess_N != 0;
+  const bool more = m.elastic() || !m.friction_at_m.empty() || m.breakaway_excess_N != 0 ||
+                    m.terms[Key::kGravitySine] != 0 || m.terms[Key::kGravityCosine] != 0;
   return more ? std::vector<Scales>{{}} : std::vector<Scales>{};
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "study/prediction/parameters.h"
+
 namespace towbench::study::diagnose {
 
 // Motor and load as two bodies, (3.37)-(3.38): mass_kg and friction of the model are of both.
@@ -38,6 +40,11 @@ struct NominalModel {
   bool stribeck_is_lorentz = false;   // (3.26)
   std::vector<double> friction_at_m;  // position friction, piecewise linear, (3.34)
   std::vector<double> friction_N;
+  std::vector<double> force_at_m;  // a force by place that resists, piecewise linear
+  std::vector<double> force_N;
+  double cable_N_per_m = 0;
+  double cable_at_m = 0;             // where it does not pull
+  Parameters terms;                  // whatever else is stated, by its key of the axis
   ElasticTransmission transmission;  // stiffness 0: rigid
   // True when mass, friction levels come from a file; false: fitted only, nothing was supplied.
   bool supplied = true;

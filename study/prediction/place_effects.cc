@@ -38,8 +38,13 @@ PlantValues gravity_values(const Parameters& p, const StatedPlant& /*stated*/) {
   return {std::hypot(sine, cosine), std::atan2(cosine, sine) * 180 / std::numbers::pi};
 }
 
+// With a cable that is stated: one that pulls like both.
 PlantValues cable_values(const Parameters& p, const StatedPlant& stated) {
-  return {p[Key::kCable], stated.stroke_min_m + 0.5 * stated.stroke_m};
+  const NominalModel& m = stated.model;
+  const double both = p[Key::kCable] + m.cable_N_per_m;
+  const double middle_m = stated.stroke_min_m + 0.5 * stated.stroke_m;
+  if (both <= 0) return {};
+  return {both, (p[Key::kCable] * middle_m + m.cable_N_per_m * m.cable_at_m) / both};
 }
 
 PlantValues position_friction_values(const Parameters& p, const StatedPlant& stated) {

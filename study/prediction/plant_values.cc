@@ -57,11 +57,12 @@ FileFriction file_friction(const Parameters& p, const StatedPlant& stated) {
 }
 
 double motor_kg(const Parameters& p, const StatedPlant& stated) {
-  return is_elastic(p) ? p[Key::kMotorMass] : stated.rotor_share * p[Key::kMass];
+  return is_elastic(p) ? p[Key::kMotorMass]
+                       : stated.rotor_share * (p[Key::kMass] - stated.water_kg);
 }
 
 double load_kg(const Parameters& p, const StatedPlant& stated) {
-  return p[Key::kMass] - motor_kg(p, stated);
+  return p[Key::kMass] - stated.water_kg - motor_kg(p, stated);
 }
 
 PlantValues transmission_values(const Parameters& p, const StatedPlant& stated) {
@@ -88,7 +89,11 @@ PlantValues tilt_values(const Parameters& p, const StatedPlant& stated) {
 PlantValues position_force_values(const Parameters& p, const StatedPlant& stated) {
   Knots knots = knots_of(p, Key::kPlaceForce1, stated);
   const double constant_N = tilt_values(p, stated).empty() ? p[Key::kBias] : 0.0;
-  for (double& value : knots.value) value = -(value + constant_N) * stated.metres_per_motor_rad;
+  for (std::size_t i = 0; i < knots.at_m.size(); ++i) {
+    const double cable_N = stated.model.cable_N_per_m * (knots.at_m[i] - stated.model.cable_at_m);
+    const double stated_N = stated_force_N(stated.model, knots.at_m[i]) - cable_N;
+    knots.value[i] = -(knots.value[i] + stated_N + constant_N) * stated.metres_per_motor_rad;
+  }
   return {std::move(knots.at_m), std::move(knots.value)};
 }
 

@@ -32,6 +32,8 @@ struct StatedPlant {
   double choke_H = 0;
   double counts_per_turn = 0;
   double slack_m = 0;
+  double water_kg = 0;  // that moves with the load, of no inertia of the file
+  double water_viscous_N_s_per_m = 0;
   double shaft_drag_N_s2_per_m2 = 0;  // of what holds the object in the water
   bool in_water_plane = false;        // one of the two axes that water acts on
 };

@@ -18,7 +18,6 @@ struct Run {
   double period_s = 0;          // between samples
   Eigen::VectorXd position_m;   // carriage, by the rigid gear
   Eigen::VectorXd input_N;      // force that the nominal model says the command makes
-  Eigen::VectorXd known_N;      // force of terms that the model already has; empty: none
   Eigen::VectorXd reference_m;  // empty when the log has none
   std::vector<OtherAxis> others;
   Eigen::VectorXd temperature_K;  // of the axis, from any zero; empty when the log has none

@@ -21,6 +21,24 @@ VectorXd speed_of(const VectorXd& x, double period_s, Index reach) {
   return out;
 }
 
+// On lines between knots, level outside; zero without knots.
+double between(const std::vector<double>& at, const std::vector<double>& value,
+               double at_m) noexcept {
+  if (at.empty()) {
+    return 0;
+  }
+  const auto after = std::upper_bound(at.begin(), at.end(), at_m);
+  if (after == at.begin()) {
+    return value.front();
+  }
+  if (after == at.end()) {
+    return value.back();
+  }
+  const auto i = static_cast<std::size_t>(after - at.begin());
+  const double share = (at_m - at[i - 1]) / (at[i] - at[i - 1]);
+  return value[i - 1] + share * (value[i] - value[i - 1]);
+}
+
 }  // namespace
 
 OtherMotion motion_of(const OtherAxis& other, double period_s) {
@@ -70,21 +88,12 @@ double Scene::impulse_at(double at_s) const noexcept {
 }
 
 double stated_friction_N(const NominalModel& stated, double at_m) noexcept {
-  const auto& at = stated.friction_at_m;
-  const auto& force = stated.friction_N;
-  if (at.empty()) {
-    return 0;
-  }
-  const auto after = std::upper_bound(at.begin(), at.end(), at_m);
-  if (after == at.begin()) {
-    return force.front();
-  }
-  if (after == at.end()) {
-    return force.back();
-  }
-  const auto i = static_cast<std::size_t>(after - at.begin());
-  const double share = (at_m - at[i - 1]) / (at[i] - at[i - 1]);
-  return force[i - 1] + share * (force[i] - force[i - 1]);
+  return between(stated.friction_at_m, stated.friction_N, at_m);
+}
+
+double stated_force_N(const NominalModel& stated, double at_m) noexcept {
+  return between(stated.force_at_m, stated.force_N, at_m) +
+         stated.cable_N_per_m * (at_m - stated.cable_at_m);
 }
 
 }  // namespace towbench::study::diagnose

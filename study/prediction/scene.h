@@ -11,6 +11,8 @@ namespace towbench::study::diagnose {
 
 // Dry friction that the stated model has at a place, (3.34); zero where it has none.
 [[nodiscard]] double stated_friction_N(const NominalModel& stated, double at_m) noexcept;
+// The same of a force that resists, cables included.
+[[nodiscard]] double stated_force_N(const NominalModel& stated, double at_m) noexcept;
 
 inline constexpr double kLongestStep_s = 5e-4;
 

@@ -39,6 +39,14 @@ double scale_step(const Context& c, Key key, double value, bool sought) {
   }
 }
 
+// A wave that is stated is found at its frequency, or not at all: the axis has one of a kind.
+bool is_at_stated_frequency(const Parameters& terms, const Effect& effect, const Scales& scales) {
+  constexpr double kNear = 0.01;
+  if (effect.scales.empty() || !wave_of(effect.scales.front())) return true;
+  const double stated = terms[effect.scales.front()];
+  return stated == 0 || std::abs(scales.front() / stated - 1) < kNear;
+}
+
 struct Slot {
   const Effect* effect;
   Scales scales;
@@ -63,6 +71,7 @@ std::vector<Slot> slots_of(const Frame& frame, const State& s,
         std::find(excluded.begin(), excluded.end(), &effect) != excluded.end())
       continue;
     for (const Scales& scales : effect.grid(frame.context)) {
+      if (!is_at_stated_frequency(frame.context.stated.terms, effect, scales)) continue;
       const Index count = std::max<Index>(1, std::ssize(effect.amplitudes));
       slots.push_back({&effect, scales, {}, column, count});
       column += count;
@@ -96,7 +105,8 @@ std::vector<Variation> variations_of(const Frame& frame, const State& s,
   return all;
 }
 
-Candidate judge(const Blocks& blocks, const Slot& slot, Index p, const VectorXd& before) {
+Candidate judge(const Blocks& blocks, const Slot& slot, Index p, const VectorXd& before,
+                const Parameters& terms) {
   Candidate c;
   c.effect = slot.effect;
   c.scales = slot.scales;
@@ -112,8 +122,10 @@ Candidate judge(const Blocks& blocks, const Slot& slot, Index p, const VectorXd&
   c.gain = compare(before, after, 2);
   c.loss = after.sum();
   const bool whole = slot.effect->amplitudes.empty() || slot.effect->whole != 0;
-  c.plausible = (!slot.effect->positive || c.b[0] > 0) &&
-                (slot.effect->most == 0 || std::abs(c.b[0]) < slot.effect->most) &&
+  const double stated =
+      slot.effect->amplitudes.empty() ? 0 : terms[slot.effect->amplitudes.front()];
+  c.plausible = (!slot.effect->positive || stated + c.b[0] > 0) &&
+                (slot.effect->most == 0 || std::abs(stated + c.b[0]) < slot.effect->most) &&
                 (!whole || (c.b[0] > kWholeLeast && c.b[0] < kWholeMost)) &&
                 c.test.own_share > slot.effect->own && std::isfinite(c.loss);
   return c;
@@ -123,7 +135,8 @@ Candidate judge(const Blocks& blocks, const Slot& slot, Index p, const VectorXd&
 
 bool is_in(const Frame& frame, const State& s, const Effect& effect) {
   const Parameters& p = s.fitted.model.parameters;
-  const auto used = [&](Key key) { return p[key] != 0; };
+  const Parameters& terms = frame.context.stated.terms;
+  const auto used = [&](Key key) { return p[key] != 0 && p[key] != terms[key]; };
   const bool whole = effect.amplitudes.empty();
   return std::any_of(
              effect.amplitudes.begin(), effect.amplitudes.end(),
@@ -152,7 +165,9 @@ Screened screen(Frame& frame, const State& s, const std::vector<const Effect*>& 
                       samples_in(frame.spans, s.fitted.e), ridge);
   const VectorXd before = blocks.predicted(up_to(p));
   std::vector<Candidate> judged(slots.size());
-  in_parallel(slots.size(), [&](std::size_t i) { judged[i] = judge(blocks, slots[i], p, before); });
+  in_parallel(slots.size(), [&](std::size_t i) {
+    judged[i] = judge(blocks, slots[i], p, before, frame.context.stated.terms);
+  });
   Screened out;
   out.tried = slots.size();
   for (Candidate& c : judged) {

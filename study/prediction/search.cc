@@ -195,7 +195,8 @@ class Searcher {
     const Index k = std::ssize(effect.amplitudes);
     VectorXd b(k);
     for (Index j = 0; j < k; ++j) {
-      b[j] = s.fitted.model.parameters[effect.amplitudes[static_cast<std::size_t>(j)]];
+      const Key key = effect.amplitudes[static_cast<std::size_t>(j)];
+      b[j] = s.fitted.model.parameters[key] - frame_.context.stated.terms[key];
     }
     return std::min(1.0, wald(b, s.linear.covariance.block(at, at, k, k), frame_.spans.size()) *
                              static_cast<double>(out_.tried));

@@ -63,6 +63,7 @@ TEST(Explain, ListsWhatCanBeNamedWithoutALog) {
   const auto told = BroughtCase().diagnose("--causes");
   EXPECT_EQ(told.code, 0);
   for (const Effect& effect : effects()) {
+    if (effect.other > 0) continue;  // as the first of the other axes
     EXPECT_THAT(told.text, HasSubstr("\n" + effect.name + ": " + effect.cause + "\n"));
     EXPECT_THAT(told.text, HasSubstr(effect.law));
     for (const std::string& key : effect.plant_keys) EXPECT_THAT(told.text, HasSubstr(key));

@@ -26,9 +26,10 @@ Motion sine() {
 TEST(FreeShapes, OfBinsCoverEachSampleOnce) {
   const Motion motion = sine();
   const auto shapes = free_shapes({motion});
-  ASSERT_EQ(shapes.size(), 7U);
+  ASSERT_EQ(shapes.size(), 8U);
   for (const FreeShape& shape : shapes) {
     if (shape.coordinate == "the motion before") continue;
+    if (shape.coordinate == "position times speed") continue;
     VectorXd sum = VectorXd::Zero(motion.time_s.size());
     for (Eigen::Index i = 0; i < shape.columns; ++i) sum += shape.force(i, motion);
     const bool is_grid = shape.coordinate == "position and speed";
@@ -55,6 +56,17 @@ TEST(FreeShapes, OfAMotionThatStandsAreOfThePastAlone) {
   ASSERT_EQ(shapes.size(), 2U);
   EXPECT_EQ(shapes.front().coordinate, "time");
   EXPECT_EQ(shapes.back().coordinate, "the motion before");
+}
+
+TEST(FreeShapes, OfPlaceTimesSpeedAreProductsOfWavesAndPowers) {
+  const Motion motion = sine();
+  const auto shapes = free_shapes({motion});
+  const FreeShape& smooth = shapes[shapes.size() - 2];
+  ASSERT_EQ(smooth.columns, 18);
+  const double x = 0.5 * (motion.position_m[1234] + 1);
+  const double v = motion.speed_m_per_s[1234] / 0.7;
+  EXPECT_NEAR(smooth.force(1, motion)[1234], std::cos(6.2831853 * x) * v, 1e-4);
+  EXPECT_NEAR(smooth.force(6, motion)[1234], std::cos(3.14159265 * x) * v * v, 1e-4);
 }
 
 // The force of a Maxwell part at constant speed: 1 - exp(-t / memory). Friction that warms: the

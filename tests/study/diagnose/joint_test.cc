@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "study/diagnose/diagnosis.h"
+#include "study/diagnose/headline.h"
 #include "tests/study/diagnose/cause_names.h"
 #include "tests/study/diagnose/pendulum_data.h"
 
@@ -81,6 +82,26 @@ TEST(Joint, ItsWeightIsNamedWithItsSizeThoughTheStatedInertiaIsAThird) {
 TEST(Joint, OneThatLiesFlatHasNoWeight) {
   const Diagnosis d = diagnosed(swinging(joint(0.2), 0, 2), answered_at_once(joint(0.2)));
   EXPECT_THAT(cause_names(d), IsEmpty());
+}
+
+NominalModel with_weight(NominalModel model, double sine_Nm) {
+  model.terms[Key::kGravitySine] = sine_Nm;
+  return model;
+}
+
+TEST(Joint, AWeightThatIsStatedIsNoCause) {
+  const Diagnosis d =
+      diagnosed(swinging(joint(0.2), 4, 1), with_weight(answered_at_once(joint(0.2)), 4));
+  EXPECT_THAT(cause_names(d), IsEmpty()) << headline(d);
+  EXPECT_EQ(d.verdicts.front(), "model_adequate");
+}
+
+TEST(Joint, AWeightOfAnotherSizeThanStatedIsNamedWithItsOwn) {
+  const Diagnosis d =
+      diagnosed(swinging(joint(0.2), 4, 1), with_weight(answered_at_once(joint(0.2)), 3));
+  ASSERT_THAT(cause_names(d), ElementsAre("gravity")) << headline(d);
+  EXPECT_NEAR(d.causes.front().size("sine_Nm"), 4, 0.12);
+  EXPECT_THAT(headline(d), testing::HasSubstr("the model has another size of gravity"));
 }
 
 class Pendulum : public testing::TestWithParam<std::string> {

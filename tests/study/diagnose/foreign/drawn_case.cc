@@ -143,7 +143,7 @@ DrawnCase draw_case(const Wish& wish, std::uint64_t seed) {
 
 study::diagnose::Request request_of(const DrawnCase& one) {
   study::diagnose::Request request;
-  request.model = nominal_model(one.machine);
+  request.model = nominal_model(one.machine, one.runs.front().stated_gravity);
   for (const Recording& run : one.runs) {
     (run.plan.held_out ? request.holdout : request.runs).push_back(run_of(one.machine, run));
   }

@@ -107,7 +107,7 @@ Machine draw_machine(const std::string& kind, Dice& dice) {
   return m;
 }
 
-study::diagnose::NominalModel nominal_model(const Machine& machine) {
+study::diagnose::NominalModel nominal_model(const Machine& machine, double stated_gravity) {
   study::diagnose::NominalModel model;
   model.mass_kg = machine.mass_kg;
   model.viscous_N_s_per_m = machine.viscous_N_s_per_m;
@@ -120,6 +120,10 @@ study::diagnose::NominalModel nominal_model(const Machine& machine) {
   model.force_limit_N = machine.limit_N();
   model.no_load_speed_m_per_s = machine.no_load_speed_m_per_s;
   model.rotary = machine.kind == "joint";
+  using study::diagnose::Key;
+  const double gravity_N = stated_gravity * machine.gravity_N;
+  model.terms[Key::kGravitySine] = gravity_N * std::cos(machine.gravity_at_rad);
+  model.terms[Key::kGravityCosine] = gravity_N * std::sin(machine.gravity_at_rad);
   if (machine.chain_Hz > 0) {
     const double pulsation = kTurn * machine.chain_Hz;
     model.transmission.motor_kg = machine.motor_share * machine.mass_kg;

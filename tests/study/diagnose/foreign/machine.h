@@ -56,7 +56,8 @@ inline constexpr double kNoiseHold_s = 0.5e-3;
 // screw, belt, direct, chain, elastic_chain, joint
 [[nodiscard]] const std::vector<std::string>& machine_kinds();
 [[nodiscard]] Machine draw_machine(const std::string& kind, Dice& dice);
-// The stated four and the drive. A joint's gravity is no part of it: see known_N of a run.
-[[nodiscard]] study::diagnose::NominalModel nominal_model(const Machine& machine);
+// The stated four, the drive, and so much of a joint's gravity.
+[[nodiscard]] study::diagnose::NominalModel nominal_model(const Machine& machine,
+                                                          double stated_gravity);
 
 }  // namespace towbench::tests::foreign

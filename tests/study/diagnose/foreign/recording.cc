@@ -60,9 +60,7 @@ class Rig {
     return (std::floor(reading_at(bodies_.motor().x_m) / m_.metres_per_count) + 0.5) *
            m_.metres_per_count;
   }
-  [[nodiscard]] double stated_gravity_N(double x_m) const {
-    return (1 - unstated_) * m_.gravity_at_N(x_m);
-  }
+  [[nodiscard]] double stated_gravity() const { return 1 - unstated_; }
   // Holds a command for a sample; who drives may push at every step.
   Truth hold(double command_N, int steps, double h_s, const Operator& who, double clock_s) {
     Truth truth;
@@ -207,7 +205,7 @@ class Rig {
     if (load_is_stated) {
       resist(before.load(), bodies_.load(), dry.load_N, on_load, 1);
     }
-    out.nominal_N += stated_gravity_N(before.load().x_m);
+    out.nominal_N += stated_gravity() * m_.gravity_at_N(before.load().x_m);
     return out;
   }
 
@@ -235,6 +233,7 @@ Recording record_run(const Machine& machine, const std::vector<Law>& laws, const
   out.plan = run;
   const auto who = make_operator(run, machine, plan.loop);
   Rig rig(machine, laws, plan.sessions[run.session], run, seed);
+  out.stated_gravity = rig.stated_gravity();
   rig.place(who->start_m());
   const int steps = static_cast<int>(std::ceil(machine.period_s / step_s - 1e-9));
   const double h_s = machine.period_s / steps;
@@ -252,7 +251,6 @@ Recording record_run(const Machine& machine, const std::vector<Law>& laws, const
     if (command.reference_m && plan.with_reference) {
       out.reference_m.push_back(*command.reference_m);
     }
-    out.gravity_N.push_back(rig.stated_gravity_N(reading_m));
   }
   return out;
 }
@@ -289,9 +287,6 @@ study::diagnose::Run run_of(const Machine& machine, const Recording& recording) 
     for (Eigen::Index k = 0; k < run.size(); ++k) {
       run.input_N[k] += recording.truth[static_cast<std::size_t>(k)].hand_N;  // of a force sensor
     }
-  }
-  if (machine.gravity_N != 0) {
-    run.known_N = vector(recording.gravity_N);
   }
   run.reference_m = vector(recording.reference_m);
   run.missing.assign(recording.position_m.size(), 0);

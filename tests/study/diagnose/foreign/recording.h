@@ -26,7 +26,7 @@ struct Recording {
   std::vector<double> position_m;
   std::vector<double> input_units;
   std::vector<double> reference_m;  // empty: none
-  std::vector<double> gravity_N;    // as the file states it, at the reading
+  double stated_gravity = 1;        // of a joint's, the share that its file states
   std::vector<Truth> truth;
 };
 

@@ -1,5 +1,7 @@
 #include "tests/study/diagnose/foreign/write_case.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <stdexcept>
 
@@ -31,21 +33,40 @@ std::string log_of(const DrawnCase& one, const Recording& run) {
 }
 
 std::string truth_of(const Recording& run) {
-  std::string text = "lacking_N,a_m_per_s2,v_m_per_s,dry,moving,gravity_N\n";
+  std::string text = "lacking_N,a_m_per_s2,v_m_per_s,dry,moving\n";
   for (std::size_t k = 0; k < run.truth.size(); ++k) {
     const Truth& t = run.truth[k];
-    text += fmt::format("{:.6g},{:.6g},{:.6g},{:.4f},{:.3f},{:.6g}\n", t.lacking_N, t.a_m_per_s2,
-                        t.v_m_per_s, t.dry, t.moving, run.gravity_N[k]);
+    text += fmt::format("{:.6g},{:.6g},{:.6g},{:.4f},{:.3f}\n", t.lacking_N, t.a_m_per_s2,
+                        t.v_m_per_s, t.dry, t.moving);
   }
   return text;
 }
 
 std::string map_of(const DrawnCase& one) {
   return fmt::format(
-      "# of {0}; a joint's metres are radians, its newtons newton metres\ntime = \"time_s\"\n"
+      "# of {0}\ntime = \"time_s\"\n"
       "position = \"position\"\nposition_scale_m = 1\ninput = \"input\"  # {1}\n"
-      "input_scale_N = {2:.12g}\n",
-      one.machine.kind, one.machine.input, one.machine.newton_per_unit);
+      "input_scale_N = {2:.12g}\nrotary = {3}\n",
+      one.machine.kind, one.machine.input, one.machine.newton_per_unit, one.machine.joint());
+}
+
+// Behind a gear of 100; its motor is so strong that it limits nothing.
+std::string joint_of(const Machine& m, double stated_gravity) {
+  constexpr double r = 0.01;
+  constexpr double kFull_A = 10;
+  return fmt::format(
+      "# joint: stroke {:.3f}, top speed {:.3f}, {:.0f} Hz\n"
+      "schema = 1\n[supply]\nvoltage_V = 60.0\nover_current_A = 30.0\n"
+      "[axis.y]\ninertia_kg_m2 = {:.9g}\nviscous_friction_Nm_s_per_rad = {:.9g}\n"
+      "coulomb_friction_Nm = {:.9g}\ntorque_constant_Nm_per_A = {:.9g}\n"
+      "amplifier_gain_A_per_V = 1.0\npwm_amplitude_V = {:.1f}\ncurrent_limit_A = {:.1f}\n"
+      "encoder_counts_per_rev = {:.0f}\n"
+      "[axis.y.transmission]\nkind = \"gear\"\ngear_ratio = {:.1f}\n"
+      "[axis.y.disturbances.gravity]\ntorque_Nm = {:.9g}\nzero_at_deg = {:.9g}\n",
+      m.stroke_m, m.top_speed_m_per_s, 1 / m.period_s, m.mass_kg * r * r,
+      m.viscous_N_s_per_m * r * r, m.coulomb_N * r, m.limit_N() * r / kFull_A, kFull_A, kFull_A,
+      std::max(4.0, 4 * std::round(kTurn * r / m.metres_per_count / 4)), 1 / r,
+      stated_gravity * m.gravity_N, m.gravity_at_rad * 360 / kTurn);
 }
 
 // Load-side form; what it has no key for stands as a comment.
@@ -56,13 +77,12 @@ std::string plant_of(const Machine& m) {
                                                      : 0.01;
   std::string text = fmt::format(
       "# {}: stroke {:.3f}, top speed {:.3f}, {:.0f} Hz\n"
-      "# gravity {:.6g} sin(x + {:.4f}); chain {:.3f} Hz, motor's share {:.3f}\n"
+      "# chain {:.3f} Hz, motor's share {:.3f}\n"
       "schema = 1\n[axis.y]\nmass_kg = {:.9g}\nviscous_friction_N_s_per_m = {:.9g}\n"
       "coulomb_friction_N = {:.9g}\nforce_gain_N_per_V = {:.9g}\npwm_amplitude_V = 10.0\n"
       "gear_ratio = {:.9g}\nsprocket_radius_m = {:.9g}\nencoder_counts_per_m = {:.9g}\n",
-      m.kind, m.stroke_m, m.top_speed_m_per_s, 1 / m.period_s, m.gravity_N, m.gravity_at_rad,
-      m.chain_Hz, m.motor_share, m.mass_kg, m.viscous_N_s_per_m, m.coulomb_N, m.limit_N() / 10,
-      gear, radius, 1 / m.metres_per_count);
+      m.kind, m.stroke_m, m.top_speed_m_per_s, 1 / m.period_s, m.chain_Hz, m.motor_share, m.mass_kg,
+      m.viscous_N_s_per_m, m.coulomb_N, m.limit_N() / 10, gear, radius, 1 / m.metres_per_count);
   if (m.chain_Hz > 0) {
     text += fmt::format("[axis.y.elasticity]\nresonance_Hz = {:.9g}\ndamping_ratio = {:.6g}\n",
                         m.chain_Hz, m.chain_damping);
@@ -75,7 +95,9 @@ std::string plant_of(const Machine& m) {
 void write_case(const DrawnCase& one, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   write(folder / "map.toml", map_of(one));
-  write(folder / "plant.toml", plant_of(one.machine));
+  write(folder / "plant.toml", one.machine.joint()
+                                   ? joint_of(one.machine, one.runs.front().stated_gravity)
+                                   : plant_of(one.machine));
   std::string told = fmt::format("seed {}\nplan {}\nreference {}\nloop {:.3f} Hz, damping {:.2f}\n",
                                  one.seed, one.plan.words(), one.plan.with_reference,
                                  one.plan.loop.bandwidth_Hz, one.plan.loop.damping);
