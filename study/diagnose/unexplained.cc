@@ -16,9 +16,16 @@ using Eigen::VectorXd;
 constexpr double kAlpha = 1e-4;
 constexpr double kLeastForce = 0.01;  // of the input's rms; less is too small to matter
 constexpr double kLeastGain = 0.02;
-constexpr double kPastGain = 0.1;  // that the past predicts; a wrong noise model does less
-constexpr double kMisfit = 0.12;   // of the power that a cause predicts, left for a free shape
-constexpr double kRidge = 1e-4;    // of a column's own square: a bin that a fold lacks stays zero
+constexpr double kPastGain = 0.1;   // that the past predicts; a wrong noise model does less
+constexpr double kMisfit = 0.12;    // of the power that a cause predicts, left for a free shape
+constexpr double kStandsFor = 0.3;  // of a column of a cause, rms, that a shape cannot make
+constexpr double kRidge = 1e-4;     // of a column's own square: a bin that a fold lacks stays zero
+
+// A shape that predicts further, and the causes that it can stand for.
+struct Against {
+  Unexplained what;
+  std::vector<bool> cause;
+};
 
 class Seeker {
  public:
@@ -36,11 +43,13 @@ class Seeker {
   }
 
   // Of the shapes that are certain, that which takes away the most.
-  std::optional<Unexplained> best_shape() {
-    std::optional<Unexplained> best;
+  std::optional<Against> best_shape() {
+    std::optional<Against> best;
     for (const FreeShape& shape : shapes_) {
       auto found = of(shape);
-      if (found && (!best || found->share > best->share)) best = std::move(found);
+      if (found && (!best || found->share > best->what.share)) {
+        best = Against{*std::move(found), stands_for_};
+      }
     }
     return best;
   }
@@ -103,6 +112,16 @@ class Seeker {
     const Columns group(both.begin() + p, both.end());
     const GroupTest test = blocks.test(base, group);
     const Comparison gain = compare(blocks.predicted(base), blocks.predicted(both), 2.58);
+    stands_for_.clear();
+    for (const Columns& columns : columns_of_causes()) {
+      stands_for_.push_back(std::all_of(columns.begin(), columns.end(), [&](Index i) {
+        Columns rest = base;
+        std::erase_if(rest, [&](Index j) { return contains(columns, j); });
+        Columns with_shape = rest;
+        with_shape.insert(with_shape.end(), group.begin(), group.end());
+        return blocks.own_share(with_shape, i) < kStandsFor * blocks.own_share(rest, i);
+      }));
+    }
     const Fit fit = blocks.fit(both);
     b_ = fit.b.tail(k);
     covariance_ = fit.covariance.bottomRightCorner(k, k);
@@ -110,6 +129,22 @@ class Seeker {
     u.rms_N = to_force_ * test.rms;
     u.p_value = std::min(1.0, test.p_value * static_cast<double>(shapes_.size() + 1));
     return u.p_value < kAlpha && gain.low > 0;
+  }
+
+  static bool contains(const Columns& columns, Index i) {
+    return std::find(columns.begin(), columns.end(), i) != columns.end();
+  }
+  // Of the model's own parameters, those of each cause.
+  [[nodiscard]] std::vector<Columns> columns_of_causes() const {
+    std::vector<Columns> out;
+    const auto& accepted = search_.final.accepted;
+    Index at = std::ssize(search_.final.free);
+    for (const Accepted& a : accepted) at -= std::ssize(a.free);
+    for (const Accepted& a : accepted) {
+      Columns& columns = out.emplace_back();
+      for (Index i = 0; i < std::ssize(a.free); ++i) columns.push_back(at++);
+    }
+    return out;
   }
 
   Data& data_;
@@ -120,6 +155,7 @@ class Seeker {
   MatrixXd all_;  // by the model's own parameters, by what is tried, and the error
   VectorXd b_;
   MatrixXd covariance_;
+  std::vector<bool> stands_for_;  // of the shape that was asked last
 };
 
 // Of the prediction error's power with the causes: what a gain of rms takes away further, and what
@@ -131,11 +167,13 @@ double earlier_power(double gain) {
   return 1 / ((1 - gain) * (1 - gain)) - 1;
 }
 
-std::size_t weakest_of(const std::vector<Cause>& causes) {
-  const auto least =
-      std::min_element(causes.begin(), causes.end(),
-                       [](const Cause& a, const Cause& b) { return a.gain.gain < b.gain.gain; });
-  return static_cast<std::size_t>(least - causes.begin());
+std::optional<std::size_t> weakest_of(const std::vector<Cause>& causes,
+                                      const std::vector<bool>& among) {
+  std::optional<std::size_t> least;
+  for (std::size_t i = 0; i < causes.size(); ++i) {
+    if (among[i] && (!least || causes[i].gain.gain < causes[*least].gain.gain)) least = i;
+  }
+  return least;
 }
 
 void drop(const Data& data, Search& search, std::size_t i) {
@@ -152,18 +190,17 @@ std::optional<Unexplained> judge_rest(Data& data, Search& search) {
   for (;;) {
     Seeker seeker(data, search);
     auto shape = seeker.best_shape();
-    const bool matters = shape && seeker.is_a_force(*shape);
-    if (matters && !search.causes.empty()) {
-      const auto i = weakest_of(search.causes);
-      const double gain = std::clamp(search.causes[i].gain.gain, 0.0, 0.999);
-      if (further_power(shape->share) >= kMisfit * earlier_power(gain)) {
-        against = std::move(shape);
-        drop(data, search, i);
+    const bool matters = shape && seeker.is_a_force(shape->what);
+    if (const auto i = matters ? weakest_of(search.causes, shape->cause) : std::nullopt) {
+      const double gain = std::clamp(search.causes[*i].gain.gain, 0.0, 0.999);
+      if (further_power(shape->what.share) >= kMisfit * earlier_power(gain)) {
+        against = std::move(shape->what);
+        drop(data, search, *i);
         continue;
       }
     }
-    if (matters && shape->share > kLeastGain) {
-      return shape;
+    if (matters && shape->what.share > kLeastGain) {
+      return std::move(shape->what);
     }
     auto past = seeker.by_its_past();
     return past ? past : against;

@@ -193,6 +193,12 @@ Fit Blocks::fit(const Columns& of) const {
   return out;
 }
 
+double Blocks::own_share(const Columns& others, Index column) const {
+  const VectorXd by = solve_scaled(sum_(others, others), sum_(others, column));
+  const double left = sum_(column, column) - by.dot(sum_(others, column));
+  return std::sqrt(std::max(0.0, left) / std::max(1e-300, sum_(column, column)));
+}
+
 GroupTest Blocks::test(const Columns& others, const Columns& group) const {
   Columns all = others;
   all.insert(all.end(), group.begin(), group.end());
@@ -200,12 +206,7 @@ GroupTest Blocks::test(const Columns& others, const Columns& group) const {
   GroupTest out;
   // What of each column the others cannot make.
   out.own_share = 1;
-  for (const Index g : group) {
-    const VectorXd by = solve_scaled(sum_(others, others), sum_(others, g));
-    const double left = sum_(g, g) - by.dot(sum_(others, g));
-    out.own_share =
-        std::min(out.own_share, std::sqrt(std::max(0.0, left) / std::max(1e-300, sum_(g, g))));
-  }
+  for (const Index g : group) out.own_share = std::min(out.own_share, own_share(others, g));
   const Fit fitted = fit(all);
   const VectorXd b = fitted.b.tail(k);
   const MatrixXd v = fitted.covariance.bottomRightCorner(k, k);

@@ -63,6 +63,8 @@ class Blocks {
   Blocks(std::vector<Eigen::MatrixXd> grams, double samples, Eigen::VectorXd ridge);
 
   [[nodiscard]] Fit fit(const Columns& of) const;
+  // Of a column's rms, what the others cannot make.
+  [[nodiscard]] double own_share(const Columns& others, Eigen::Index column) const;
   // Is `group` needed beside `others`? F test of its clustered covariance.
   [[nodiscard]] GroupTest test(const Columns& others, const Columns& group) const;
   // Squared error of each block, predicted by a fit to the other folds.
