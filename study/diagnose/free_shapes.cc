@@ -109,7 +109,8 @@ std::optional<FreeShape> smooth_in_place_and_speed(const std::vector<Motion>& mo
     top_m_per_s = std::max(top_m_per_s, m.speed_m_per_s.cwiseAbs().maxCoeff());
   }
   if (most_m <= least_m || top_m_per_s <= 0) return std::nullopt;
-  FreeShape shape{.coordinate = "position times speed", .columns = kWaves * kPowers};
+  FreeShape shape{
+      .coordinate = "position times speed", .smooth = true, .columns = kWaves * kPowers};
   shape.force = [=](Index column, const Motion& m) -> VectorXd {
     const double per_m =
         std::numbers::pi * static_cast<double>(1 + column % kWaves) / (most_m - least_m);

@@ -13,6 +13,7 @@ namespace towbench::study::diagnose {
 
 struct FreeShape {
   std::string coordinate;
+  bool smooth = false;       // speaks only against causes that it can stand for
   std::vector<double> at{};  // middle of each column's bin; empty where it has no such
   Eigen::Index columns = 0;
   // Of a column in a run, without unit: 0 or 1 in a bin, near 1 otherwise. One a sample.

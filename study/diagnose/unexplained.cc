@@ -43,12 +43,14 @@ class Seeker {
   }
 
   // Of the shapes that are certain, that which takes away the most.
-  std::optional<Against> best_shape() {
+  std::optional<Against> best_shape(bool smooth) {
     std::optional<Against> best;
     for (const FreeShape& shape : shapes_) {
+      if (shape.smooth != smooth) continue;
       auto found = of(shape);
       if (found && (!best || found->share > best->what.share)) {
-        best = Against{*std::move(found), stands_for_};
+        best = Against{*std::move(found),
+                       smooth ? stands_for_ : std::vector<bool>(search_.causes.size(), true)};
       }
     }
     return best;
@@ -176,6 +178,14 @@ std::optional<std::size_t> weakest_of(const std::vector<Cause>& causes,
   return least;
 }
 
+// The weakest that the shape speaks against, if it predicts so much beside it.
+std::optional<std::size_t> refuted_by(const Against& shape, const std::vector<Cause>& causes) {
+  const auto i = weakest_of(causes, shape.cause);
+  if (!i) return std::nullopt;
+  const double gain = std::clamp(causes[*i].gain.gain, 0.0, 0.999);
+  return further_power(shape.what.share) >= kMisfit * earlier_power(gain) ? i : std::nullopt;
+}
+
 void drop(const Data& data, Search& search, std::size_t i) {
   const Frame frame{&data, search.context, search.bandwidth, search.spans};
   search.dropped.push_back(search.causes[i].effect);
@@ -189,18 +199,21 @@ std::optional<Unexplained> judge_rest(Data& data, Search& search) {
   std::optional<Unexplained> against;
   for (;;) {
     Seeker seeker(data, search);
-    auto shape = seeker.best_shape();
-    const bool matters = shape && seeker.is_a_force(shape->what);
-    if (const auto i = matters ? weakest_of(search.causes, shape->cause) : std::nullopt) {
-      const double gain = std::clamp(search.causes[*i].gain.gain, 0.0, 0.999);
-      if (further_power(shape->what.share) >= kMisfit * earlier_power(gain)) {
-        against = std::move(shape->what);
-        drop(data, search, *i);
-        continue;
-      }
+    std::optional<Unexplained> most;
+    std::optional<std::size_t> refuted;
+    for (const bool smooth : {false, true}) {
+      const auto shape = seeker.best_shape(smooth);
+      if (refuted || !shape || !seeker.is_a_force(shape->what)) continue;
+      refuted = refuted_by(*shape, search.causes);
+      if (refuted) against = shape->what;
+      if (!most || shape->what.share > most->share) most = shape->what;
     }
-    if (matters && shape->what.share > kLeastGain) {
-      return std::move(shape->what);
+    if (refuted) {
+      drop(data, search, *refuted);
+      continue;
+    }
+    if (most && most->share > kLeastGain) {
+      return most;
     }
     auto past = seeker.by_its_past();
     return past ? past : against;

@@ -21,8 +21,9 @@ struct Unexplained {
 };
 
 // Drops causes whose law does not fit: a free shape predicts beside all of them an eighth of what
-// the weakest of those does that it can stand for (the test for lack of fit; Draper, Smith 1998,
-// ch. 2). Returns what no law explains; always something where a cause was dropped.
+// the weakest of them does (the test for lack of fit; Draper, Smith 1998, ch. 2); a smooth shape,
+// of those that it can stand for. Returns what no law explains; always something where a cause was
+// dropped.
 [[nodiscard]] std::optional<Unexplained> judge_rest(Data& data, Search& search);
 
 }  // namespace towbench::study::diagnose
