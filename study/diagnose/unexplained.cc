@@ -114,16 +114,7 @@ class Seeker {
     const Columns group(both.begin() + p, both.end());
     const GroupTest test = blocks.test(base, group);
     const Comparison gain = compare(blocks.predicted(base), blocks.predicted(both), 2.58);
-    stands_for_.clear();
-    for (const Columns& columns : columns_of_causes()) {
-      stands_for_.push_back(std::all_of(columns.begin(), columns.end(), [&](Index i) {
-        Columns rest = base;
-        std::erase_if(rest, [&](Index j) { return contains(columns, j); });
-        Columns with_shape = rest;
-        with_shape.insert(with_shape.end(), group.begin(), group.end());
-        return blocks.own_share(with_shape, i) < kStandsFor * blocks.own_share(rest, i);
-      }));
-    }
+    find_what_it_stands_for(blocks, base, group);
     const Fit fit = blocks.fit(both);
     b_ = fit.b.tail(k);
     covariance_ = fit.covariance.bottomRightCorner(k, k);
@@ -133,6 +124,18 @@ class Seeker {
     return u.p_value < kAlpha && gain.low > 0;
   }
 
+  void find_what_it_stands_for(const Blocks& blocks, const Columns& base, const Columns& group) {
+    stands_for_.clear();
+    for (const Columns& columns : columns_of_causes()) {
+      Columns rest = base;
+      std::erase_if(rest, [&](Index j) { return contains(columns, j); });
+      Columns with_shape = rest;
+      with_shape.insert(with_shape.end(), group.begin(), group.end());
+      stands_for_.push_back(std::all_of(columns.begin(), columns.end(), [&](Index i) {
+        return blocks.own_share(with_shape, i) < kStandsFor * blocks.own_share(rest, i);
+      }));
+    }
+  }
   static bool contains(const Columns& columns, Index i) {
     return std::find(columns.begin(), columns.end(), i) != columns.end();
   }

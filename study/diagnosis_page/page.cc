@@ -68,7 +68,7 @@ std::string causes(const Diagnosis& d) {
                     alternatives.empty() ? "none" : alternatives});
   }
   return rows.empty() ? "<p>None.</p>\n"
-                      : table({"effect", "the model lacks", "size (95 %)", "p, corrected",
+                      : table({"effect", "meaning", "size (95 %)", "p, corrected",
                                "own gain, cross-validated (99 %)", "cannot be told from"},
                               rows);
 }

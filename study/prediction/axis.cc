@@ -9,7 +9,7 @@ namespace towbench::study::diagnose {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kLeastOfMass = 0.1;  // that another axis leaves
+constexpr double kLeastOfMass = 0.1;  // of this axis, whatever the others add
 constexpr double kStepsPerMode = 25;  // substeps in a period of the transmission's mode
 
 double sign(double x) {
@@ -66,8 +66,7 @@ Axis::Axis(const Parameters& parameters, const Scene& scene)
       two_(parameters[Key::kMotorMass] > 0),
       drive_(any(p_, {Key::kDeadband, Key::kClipShare, Key::kStallShare, Key::kLag,
                       Key::kOutOfRoundPerMetre})),
-      on_motor_(any(p_, {Key::kRipplePerMetre, Key::kWheelPerMetre}) || has_others(p_) ||
-                scene.extra_N.size() > 0),
+      on_motor_(any(p_, {Key::kRipplePerMetre, Key::kWheelPerMetre}) || scene.extra_N.size() > 0),
       on_load_(place_force_ || stated_force_ || has_others(p_) ||
                any(p_, {Key::kViscousAsymmetry, Key::kDrag, Key::kCubic, Key::kCable,
                         Key::kGravityCosine, Key::kGravitySine, Key::kPeriodicHertz,
@@ -194,7 +193,6 @@ double Axis::on_motor_N(Eigen::Index k) const {
   if (p_[Key::kWheelPerMetre] != 0) {
     force += wheel_N();
   }
-  force += of_others_.force_N;
   if (scene_.extra_N.size() > 0) {
     force += scene_.extra_N[k];
   }
@@ -220,8 +218,9 @@ double Axis::on_load_N(const Body& body, double t_s) const {
     return p_[Key::kBias];
   }
   const double speed = std::abs(v);
-  double force = p_[Key::kBias] + p_[Key::kViscousAsymmetry] * speed + p_[Key::kDrag] * v * speed +
-                 p_[Key::kCubic] * v * v * v + p_[Key::kCable] * (x - middle_m_) +
+  double force = of_others_.force_N + p_[Key::kBias] + p_[Key::kViscousAsymmetry] * speed +
+                 p_[Key::kDrag] * v * speed + p_[Key::kCubic] * v * v * v +
+                 p_[Key::kCable] * (x - middle_m_) +
                  (of_others_.mass_kg_per_s - p_[Key::kTemperatureViscous] * warmer_K_) * v;
   if (stated_force_) {
     force += stated_force_N(*scene_.stated, x);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -56,20 +57,21 @@ const NamedCause& named(const Diagnosis& d, const std::string& name) {
   return kNone;
 }
 
+Diagnosis of_one(const NominalModel& model, Run run) {
+  Request request;
+  request.model = model;
+  request.runs.push_back(std::move(run));
+  return study::diagnose::diagnose(request);
+}
+
 Diagnosis of_first(const TwoLinkArm& arm, std::uint64_t seed) {
   const ArmLog log = make_arm_log(arm, seed);
-  Request request;
-  request.model = joint(arm.a_kg_m2, arm);
-  request.runs.push_back(run_of(arm, log.q1_rad, log.torque1_Nm, log.q2_rad));
-  return study::diagnose::diagnose(request);
+  return of_one(joint(arm.a_kg_m2, arm), run_of(arm, log.q1_rad, log.torque1_Nm, log.q2_rad));
 }
 
 Diagnosis of_second(const TwoLinkArm& arm, std::uint64_t seed) {
   const ArmLog log = make_arm_log(arm, seed);
-  Request request;
-  request.model = joint(arm.d_kg_m2, arm);
-  request.runs.push_back(run_of(arm, log.q2_rad, log.torque2_Nm, log.q1_rad));
-  return study::diagnose::diagnose(request);
+  return of_one(joint(arm.d_kg_m2, arm), run_of(arm, log.q2_rad, log.torque2_Nm, log.q1_rad));
 }
 
 TEST(OtherAxes, TheInertiaOfAJointDependsOnThePlaceOfTheNext) {
@@ -143,13 +145,12 @@ Run pushed_by_the_third() {
 }
 
 TEST(OtherAxes, WhichOfTwoRailsPushesIsTold) {
-  Request request;
-  request.model.mass_kg = 8;
-  request.model.viscous_N_s_per_m = 5;
-  request.model.coulomb_N = 2;
-  request.model.input_is_held = false;
-  request.runs.push_back(pushed_by_the_third());
-  const Diagnosis d = study::diagnose::diagnose(request);
+  NominalModel model;
+  model.mass_kg = 8;
+  model.viscous_N_s_per_m = 5;
+  model.coulomb_N = 2;
+  model.input_is_held = false;
+  const Diagnosis d = of_one(model, pushed_by_the_third());
   ASSERT_THAT(cause_names(d), ElementsAre("cross_axis_coupling_2")) << headline(d);
   EXPECT_NEAR(d.causes.front().size("mass_kg"), 1.5, 0.05);
   EXPECT_NEAR(d.causes.front().size("viscous_N_s_per_m"), 3, 0.1);
@@ -161,10 +162,8 @@ TEST(OtherAxes, NothingIsNamedOfAnAxisThatTheOtherLeavesAlone) {
   arm.b_kg_m2 = 0;
   const ArmLog log = make_arm_log(arm, 4);
   const ArmLog elsewhere = make_arm_log(TwoLinkArm{}, 5);
-  Request request;
-  request.model = joint(arm.a_kg_m2, arm);
-  request.runs.push_back(run_of(arm, log.q1_rad, log.torque1_Nm, elsewhere.q2_rad));
-  const Diagnosis d = study::diagnose::diagnose(request);
+  const Diagnosis d =
+      of_one(joint(arm.a_kg_m2, arm), run_of(arm, log.q1_rad, log.torque1_Nm, elsewhere.q2_rad));
   EXPECT_THAT(cause_names(d), ElementsAre()) << headline(d);
   EXPECT_EQ(d.verdicts.front(), "model_adequate");
 }

@@ -164,6 +164,26 @@ TEST_F(ExtendedPlantFile, LoadsWhateverTheFileStatesBesides) {
   EXPECT_NEAR(reloaded().model.coulomb_N, 1.3 * plant_.model.coulomb_N, 1e-6);
 }
 
+// Of a shaft in the water the model has mass and drag, and the file's own mass has neither.
+TEST_F(ExtendedPlantFile, WaterIsStatedAndStaysOutOfTheMass) {
+  const double dry_kg = plant_.model.mass_kg;
+  const double dry_N_s_per_m = plant_.model.viscous_N_s_per_m;
+  plant_.plant.insert("water",
+                      toml::table{{"shaft", toml::table{{"in_water", true},
+                                                        {"added_mass_kg", 0.5},
+                                                        {"linear_drag_N_s_per_m", 2.0},
+                                                        {"quadratic_drag_N_s2_per_m2", 0.8}}}});
+  plant_ = reloaded();
+  EXPECT_NEAR(plant_.model.mass_kg, dry_kg + 0.5, 1e-9);
+  EXPECT_NEAR(plant_.model.viscous_N_s_per_m, dry_N_s_per_m + 2, 1e-9);
+  EXPECT_NEAR(plant_.model.terms[Key::kDrag], 0.8, 1e-9);
+  d_.context.stated = plant_.model;
+  d_.extended = parameters_of(plant_.model);
+  move(Key::kMass, "inertia", dry_kg + 1.5);
+  EXPECT_NEAR(reloaded().model.mass_kg, dry_kg + 1.5, 1e-9);
+  EXPECT_NEAR(reloaded().model.viscous_N_s_per_m, dry_N_s_per_m + 2, 1e-9);
+}
+
 // What the command must make is s sin q + c cos q: the emulated joint is pulled by the opposite.
 TEST_F(ExtendedPlantFile, TheWeightOfAJointPullsTheEmulatedOne) {
   const auto folder = std::filesystem::temp_directory_path();

@@ -2,6 +2,7 @@
 #include "study/prediction/axis.h"
 
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -23,8 +24,17 @@ double time_of(Index k) {
 class Stepped {
  public:
   Stepped(const Parameters& parameters, const VectorXd& input_N)
-      : run_(run_of(input_N)), scene_(run_, stated_), axis_(parameters, scene_) {
+      : Stepped(parameters, run_of(input_N)) {}
+  Stepped(const Parameters& parameters, Run run)
+      : run_(std::move(run)), scene_(run_, stated_), axis_(parameters, scene_) {
     axis_.place(0, 0);
+  }
+  static Run run_of(const VectorXd& input_N) {
+    Run run;
+    run.period_s = kPeriod_s;
+    run.input_N = input_N;
+    run.position_m = VectorXd::Zero(input_N.size());
+    return run;
   }
   Axis& axis() { return axis_; }
   // After `count` more periods.
@@ -34,13 +44,6 @@ class Stepped {
   }
 
  private:
-  static Run run_of(const VectorXd& input_N) {
-    Run run;
-    run.period_s = kPeriod_s;
-    run.input_N = input_N;
-    run.position_m = VectorXd::Zero(input_N.size());
-    return run;
-  }
   NominalModel stated_;
   Run run_;
   Scene scene_;
@@ -63,6 +66,23 @@ Parameters two_bodies(double held_Hz, double damping_ratio) {
   p[Key::kStiffness] = load_kg * w * w;
   p[Key::kDamping] = 2 * damping_ratio * load_kg * w;
   return p;
+}
+
+// Drive and load pull against each other: the spring stretches by F / K, and the centre of both
+// bodies stays.
+TEST(Axis, AnotherAxisActsOnTheLoad) {
+  constexpr double kForce_N = 4;
+  constexpr double kOther_kg = 2;
+  Parameters p = two_bodies(2, 0.5);
+  p[key_of(0, OtherKey::kMass)] = kOther_kg;
+  study::diagnose::Run run = Stepped::run_of(VectorXd::Constant(2000, kForce_N));
+  const VectorXd t = VectorXd::LinSpaced(2000, 0, 2000 - 1) * kPeriod_s;
+  run.others.push_back({0.5 * kForce_N / kOther_kg * t.cwiseAbs2(), false});
+  // Its acceleration is not there in the first 20 ms: what both have moved on by then.
+  const double before = Stepped(p, run).after(1800);
+  const double later = Stepped(p, run).after(1900);
+  const double drift = (later - before) / 0.1 * 1.85;
+  EXPECT_NEAR(0.5 * (before + later) - drift, 0.75 * kForce_N / p[Key::kStiffness], 2e-4);
 }
 
 // v0^2 M / 2 C.
