@@ -34,4 +34,12 @@ if git grep -nIE '(^|[^A-Za-z0-9_.])/(work|home|root)/' -- . ":!*.lock" ":!tools
   status=1
 fi
 
+# Tests of one binary run in several processes at once.
+shared=$(git grep -nE 'temp_directory_path\(\) / "' -- tests | grep -v XXXXXX || true)
+if [ -n "$shared" ]; then
+  echo "$shared"
+  echo "a temporary file that two processes share; use TemporaryFixtures"
+  status=1
+fi
+
 exit "$status"

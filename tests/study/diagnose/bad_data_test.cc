@@ -1,7 +1,5 @@
 // Data that no diagnosis should be made from gets a name, not a number.
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include <gmock/gmock.h>
@@ -10,6 +8,7 @@
 #include "study/diagnose/position_jump.h"
 #include "study/diagnose/run_reader.h"
 #include "study/logs/read_table.h"
+#include "tests/harness/fixtures/temporary_fixtures.h"
 #include "tests/study/diagnose/hidden_case.h"
 
 namespace towbench::tests {
@@ -100,12 +99,10 @@ TEST(BadData, ALogTooShortIsRefused) {
 }
 
 TEST(BadData, AnEmptyFileIsRefused) {
-  const auto path = std::filesystem::temp_directory_path() / "towbench_diagnose_empty.csv";
-  std::ofstream(path).close();
+  const harness::TemporaryFixtures folder;
   logs::Findings findings;
-  (void)logs::read_table(path, findings);
+  (void)logs::read_table(folder.write("empty.csv", ""), findings);
   EXPECT_TRUE(has(findings, "file_unreadable"));
-  std::filesystem::remove(path);
 }
 
 Diagnosis with_input(double scale, Eigen::Index shift) {

@@ -12,6 +12,7 @@
 
 #include "study/diagnose/column_guess.h"
 #include "study/logs/column_map.h"
+#include "tests/harness/fixtures/temporary_fixtures.h"
 #include "tests/study/diagnose/brought_case.h"
 
 namespace towbench::tests {
@@ -43,11 +44,9 @@ logs::Table moving(std::vector<std::string> names) {
 }
 
 logs::ColumnMap map_in(const std::string& text) {
-  const auto path = std::filesystem::temp_directory_path() / "towbench-proposed-map.toml";
-  std::ofstream(path) << text;
+  const harness::TemporaryFixtures folder;
   logs::Findings findings;
-  const logs::ColumnMap map = logs::read_column_map(path, findings);
-  std::filesystem::remove(path);
+  const logs::ColumnMap map = logs::read_column_map(folder.write("map.toml", text), findings);
   EXPECT_FALSE(is_fatal(findings)) << text;
   return map;
 }

@@ -1,11 +1,9 @@
 // MATLAB files written by another program (data/make_mat.m), and files that are damaged.
-#include <filesystem>
-#include <fstream>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "study/logs/read_table.h"
+#include "tests/harness/fixtures/temporary_fixtures.h"
 #include "tests/study/logs/log_files.h"
 
 namespace towbench::tests {
@@ -52,11 +50,11 @@ TEST_P(OctavesFile, SaysWhatIsNoSeries) {
 // Whatever byte is damaged, the caller goes on: with the file, or with one line.
 TEST_P(OctavesFile, DamagedIsReadOrRefusedInOneLine) {
   const std::string whole = bytes_of(kLogFiles / GetParam());
-  const auto path = std::filesystem::temp_directory_path() / "towbench_damaged.mat";
+  const harness::TemporaryFixtures folder;
   for (std::size_t at = 128; at < whole.size(); at += whole.size() / 24) {
     std::string damaged = whole;
     damaged[at] = static_cast<char>(~damaged[at]);
-    std::ofstream(path, std::ios::binary) << damaged;
+    const auto path = folder.write("damaged.mat", damaged);
     Findings findings;
     const Table table = read_table(path, findings);
     for (const Finding& finding : findings) {
@@ -66,21 +64,18 @@ TEST_P(OctavesFile, DamagedIsReadOrRefusedInOneLine) {
       EXPECT_EQ(column.size(), table.rows());
     }
   }
-  std::filesystem::remove(path);
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, OctavesFile, testing::Values("plain.mat", "compressed.mat"),
                          [](const auto& given) { return stem_of(given.param); });
 
 TEST(MatLog, ThatIsNothingButAHeadIsRefused) {
-  const auto path = std::filesystem::temp_directory_path() / "towbench_head.mat";
-  std::ofstream(path, std::ios::binary) << "MATLAB 5.0 MAT-file, and no more";
+  const harness::TemporaryFixtures folder;
   Findings findings;
-  (void)read_table(path, findings);
+  (void)read_table(folder.write("head.mat", "MATLAB 5.0 MAT-file, and no more"), findings);
   EXPECT_TRUE(named(findings, "mat_unreadable") != nullptr ||
               named(findings, "header_unusable") != nullptr);
   EXPECT_TRUE(is_fatal(findings));
-  std::filesystem::remove(path);
 }
 
 }  // namespace

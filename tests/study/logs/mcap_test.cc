@@ -1,12 +1,11 @@
 // MCAP files written with MCAP's own library (data/make_mcap.mjs), and files that are damaged.
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "study/logs/read_table.h"
+#include "tests/harness/fixtures/temporary_fixtures.h"
 #include "tests/study/logs/log_files.h"
 
 namespace towbench::tests {
@@ -17,11 +16,8 @@ using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 
 Table table_of(const std::string& bytes, Findings& findings) {
-  const auto path = std::filesystem::temp_directory_path() / "towbench_log.mcap";
-  std::ofstream(path, std::ios::binary) << bytes;
-  const Table table = read_table(path, findings);
-  std::filesystem::remove(path);
-  return table;
+  const harness::TemporaryFixtures folder;
+  return read_table(folder.write("log.mcap", bytes), findings);
 }
 
 class LibrarysFile : public testing::TestWithParam<const char*> {};
