@@ -221,10 +221,7 @@ State with(const Frame& frame, const State& s, const Candidate& c, const Model& 
   State here = make_state(frame, all, model);
   const double mass_ratio = model.parameters[Key::kMass] / start.parameters[Key::kMass];
   if (mass_ratio > kFarAway || mass_ratio < 1 / kFarAway) {
-    for (const Key key : {Key::kMass, Key::kViscous, Key::kCoulomb, Key::kBias}) {
-      model.parameters[key] = start.parameters[key];
-    }
-    State there = make_state(frame, all, model);
+    State there = make_state(frame, all, with_body_of(start, model));
     if (there.fitted.cost < here.fitted.cost) return there;
   }
   return here;

@@ -65,4 +65,14 @@ State without(const Frame& frame, const State& s, std::size_t i) {
   return make_state(frame, rest, model);
 }
 
+Model with_body_of(const Model& start, Model model) {
+  const double ratio = start.parameters[Key::kMass] / model.parameters[Key::kMass];
+  for (const Key key : {Key::kMass, Key::kViscous, Key::kCoulomb, Key::kBias}) {
+    model.parameters[key] = start.parameters[key];
+  }
+  model.parameters[Key::kMotorMass] *= ratio;
+  model.parameters[Key::kStiffness] *= ratio;
+  return model;
+}
+
 }  // namespace towbench::study::diagnose

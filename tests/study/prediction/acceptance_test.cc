@@ -68,5 +68,21 @@ TEST_F(Acceptance, AGainIsAskedForHoweverCertainACauseIs) {
   EXPECT_FALSE(is_significant(limits, {.gain = 0.1, .standard_errors = 9}, 1e-2));
 }
 
+// A load without mass would have a mode without end.
+TEST(AnotherBody, LeavesAnElasticAxisItsMotorsShareAndItsMode) {
+  Model start;
+  start.parameters[Key::kMass] = 2;
+  start.parameters[Key::kViscous] = 3;
+  Model astray;
+  astray.parameters[Key::kMass] = 10;
+  astray.parameters[Key::kMotorMass] = 2;
+  astray.parameters[Key::kStiffness] = 16e3;  // 100 rad/s
+  const Parameters p = with_body_of(start, astray).parameters;
+  EXPECT_EQ(p[Key::kMass], 2);
+  EXPECT_EQ(p[Key::kViscous], 3);
+  EXPECT_NEAR(p[Key::kMotorMass], 0.4, 1e-12);
+  EXPECT_NEAR(std::sqrt(p[Key::kStiffness] * (1 / 0.4 + 1 / 1.6)), 100, 1e-9);
+}
+
 }  // namespace
 }  // namespace towbench::tests
