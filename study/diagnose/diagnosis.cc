@@ -15,8 +15,6 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kCollapsed = 0.99;  // of the range of masses that are believed
-
 void check_data(Request& request, logs::Findings& findings) {
   for (auto* runs : {&request.runs, &request.holdout}) {
     for (Run& run : *runs) {
@@ -102,14 +100,6 @@ void name_causes(Diagnosis& d, const Search& search) {
   }
 }
 
-// A fit that only follows the measured places with a body of its own invention explains nothing:
-// its mass lies at an end of what is believed.
-bool collapsed(const Search& search) {
-  const double mass = search.final.fitted.model.parameters[Key::kMass];
-  return mass * kCollapsed < search.context.mass_least_kg ||
-         mass > kCollapsed * search.context.mass_most_kg;
-}
-
 void conclude(Diagnosis& d) {
   if (std::any_of(d.parameters.begin(), d.parameters.end(),
                   [](const ParameterShift& shift) { return shift.moved; })) {
@@ -160,7 +150,7 @@ Diagnosis diagnose(const Request& given) {
   }
   Search search = search_causes(
       data, context, {parameters_of(request.model), std::vector<OfRun>(request.runs.size())}, {});
-  const bool collapses = collapsed(search);
+  const bool collapses = has_collapsed(search.context, search.final);
   if (collapses) {
     search.causes.clear();
     search.final = search.base;

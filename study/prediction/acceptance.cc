@@ -13,6 +13,7 @@ using Eigen::VectorXd;
 constexpr double kLeastForce = 0.001;    // of the input's rms
 constexpr double kLeastOfStated = 0.03;  // by which what the model states must be off
 constexpr double kOfRounding = 0.29;     // rms of an encoder's steps, in steps
+constexpr double kCollapsed = 0.99;      // of the range of masses that are believed
 constexpr double kAliasLoss = 2;         // times the loss that still predicts alike
 
 bool predict_alike(const State& one, const State& other) {
@@ -48,6 +49,11 @@ bool is_worth_naming(const Frame& frame, const State& s) {
               return std::abs(p[key] - stated[key]) > kLeastOfStated * std::abs(stated[key]);
             }));
   });
+}
+
+bool has_collapsed(const Context& context, const State& s) {
+  const double mass = s.fitted.model.parameters[Key::kMass];
+  return mass * kCollapsed < context.mass_least_kg || mass > kCollapsed * context.mass_most_kg;
 }
 
 bool is_weak(const Frame& frame, const State& s, const State& with_it, const VectorXd& base_e) {

@@ -28,6 +28,10 @@ inline constexpr double kAlias = 2;  // standard errors below which two are told
 // Within what each law allows, and where the model states it, off by more than is worth a name.
 [[nodiscard]] bool is_worth_naming(const Frame& frame, const State& s);
 
+// Whether it only follows the measured places with a body of its own invention: its mass lies at an
+// end of what is believed.
+[[nodiscard]] bool has_collapsed(const Context& context, const State& s);
+
 // Whether `with_it` takes away little beside what the causes of `s` do (weak_causes.h), with blocks
 // weighed by what it leaves: without it those in which it acts are outlying, if it acts in few.
 // `base_e`: innovations of the model without causes.

@@ -126,25 +126,39 @@ class Searcher {
   // that predict alike, the more certain.
   const Candidate* best_fitted(const State& s, const std::vector<Candidate>& list, State& best) {
     const Candidate* chosen = nullptr;
+    double least_p_value = 1;
     const VectorXd base_e = innovations(data_, out_.base.fitted.model, frame_.bandwidth);
     for (const Candidate* c : shortlist(list)) {
       State other = with(frame_, s, *c, start_);
       const Comparison gain = compare(s.loss, other.loss, 2);
       if (is_weak(frame_, s, other, base_e) || !is_significant(limits_, gain, c->p_value()) ||
-          !matters(frame_, *c->effect, s, other) || !is_worth_naming(frame_, other)) {
+          !matters(frame_, *c->effect, s, other) || !is_worth_naming(frame_, other) ||
+          collapses(s, other)) {
         continue;
       }
-      const auto beyond_doubt = [](const Candidate* one) { return one->p_value() < kBeyondDoubt; };
+      const double p_value = fitted_p_value(*c, other, gain);
       const bool first = chosen == nullptr;
       const double ahead = first ? 0 : compare(best.loss, other.loss, 2).standard_errors;
-      const bool alike =
-          !first && (std::abs(ahead) < kAlias || beyond_doubt(c) != beyond_doubt(chosen));
-      if (first || (alike ? c->p_value() < chosen->p_value() : ahead > 0)) {
+      const bool alike = !first && (std::abs(ahead) < kAlias ||
+                                    (p_value < kBeyondDoubt) != (least_p_value < kBeyondDoubt));
+      if (first || (alike ? p_value < least_p_value : ahead > 0)) {
         best = std::move(other);
         chosen = c;
+        least_p_value = p_value;
       }
     }
     return chosen;
+  }
+
+  bool collapses(const State& s, const State& other) const {
+    return has_collapsed(frame_.context, other) && !has_collapsed(frame_.context, s);
+  }
+
+  // A score test underestimates what is far from linear: the less of its p-value and that of Wald's
+  // test once it is fitted.
+  double fitted_p_value(const Candidate& c, const State& fitted, const Comparison& gain) const {
+    if (c.effect->whole != 0) return c.p_value();
+    return std::min(c.p_value(), own_p_value(fitted, fitted.accepted.size() - 1, gain, c.tried));
   }
 
   // By the linear prediction, and by certainty.
@@ -185,7 +199,7 @@ class Searcher {
   }
 
   // Of a cause in the model that has it: Wald's test of its amplitudes.
-  double own_p_value(const State& s, std::size_t which, const Comparison& own) const {
+  double own_p_value(const State& s, std::size_t which, const Comparison& own, double tried) const {
     const Effect& effect = *s.accepted[which].effect;
     if (effect.whole != 0) {
       return own.gain > kFresh && own.standard_errors > limits_.least_errors ? 0 : 1;
@@ -198,8 +212,8 @@ class Searcher {
       const Key key = effect.amplitudes[static_cast<std::size_t>(j)];
       b[j] = s.fitted.model.parameters[key] - frame_.context.stated.terms[key];
     }
-    return std::min(1.0, wald(b, s.linear.covariance.block(at, at, k, k), frame_.spans.size()) *
-                             static_cast<double>(out_.tried));
+    return std::min(1.0,
+                    wald(b, s.linear.covariance.block(at, at, k, k), frame_.spans.size()) * tried);
   }
 
   // Of the best model without a cause: the others alone, or no cause at all where the others'
@@ -229,8 +243,8 @@ class Searcher {
     out.list = screened(out.rest);
     const auto itself = std::find_if(out.list.begin(), out.list.end(),
                                      [&](const Candidate& c) { return c.effect == effect; });
-    out.p_value =
-        std::min(itself == out.list.end() ? 1 : itself->p_value(), own_p_value(now, i, out.own));
+    out.p_value = std::min(itself == out.list.end() ? 1 : itself->p_value(),
+                           own_p_value(now, i, out.own, static_cast<double>(out_.tried)));
     out.is_accepted =
         is_significant(limits_, out.own, out.p_value) && matters(frame_, *effect, out.rest, now);
     return out;
@@ -245,7 +259,7 @@ class Searcher {
       if (c.effect == cause.effect || holds_it || !convinces(c)) continue;
       if (fitted++ == kFittedOfAShortlist) break;
       State other = with(frame_, judged.rest, c, start_);
-      if (!is_worth_naming(frame_, other)) continue;
+      if (!is_worth_naming(frame_, other) || collapses(now, other)) continue;
       const Comparison better = compare(now.loss, other.loss, 2);
       if (better.standard_errors > kSwap && other.loss.sum() < 0.98 * now.loss.sum()) return other;
       const bool as_sure = c.p_value() < std::sqrt(judged.p_value);

@@ -59,6 +59,17 @@ TEST_F(Acceptance, AForceIsWhatAnEffectChangesInThePrediction) {
       << "a reading is no force";
 }
 
+TEST_F(Acceptance, AMassAtAnEndOfWhatIsBelievedIsNoBody) {
+  frame_.context.mass_least_kg = 0.4;
+  frame_.context.mass_most_kg = 10;
+  State s;
+  for (const auto& [mass_kg, none] :
+       {std::pair{0.4, true}, {0.41, false}, {9.8, false}, {10., true}}) {
+    s.fitted.model.parameters[Key::kMass] = mass_kg;
+    EXPECT_EQ(has_collapsed(frame_.context, s), none) << mass_kg;
+  }
+}
+
 TEST_F(Acceptance, AGainIsAskedForHoweverCertainACauseIs) {
   const Limits limits;
   EXPECT_TRUE(is_significant(limits, {.gain = 0.1, .standard_errors = 3}, 1e-4));
