@@ -16,15 +16,21 @@ using Eigen::VectorXd;
 constexpr double kAlpha = 1e-4;
 constexpr double kLeastForce = 0.01;  // of the input's rms; less is too small to matter
 constexpr double kLeastGain = 0.02;
-constexpr double kPastGain = 0.1;   // that the past predicts; a wrong noise model does less
-constexpr double kMisfit = 0.12;    // of the power that a cause predicts, left for a free shape
-constexpr double kStandsFor = 0.3;  // of a column of a cause, rms, that a shape cannot make
-constexpr double kRidge = 1e-4;     // of a column's own square: a bin that a fold lacks stays zero
+constexpr double kPastGain = 0.1;     // that the past predicts; a wrong noise model does less
+constexpr double kMisfit = 0.12;      // of the power that a cause predicts, left for a free shape
+constexpr double kForceMisfit = 0.1;  // the same, of a shape that can stand for the cause
+constexpr double kStandsFor = 0.3;    // of a column of a cause, rms, that a shape cannot make
+constexpr double kRidge = 1e-4;  // of a column's own square: a bin that a fold lacks stays zero
 
-// A shape that predicts further, and the causes that it can stand for.
+// A shape that predicts further.
 struct Against {
+  struct Cause {
+    bool stands_for = false;  // it can make what the cause makes
+    double force_N = 0;       // of the cause, rms; zero where that is not the sum of its columns
+  };
   Unexplained what;
-  std::vector<bool> cause;
+  bool smooth = false;
+  std::vector<Cause> causes;
 };
 
 class Seeker {
@@ -49,8 +55,7 @@ class Seeker {
       if (shape.smooth != smooth) continue;
       auto found = of(shape);
       if (found && (!best || found->share > best->what.share)) {
-        best = Against{*std::move(found),
-                       smooth ? stands_for_ : std::vector<bool>(search_.causes.size(), true)};
+        best = Against{*std::move(found), smooth, causes_};
       }
     }
     return best;
@@ -125,16 +130,29 @@ class Seeker {
   }
 
   void find_what_it_stands_for(const Blocks& blocks, const Columns& base, const Columns& group) {
-    stands_for_.clear();
+    causes_.clear();
     for (const Columns& columns : columns_of_causes()) {
       Columns rest = base;
       std::erase_if(rest, [&](Index j) { return contains(columns, j); });
       Columns with_shape = rest;
       with_shape.insert(with_shape.end(), group.begin(), group.end());
-      stands_for_.push_back(std::all_of(columns.begin(), columns.end(), [&](Index i) {
+      const bool stands_for = std::all_of(columns.begin(), columns.end(), [&](Index i) {
         return blocks.own_share(with_shape, i) < kStandsFor * blocks.own_share(rest, i);
-      }));
+      });
+      const Effect& effect = *search_.final.accepted[causes_.size()].effect;
+      causes_.push_back({stands_for, force_N(effect, columns)});
     }
+  }
+  [[nodiscard]] double force_N(const Effect& effect, const Columns& columns) const {
+    if (effect.whole != 0) return 0;
+    const Parameters& p = search_.final.fitted.model.parameters;
+    const Parameters stated = parameters_of(search_.context.stated);
+    VectorXd off_m = VectorXd::Zero(all_.rows());
+    for (std::size_t i = 0; i < effect.amplitudes.size(); ++i) {
+      const Key key = effect.amplitudes[i];
+      off_m += (p[key] - stated[key]) * all_.col(columns[i]);
+    }
+    return to_force_ * off_m.norm() / std::sqrt(static_cast<double>(off_m.size()));
   }
   static bool contains(const Columns& columns, Index i) {
     return std::find(columns.begin(), columns.end(), i) != columns.end();
@@ -160,7 +178,7 @@ class Seeker {
   MatrixXd all_;  // by the model's own parameters, by what is tried, and the error
   VectorXd b_;
   MatrixXd covariance_;
-  std::vector<bool> stands_for_;  // of the shape that was asked last
+  std::vector<Against::Cause> causes_;  // of the shape that was asked last
 };
 
 // Of the prediction error's power with the causes: what a gain of rms takes away further, and what
@@ -172,28 +190,33 @@ double earlier_power(double gain) {
   return 1 / ((1 - gain) * (1 - gain)) - 1;
 }
 
-std::optional<std::size_t> weakest_of(const std::vector<Cause>& causes,
-                                      const std::vector<bool>& among) {
+bool refutes(const Against& shape, std::size_t i, double gain) {
+  const auto [stands_for, force_N] = shape.causes[i];
+  if (shape.smooth && !stands_for) return false;
+  const double power = earlier_power(std::clamp(gain, 0.0, 0.999));
+  const bool takes_its_force = force_N > 0 && shape.what.rms_N >= kForceMisfit * force_N;
+  return further_power(shape.what.share) >= kMisfit * power || (stands_for && takes_its_force);
+}
+
+// The weakest of those that the shape refutes.
+std::optional<std::size_t> refuted_by(const Against& shape, const std::vector<Cause>& causes) {
   std::optional<std::size_t> least;
   for (std::size_t i = 0; i < causes.size(); ++i) {
-    if (among[i] && (!least || causes[i].gain.gain < causes[*least].gain.gain)) least = i;
+    const double gain = causes[i].gain.gain;
+    if (refutes(shape, i, gain) && (!least || gain < causes[*least].gain.gain)) least = i;
   }
   return least;
 }
 
-// The weakest that the shape speaks against, if it predicts so much beside it.
-std::optional<std::size_t> refuted_by(const Against& shape, const std::vector<Cause>& causes) {
-  const auto i = weakest_of(causes, shape.cause);
-  if (!i) return std::nullopt;
-  const double gain = std::clamp(causes[*i].gain.gain, 0.0, 0.999);
-  return further_power(shape.what.share) >= kMisfit * earlier_power(gain) ? i : std::nullopt;
-}
-
-void drop(const Data& data, Search& search, std::size_t i) {
+// Whether it is dropped: not where without it a body of the fit's own invention would be left.
+bool drop(const Data& data, Search& search, std::size_t i) {
   const Frame frame{&data, search.context, search.bandwidth, search.spans};
+  State rest = without(frame, search.final, i);
+  if (has_collapsed(search.context, rest)) return false;
+  search.final = std::move(rest);
   search.dropped.push_back(search.causes[i].effect);
-  search.final = without(frame, search.final, i);
   search.causes.erase(search.causes.begin() + static_cast<std::ptrdiff_t>(i));
+  return true;
 }
 
 }  // namespace
@@ -203,16 +226,17 @@ std::optional<Unexplained> judge_rest(Data& data, Search& search) {
   for (;;) {
     Seeker seeker(data, search);
     std::optional<Unexplained> most;
+    std::optional<Unexplained> refuting;
     std::optional<std::size_t> refuted;
     for (const bool smooth : {false, true}) {
       const auto shape = seeker.best_shape(smooth);
       if (refuted || !shape || !seeker.is_a_force(shape->what)) continue;
       refuted = refuted_by(*shape, search.causes);
-      if (refuted) against = shape->what;
+      if (refuted) refuting = shape->what;
       if (!most || shape->what.share > most->share) most = shape->what;
     }
-    if (refuted) {
-      drop(data, search, *refuted);
+    if (refuted && drop(data, search, *refuted)) {
+      against = refuting;
       continue;
     }
     if (most && most->share > kLeastGain) {

@@ -49,6 +49,12 @@ TEST(Misfit, OfWavesOverPlaceAndSpeedIsNotCalledFrictionOfThePlace) {
   EXPECT_TRUE(answer.unexplained);
 }
 
+// Viscous friction by the place predicts nine tenths of its power, and misses a quarter of its
+// force.
+TEST(Misfit, OfAForceThatALawMakesInPartIsNotCalledByThatLaw) {
+  expect_unexplained("outside_place_and_speed", 83019);
+}
+
 TEST(Misfit, OfASpringThatCreepsIsNotCalledACable) {
   expect_unexplained("outside_memory", 81020);
 }
@@ -71,6 +77,20 @@ TEST(Misfit, IsNoneWhereTheLawIsTheRightOne) {
   const auto answer = answer_to("one", "low_speed_rolloff", 70009);
   EXPECT_EQ(answer.words(), "low_speed_rolloff");
   EXPECT_FALSE(answer.unexplained);
+}
+
+// Its effect is far from linear in its size: before they are fitted, break-away alone seems surer.
+TEST(RightLaw, IsChosenAmongThoseThatAreFitted) {
+  EXPECT_EQ(answer_to("one", "stribeck", 73063).words(), "stribeck");
+}
+
+// An encoder of steps of 5.5 mrad. An elastic joint with five times the inertia predicts better.
+TEST(RightLaw, IsChosenBeforeABodyThatNobodyBelieves) {
+  Wish wish;
+  wish.machine = "joint";
+  wish.effect = "joint_gravity";
+  const auto answer = answer_of(study::diagnose::diagnose(request_of(draw_case(wish, 72003))));
+  EXPECT_EQ(answer.words(), "gravity");
 }
 
 // The share is drawn. Where it was assumed, what that made wrong was called friction that depends
