@@ -16,10 +16,10 @@ using Eigen::VectorXd;
 constexpr double kAlpha = 1e-4;
 constexpr double kLeastForce = 0.01;  // of the input's rms; less is too small to matter
 constexpr double kLeastGain = 0.02;
-constexpr double kPastGain = 0.1;     // that the past predicts; a wrong noise model does less
-constexpr double kMisfit = 0.12;      // of the power that a cause predicts, left for a free shape
-constexpr double kForceMisfit = 0.1;  // the same, of a shape that can stand for the cause
-constexpr double kStandsFor = 0.3;    // of a column of a cause, rms, that a shape cannot make
+constexpr double kPastGain = 0.1;      // that the past predicts; a wrong noise model does less
+constexpr double kMisfit = 0.12;       // of the power that a cause predicts, left for a free shape
+constexpr double kForceMisfit = 0.05;  // of its force, for a shape that can stand for it
+constexpr double kStandsFor = 0.3;     // of a column of a cause, rms, that a shape cannot make
 constexpr double kRidge = 1e-4;  // of a column's own square: a bin that a fold lacks stays zero
 
 // A shape that predicts further.
