@@ -42,8 +42,8 @@ struct State {
 // The best model without the i-th of the accepted.
 [[nodiscard]] State without(const Frame& frame, const State& state, std::size_t i);
 
-// With the mass and friction of `start`; an elastic one keeps its motor's share of the mass, and its
-// mode.
+// With the mass and friction of `start`; an elastic one keeps its motor's share of the mass, and
+// its mode.
 [[nodiscard]] Model with_body_of(const Model& start, Model model);
 
 // 0 .. n - 1
