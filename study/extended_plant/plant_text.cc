@@ -96,6 +96,7 @@ void PlantText::read() {
       p.coulomb_friction_Nm > 0 ? p.friction.breakaway_Nm / p.coulomb_friction_Nm : 1;
   stated_.torque_constant_Nm_per_A = p.torque_constant_Nm_per_A;
   stated_.amplifier_gain_A_per_V = p.amplifier_gain_A_per_V;
+  stated_.voltage_limit_ratio = p.amplifier.output_limit_ratio;
   stated_.voltage_limit_V = p.amplifier.output_limit_ratio * machine_.supply.voltage_V;
   stated_.winding_s =
       (p.winding.inductance_H + p.winding.choke_inductance_H) / p.winding.resistance_ohm;

@@ -163,7 +163,7 @@ double Axis::driven_N(double input_N) {
         p_[Key::kClipShare] * sign(drive) * std::max(0.0, std::abs(drive) - p_[Key::kClipLevel]);
   }
   if (p_[Key::kStallShare] != 0) {
-    const double along = motor_.v * sign(drive) / scene_.stated->no_load_speed_m_per_s;
+    const double along = motor_.v * sign(drive) / p_[Key::kStallSpeed];
     const double level = p_[Key::kStallLevel] * std::max(0.0, 1 - along);
     drive -= p_[Key::kStallShare] * sign(drive) * std::max(0.0, std::abs(drive) - level);
   }

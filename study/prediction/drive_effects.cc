@@ -30,10 +30,21 @@ std::vector<Scales> clip_levels(const Context& c) {
   return multiples({0.1, 0.15, 0.22, 0.3, 0.45, 0.6, 0.75, 0.9}, c.input_max_N);
 }
 
-std::vector<Scales> stall_levels(const Context& c) {
-  return c.stated.no_load_speed_m_per_s <= 0 || c.stated.force_limit_N <= 0
-             ? std::vector<Scales>{}
-             : multiples({0.2, 0.3, 0.45, 0.6, 0.8}, c.stated.force_limit_N);
+// Force at standstill and the speed without load. A speed far above those of the log is a clip.
+std::vector<Scales> stall_lines(const Context& c) {
+  std::vector<double> speeds = {1.15 * c.top_speed_m_per_s, 1.5 * c.top_speed_m_per_s,
+                                2.2 * c.top_speed_m_per_s};
+  if (c.stated.no_load_speed_m_per_s > 0) speeds.push_back(c.stated.no_load_speed_m_per_s);
+  std::vector<Scales> grid;
+  for (const double level : {0.3, 0.45, 0.6, 0.8, 1.1, 1.5}) {
+    for (const double speed : speeds) grid.push_back({level * c.input_max_N, speed});
+  }
+  return grid;
+}
+
+void set_stall_line(Parameters& p, const Context& /*c*/, std::span<const double> scales) {
+  p[Key::kStallLevel] = scales[0];
+  p[Key::kStallSpeed] = scales[1];
 }
 
 PlantValues gain_values(const Parameters& p, const StatedPlant& stated) {
@@ -46,11 +57,16 @@ PlantValues count_values(const Parameters& p, const StatedPlant& stated) {
 PlantValues current_limit_values(const Parameters& p, const StatedPlant& stated) {
   return {p[Key::kClipLevel] * stated.metres_per_motor_rad / stated.torque_constant_Nm_per_A};
 }
-// At standstill all of the voltage lies at the winding, whose time constant stays.
-PlantValues winding_values(const Parameters& p, const StatedPlant& stated) {
-  const double ohm = stated.voltage_limit_V * stated.torque_constant_Nm_per_A /
-                     (stated.metres_per_motor_rad * p[Key::kStallLevel]);
-  return {ohm, ohm * stated.winding_s - stated.choke_H};
+// Without load all of the voltage is back-EMF, at standstill all of it lies at the winding, whose
+// time constant stays. Empty where the file states no motor.
+PlantValues voltage_values(const Parameters& p, const StatedPlant& stated) {
+  if (stated.model.no_load_speed_m_per_s <= 0) return {};
+  const double volt_s = stated.torque_constant_Nm_per_A / stated.metres_per_motor_rad;
+  const double limit_V =
+      std::min(p[Key::kStallSpeed] * volt_s, stated.voltage_limit_V / stated.voltage_limit_ratio);
+  const double ohm = limit_V * volt_s / p[Key::kStallLevel];
+  return {ohm, ohm * stated.winding_s - stated.choke_H,
+          limit_V / stated.voltage_limit_V * stated.voltage_limit_ratio};
 }
 
 }  // namespace
@@ -141,15 +157,16 @@ void add_drive_effects(std::vector<Effect>& library) {
                      .source = "(3.13): supply less back-EMF",
                      .amplitudes = {Key::kStallShare},
                      .amplitude_names = {"clipped_share_ratio"},
-                     .scales = {Key::kStallLevel},
-                     .scale_names = {"stall_N"},
+                     .scales = {Key::kStallLevel, Key::kStallSpeed},
+                     .scale_names = {"stall_N", "no_load_m_per_s"},
                      .positive = true,
                      .whole = 1,
-                     .grid = stall_levels,
-                     .set = set_scale<Key::kStallLevel>,
+                     .grid = stall_lines,
+                     .set = set_stall_line,
                      .step = whole_step,
-                     .plant_keys = {"winding.resistance_ohm", "winding.inductance_H"},
-                     .plant_values = winding_values});
+                     .plant_keys = {"winding.resistance_ohm", "winding.inductance_H",
+                                    "amplifier.output_limit_ratio"},
+                     .plant_values = voltage_values});
 }
 
 }  // namespace towbench::study::diagnose

@@ -113,6 +113,7 @@ void accept_structural(Frame& frame, const Model& start, double least_errors, St
   }
 }
 
+// Of two that predict alike, the first: a level that falls with speed needs one number more.
 bool accept_clip(const Frame& frame, const Model& start, double least_errors, State& now) {
   State best;
   for (const Effect& effect : effects()) {
@@ -120,8 +121,9 @@ bool accept_clip(const Frame& frame, const Model& start, double least_errors, St
     const Candidate chosen = best_level(frame, effect, start);
     if (chosen.scales.empty()) continue;
     State other = with(frame, now, chosen, start);
-    if (is_believed(compare(now.loss, other.loss, 2), least_errors) &&
-        (best.accepted.empty() || other.loss.sum() < best.loss.sum())) {
+    const bool better =
+        best.accepted.empty() || compare(best.loss, other.loss, 2).standard_errors > kAlias;
+    if (better && is_believed(compare(now.loss, other.loss, 2), least_errors)) {
       best = std::move(other);
     }
   }

@@ -15,6 +15,7 @@ constexpr double kRunsDiffer = 0.1;   // of the dry friction, or of the input wh
 constexpr double kGoodEnough = 3e-5;  // relative fall of the cost that ends a fit
 constexpr double kLargestFactor = 2;
 constexpr double kLeastSaid = 0.6;  // of the samples that the fastest correction says something of
+constexpr double kFarSpeed = 4;     // times the log's: there a level hardly falls with speed
 constexpr double kFastest_per_sample = 0.25;  // bandwidth times period
 
 // Near zero, by what runs usually differ by.
@@ -32,12 +33,14 @@ double penalty(const std::vector<FreeParameter>& free, const VectorXd& ridge, Mo
 }
 
 // Within what can be meant: where much is missing in a model, a body that nothing moves predicts
-// better than its own.
+// better than its own, and a level that falls with no speed is a clip.
 void bound(Parameters& p, const Context& c) {
   p[Key::kMass] = std::clamp(p[Key::kMass], c.mass_least_kg, c.mass_most_kg);
   const double most = c.input_max_N / std::max(1e-12, c.top_speed_m_per_s);
   p[Key::kViscous] = std::clamp(p[Key::kViscous], -most, most);
   p[Key::kCoulomb] = std::clamp(p[Key::kCoulomb], 0.0, c.input_max_N);
+  p[Key::kStallSpeed] = std::min(p[Key::kStallSpeed], std::max(kFarSpeed * c.top_speed_m_per_s,
+                                                               c.stated.no_load_speed_m_per_s));
 }
 
 Model moved(const Model& from, const Context& context, const std::vector<FreeParameter>& free,

@@ -79,6 +79,7 @@ enum class Key : std::uint8_t {
   kClipLevel,         // N
   kStallShare,        // the same with a level that speed lowers
   kStallLevel,        // N at standstill
+  kStallSpeed,        // m/s at which none is left
   kOutOfRoundCosine,  // of the drive's force
   kOutOfRoundSine,
   kOutOfRoundPerMetre,

@@ -27,8 +27,9 @@ struct StatedPlant {
   double breakaway_ratio = 1;       // over Coulomb friction
   double torque_constant_Nm_per_A = 1;
   double amplifier_gain_A_per_V = 1;
-  double voltage_limit_V = 0;  // at the motor
-  double winding_s = 0;        // time constant, the amplifier's choke included
+  double voltage_limit_V = 0;      // at the motor
+  double voltage_limit_ratio = 1;  // of the supply
+  double winding_s = 0;            // time constant, the amplifier's choke included
   double choke_H = 0;
   double counts_per_turn = 0;
   double slack_m = 0;

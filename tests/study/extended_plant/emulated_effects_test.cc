@@ -240,8 +240,9 @@ INSTANTIATE_TEST_SUITE_P(
         Made{"amplifier_gain", {{Key::kGainLoss, 0.1}}, kAny},
         Made{"encoder_count_loss", {{Key::kCountLoss, 0.1}}, kAny},
         Made{"command_saturation", {{Key::kClipShare, 1.0}, {Key::kClipLevel, 9.0}}, kAny},
-        Made{
-            "voltage_saturation", {{Key::kStallShare, 1.0}, {Key::kStallLevel, 25.0}}, kLowVoltage},
+        Made{"voltage_saturation",
+             {{Key::kStallShare, 1.0}, {Key::kStallLevel, 25.0}, {Key::kStallSpeed, 0.3}},
+             kLowVoltage},
         Made{"chain_elasticity",
              {{Key::kStiffness, 3000.0},
               {Key::kDamping, 10.0},
