@@ -138,15 +138,17 @@ Diagnosis diagnose(const Request& given) {
     return d;
   }
   const Momentum momentum = fit_momentum(request.runs, request.model.rotary, 0);
+  const Momentum limited = fit_momentum_of_drive(request.runs, request.model.rotary);
   if (!request.model.supplied) {
-    begin_from_momentum(request.model, momentum);
+    begin_from_momentum(request.model, limited);
   }
   Data data = make_data(request.runs, request.model);
   tell("looking for causes");
   Context context = make_context(request.model, data);
-  if (momentum.mass_kg > 0) {
-    context.mass_least_kg = std::min(context.mass_least_kg, momentum.mass_kg / kMassOff);
-    context.mass_most_kg = std::max(context.mass_most_kg, momentum.mass_kg * kMassOff);
+  for (const double mass_kg : {momentum.mass_kg, limited.mass_kg}) {
+    if (mass_kg <= 0) continue;
+    context.mass_least_kg = std::min(context.mass_least_kg, mass_kg / kMassOff);
+    context.mass_most_kg = std::max(context.mass_most_kg, mass_kg * kMassOff);
   }
   Search search = search_causes(
       data, context, {parameters_of(request.model), std::vector<OfRun>(request.runs.size())}, {});

@@ -19,6 +19,7 @@ constexpr Eigen::Index kFewestWindows = 30;
 constexpr double kNothingExplained = 0.05;
 constexpr double kNoiseReaches = 25;
 constexpr double kWellExplained = 0.9;
+constexpr double kUnitDecades = 1.3;  // that an inertia is off by where a unit is wrong
 
 // Of a rigid body; a load on a transmission follows later by half a period of its swing.
 double told_shift_s(const NominalModel& model) {
@@ -30,18 +31,24 @@ double told_shift_s(const NominalModel& model) {
          std::numbers::pi * std::sqrt(load_kg / model.transmission.stiffness_N_per_m);
 }
 
-void check_shift(const std::vector<Run>& runs, const NominalModel& model, const Momentum& fit,
+struct Shift {
+  double seconds = 0;
+  double explained = 0;
+};
+
+Shift best_shift(const std::vector<Run>& runs, const NominalModel& model, const Momentum& aligned) {
+  Shift best{0, aligned.explained};
+  for (double shift = -kLongestShift_s; shift <= kLongestShift_s; shift += kLongestShift_s / 25) {
+    const double explained = fit_momentum(runs, model.rotary, shift, aligned.most_N).explained;
+    if (explained > best.explained) best = {shift, explained};
+  }
+  return best;
+}
+
+void check_shift(const NominalModel& model, const Momentum& fit, const Shift& shift,
                  logs::Findings& findings) {
   const double aligned = fit.explained;
-  double seconds = 0;
-  double most = aligned;
-  for (double shift = -kLongestShift_s; shift <= kLongestShift_s; shift += kLongestShift_s / 25) {
-    const double explained = fit_momentum(runs, model.rotary, shift).explained;
-    if (explained > most) {
-      most = explained;
-      seconds = shift;
-    }
-  }
+  const auto [seconds, most] = shift;
   if (std::abs(seconds) >= told_shift_s(model) && (1 - most) < 0.7 * (1 - aligned)) {
     // y(t + shift) fits x(t) best: the input column is late by the shift.
     findings.push_back(
@@ -60,14 +67,19 @@ void check_shift(const std::vector<Run>& runs, const NominalModel& model, const 
   }
 }
 
-void check_unit(const NominalModel& model, const Momentum& fit, logs::Findings& findings) {
+double decades_of(const Momentum& fit, const NominalModel& model) {
+  return std::log10(std::max(1e-30, std::abs(fit.mass_kg) / model.mass_kg));
+}
+
+// `limited`: the same with what a clip may leave of the input.
+void check_unit(const NominalModel& model, const Momentum& fit, const Momentum& limited,
+                logs::Findings& findings) {
   // Where little is explained, noise in the acceleration makes the inertia too small.
   if (!model.supplied || model.mass_kg <= 0 || fit.explained < kLeastExplained) {
     return;
   }
-  const double ratio = std::abs(fit.mass_kg) / model.mass_kg;
-  const double decades = std::log10(std::max(1e-30, ratio));
-  if (std::abs(decades) < 1.3) {
+  const double decades = decades_of(fit, model);
+  if (std::abs(decades) < kUnitDecades || std::abs(decades_of(limited, model)) < kUnitDecades) {
     return;
   }
   const char* guess =
@@ -84,9 +96,9 @@ void check_unit(const NominalModel& model, const Momentum& fit, logs::Findings& 
     guess = decades > 0 ? "the position is in metres and mapped as counts"
                         : "the position is in counts and mapped as metres";
   }
-  findings.push_back(
-      {logs::Finding::Kind::kFatal, "input_unit_off",
-       fmt::format("the data ask for {:.3g} times the model's inertia: {}", ratio, guess)});
+  findings.push_back({logs::Finding::Kind::kFatal, "input_unit_off",
+                      fmt::format("the data ask for {:.3g} times the model's inertia: {}",
+                                  std::pow(10, decades), guess)});
 }
 
 }  // namespace
@@ -105,8 +117,12 @@ void check_against_model(const std::vector<Run>& runs, const NominalModel& model
                                             : unit->name + ": " + unit->sentence)});
     return;
   }
-  const double aligned = fit.explained;
-  check_shift(runs, model, fit, findings);
+  // A clip is believed where it explains more than any shift without one.
+  const Momentum limited = fit_momentum_of_drive(runs, model.rotary);
+  Shift shift = best_shift(runs, model, fit);
+  const bool is_clipped = limited.explained > shift.explained;
+  if (is_clipped) shift = best_shift(runs, model, limited);
+  check_shift(model, is_clipped ? limited : fit, shift, findings);
   if (is_fatal(findings)) {
     return;
   }
@@ -117,13 +133,13 @@ void check_against_model(const std::vector<Run>& runs, const NominalModel& model
                         "hand perhaps"});
     return;
   }
-  if (aligned < kLeastExplained) {
+  if (fit.explained < kLeastExplained) {
     findings.push_back({logs::Finding::Kind::kNote, "model_explains_little",
                         fmt::format("inertia and friction together explain {:.0f} % of the input; "
                                     "are the right columns mapped?",
-                                    100 * aligned)});
+                                    100 * fit.explained)});
   }
-  check_unit(model, fit, findings);
+  check_unit(model, fit, is_clipped ? limited : fit, findings);
 }
 
 }  // namespace towbench::study::diagnose

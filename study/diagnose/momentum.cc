@@ -14,8 +14,9 @@ namespace {
 using Eigen::Index;
 
 constexpr double kImpulse_s = 0.04;
-constexpr Index kWindowsEach = 3;  // of a column that is fitted
-constexpr double kSteps = 8;       // of the encoder, that a window's way at top speed must exceed
+constexpr Index kWindowsEach = 3;      // of a column that is fitted
+constexpr double kClipExplains = 0.5;  // of what is left without it
+constexpr double kSteps = 8;  // of the encoder, that a window's way at top speed must exceed
 
 // Longer where the encoder is coarse beside the motion.
 double window_of(const Run& run) {
@@ -55,7 +56,7 @@ Momentum fit(const std::vector<Row>& rows, Index own) {
 
 }  // namespace
 
-Momentum fit_momentum(const std::vector<Run>& runs, bool rotary, double shift_s) {
+Momentum fit_momentum(const std::vector<Run>& runs, bool rotary, double shift_s, double most_N) {
   const Index own = rotary ? 6 : 4;
   std::vector<Row> rows;
   for (const Run& run : runs) {
@@ -70,7 +71,8 @@ Momentum fit_momentum(const std::vector<Run>& runs, bool rotary, double shift_s)
       double sine = 0;
       double cosine = 0;
       for (Index i = from; i < from + w; ++i) {
-        impulse += run.input_N[std::clamp<Index>(i + shift, 0, run.size() - 1)];
+        const double input_N = run.input_N[std::clamp<Index>(i + shift, 0, run.size() - 1)];
+        impulse += std::clamp(input_N, -most_N, most_N);
         const double v = m.speed_m_per_s[i];
         direction += v > 0 ? 1 : v < 0 ? -1 : 0;
         sine += std::sin(run.position_m[i]);
@@ -87,7 +89,21 @@ Momentum fit_momentum(const std::vector<Run>& runs, bool rotary, double shift_s)
       for (const OtherImpulse& other : others) other.add_to(row.x, from, w);
     }
   }
-  return fit(rows, own);
+  Momentum out = fit(rows, own);
+  out.most_N = most_N;
+  return out;
+}
+
+Momentum fit_momentum_of_drive(const std::vector<Run>& runs, bool rotary) {
+  double most_N = 0;
+  for (const Run& run : runs) most_N = std::max(most_N, run.input_N.cwiseAbs().maxCoeff());
+  const Momentum whole = fit_momentum(runs, rotary, 0);
+  Momentum best = whole;
+  for (const double level : {0.1, 0.15, 0.22, 0.3, 0.45, 0.6, 0.75}) {
+    const Momentum limited = fit_momentum(runs, rotary, 0, level * most_N);
+    if (limited.explained > best.explained) best = limited;
+  }
+  return 1 - best.explained < kClipExplains * (1 - whole.explained) ? best : whole;
 }
 
 }  // namespace towbench::study::diagnose

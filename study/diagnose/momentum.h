@@ -3,12 +3,15 @@
 // whether the columns are what they are said to be.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "study/prediction/nominal_model.h"
 #include "study/prediction/run.h"
 
 namespace towbench::study::diagnose {
+
+inline constexpr double kUnlimited_N = std::numeric_limits<double>::infinity();
 
 struct Momentum {
   double mass_kg = 0;
@@ -17,9 +20,14 @@ struct Momentum {
   double bias_N = 0;
   double explained = 0;  // share of the impulse's energy about its mean
   Eigen::Index windows = 0;
+  double most_N = kUnlimited_N;  // to which the input was limited
 };
 
-// With the input moved by `shift_s` against the position.
-[[nodiscard]] Momentum fit_momentum(const std::vector<Run>& runs, bool rotary, double shift_s);
+// With the input moved by `shift_s` against the position, and limited to `most_N`.
+[[nodiscard]] Momentum fit_momentum(const std::vector<Run>& runs, bool rotary, double shift_s,
+                                    double most_N = kUnlimited_N);
+
+// Limited where a drive that clips leaves half of what is unexplained otherwise, or less.
+[[nodiscard]] Momentum fit_momentum_of_drive(const std::vector<Run>& runs, bool rotary);
 
 }  // namespace towbench::study::diagnose

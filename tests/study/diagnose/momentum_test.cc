@@ -1,6 +1,7 @@
 // The first fit without a simulation, on a motion whose force is known in closed form.
 #include "study/diagnose/momentum.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -17,7 +18,7 @@ using namespace study::diagnose;
 Run swinging_body() {
   constexpr double kAmplitude_m = 0.6;
   constexpr double kSpeed_rad_per_s = 2 * std::numbers::pi * 0.4;
-  Run run;
+  study::diagnose::Run run;
   run.period_s = 1e-3;
   run.position_m.resize(20'000);
   run.input_N.resize(20'000);
@@ -47,6 +48,40 @@ TEST(Momentum, ExplainsLessWhereTheInputIsLate) {
   // A sine that is late is a sum of its speed and acceleration; dry friction is not.
   const double aligned = fit_momentum({run}, false, 0).explained;
   EXPECT_LT(1 - aligned, 0.5 * (1 - fit_momentum({run}, false, 0.2).explained));
+}
+
+// 8 kg without friction, pushed out and back by 10 N and by 2 N; the drive makes 4 N at most.
+study::diagnose::Run body_of_a_weak_drive() {
+  constexpr double kMost_N = 4;
+  study::diagnose::Run run;
+  run.period_s = 1e-3;
+  run.position_m.resize(16'000);
+  run.input_N.resize(16'000);
+  double v = 0;
+  double x = 0;
+  for (Eigen::Index i = 0; i < run.size(); ++i) {
+    const Eigen::Index quarter = i % 2000 / 500;
+    const double sign = quarter == 0 || quarter == 3 ? 1 : -1;
+    run.position_m[i] = x;
+    run.input_N[i] = sign * (i / 2000 % 2 == 0 ? 10 : 2);
+    const double a = std::clamp(run.input_N[i], -kMost_N, kMost_N) / 8;
+    x += (v + 0.5 * a * run.period_s) * run.period_s;
+    v += a * run.period_s;
+  }
+  run.missing.assign(16'000, 0);
+  return run;
+}
+
+TEST(Momentum, HasTheMassThatADriveMovesWhichMakesLessThanItIsAskedFor) {
+  const study::diagnose::Run run = body_of_a_weak_drive();
+  EXPECT_GT(fit_momentum({run}, false, 0).mass_kg, 16);
+  const Momentum fit = fit_momentum_of_drive({run}, false);
+  EXPECT_DOUBLE_EQ(fit.most_N, 4.5);
+  EXPECT_NEAR(fit.mass_kg, 8, 8 * 0.125);
+}
+
+TEST(Momentum, LimitsNoInputThatIsExplainedWithoutIt) {
+  EXPECT_EQ(fit_momentum_of_drive({swinging_body()}, false).most_N, kUnlimited_N);
 }
 
 // Of a joint that another moves more than its own drive does.
