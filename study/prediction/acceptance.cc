@@ -13,12 +13,31 @@ using Eigen::VectorXd;
 constexpr double kLeastForce = 0.001;    // of the input's rms
 constexpr double kLeastOfStated = 0.03;  // by which what the model states must be off
 constexpr double kOfRounding = 0.29;     // rms of an encoder's steps, in steps
-constexpr double kCollapsed = 0.99;      // of the range of masses that are believed
+constexpr double kCollapsed = 0.99;      // of what is believed of a mass, or of dry friction
+constexpr double kSwap = 1;              // standard errors by which another must predict better
+constexpr double kSwapLoss = 0.98;       // times the loss that it leaves at most
 constexpr double kAliasLoss = 2;         // times the loss that still predicts alike
 
 bool predict_alike(const State& one, const State& other) {
   return compare(other.loss, one.loss, 2).standard_errors < kAlias &&
          other.loss.sum() < kAliasLoss * one.loss.sum();
+}
+
+bool predicts_better(const State& one, const State& other) {
+  return compare(one.loss, other.loss, 2).standard_errors > kSwap &&
+         other.loss.sum() < kSwapLoss * one.loss.sum();
+}
+
+// Whether `holds` of both here, and at the bandwidth at which no more than rounding is left.
+template <typename Holds>
+bool at_faster_too(const Frame& frame, const State& one, const State& other, Holds holds) {
+  if (!holds(one, other)) return false;
+  Frame faster = frame;
+  faster.followed = kRounding;
+  set_bandwidth(faster, one.fitted.model);
+  return faster.bandwidth <= frame.bandwidth ||
+         holds(make_state(faster, one.accepted, one.fitted.model),
+               make_state(faster, other.accepted, other.fitted.model));
 }
 
 }  // namespace
@@ -53,7 +72,9 @@ bool is_worth_naming(const Frame& frame, const State& s) {
 
 bool has_collapsed(const Context& context, const State& s) {
   const double mass = s.fitted.model.parameters[Key::kMass];
-  return mass * kCollapsed < context.mass_least_kg || mass > kCollapsed * context.mass_most_kg;
+  const double coulomb = s.fitted.model.parameters[Key::kCoulomb];
+  return mass * kCollapsed < context.mass_least_kg || mass > kCollapsed * context.mass_most_kg ||
+         (context.input_max_N > 0 && coulomb > kCollapsed * context.input_max_N);
 }
 
 bool is_weak(const Frame& frame, const State& s, const State& with_it, const VectorXd& base_e) {
@@ -72,13 +93,11 @@ double share_of(const Frame& frame, double taken, double left, const State& s) {
 }
 
 bool are_alike(const Frame& frame, const State& one, const State& other) {
-  if (!predict_alike(one, other)) return false;
-  Frame faster = frame;
-  faster.followed = kRounding;
-  set_bandwidth(faster, one.fitted.model);
-  return faster.bandwidth <= frame.bandwidth ||
-         predict_alike(make_state(faster, one.accepted, one.fitted.model),
-                       make_state(faster, other.accepted, other.fitted.model));
+  return at_faster_too(frame, one, other, predict_alike);
+}
+
+bool is_better(const Frame& frame, const State& one, const State& other) {
+  return at_faster_too(frame, one, other, predicts_better);
 }
 
 }  // namespace towbench::study::diagnose

@@ -29,7 +29,7 @@ inline constexpr double kAlias = 2;  // standard errors below which two are told
 [[nodiscard]] bool is_worth_naming(const Frame& frame, const State& s);
 
 // Whether it only follows the measured places with a body of its own invention: its mass lies at an
-// end of what is believed.
+// end of what is believed, or its dry friction holds the largest input.
 [[nodiscard]] bool has_collapsed(const Context& context, const State& s);
 
 // Whether `with_it` takes away little beside what the causes of `s` do (weak_causes.h), with blocks
@@ -41,8 +41,9 @@ inline constexpr double kAlias = 2;  // standard errors below which two are told
 // Squares taken of those that were left beyond the encoder's steps.
 [[nodiscard]] double share_of(const Frame& frame, double taken, double left, const State& s);
 
-// Whether nothing tells two apart, here and at the bandwidth at which no more than rounding is
-// left.
+// Whether nothing tells two apart, or the other predicts better: here, and at the bandwidth at
+// which no more than rounding is left.
 [[nodiscard]] bool are_alike(const Frame& frame, const State& one, const State& other);
+[[nodiscard]] bool is_better(const Frame& frame, const State& one, const State& other);
 
 }  // namespace towbench::study::diagnose

@@ -19,7 +19,6 @@ constexpr std::size_t kShortlist = 3;           // that are fitted, beside the m
 constexpr std::size_t kFittedOfAShortlist = 2;  // in another's place
 constexpr double kStructured = 0.1;             // that innovations predict of themselves
 constexpr double kDiverged = 4;                 // times the loss of the model with a cause
-constexpr double kSwap = 1;  // standard errors by which another cause must be better
 
 class Searcher {
  public:
@@ -260,8 +259,7 @@ class Searcher {
       if (fitted++ == kFittedOfAShortlist) break;
       State other = with(frame_, judged.rest, c, start_);
       if (!is_worth_naming(frame_, other) || collapses(now, other)) continue;
-      const Comparison better = compare(now.loss, other.loss, 2);
-      if (better.standard_errors > kSwap && other.loss.sum() < 0.98 * now.loss.sum()) return other;
+      if (is_better(frame_, now, other)) return other;
       const bool as_sure = c.p_value() < std::sqrt(judged.p_value);
       if (c.effect->name != cause.effect->name && as_sure && are_alike(frame_, now, other)) {
         cause.alternatives.push_back({c.effect, std::move(other)});

@@ -70,6 +70,18 @@ TEST_F(Acceptance, AMassAtAnEndOfWhatIsBelievedIsNoBody) {
   }
 }
 
+TEST_F(Acceptance, DryFrictionThatHoldsTheLargestInputIsNoBody) {
+  frame_.context.mass_least_kg = 0.4;
+  frame_.context.mass_most_kg = 10;
+  frame_.context.input_max_N = 5;
+  State s;
+  s.fitted.model.parameters[Key::kMass] = 2;
+  for (const auto& [coulomb_N, none] : {std::pair{0.0, false}, {4.9, false}, {5.0, true}}) {
+    s.fitted.model.parameters[Key::kCoulomb] = coulomb_N;
+    EXPECT_EQ(has_collapsed(frame_.context, s), none) << coulomb_N;
+  }
+}
+
 TEST_F(Acceptance, AGainIsAskedForHoweverCertainACauseIs) {
   const Limits limits;
   EXPECT_TRUE(is_significant(limits, {.gain = 0.1, .standard_errors = 3}, 1e-4));
