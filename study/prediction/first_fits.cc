@@ -11,8 +11,14 @@ namespace {
 
 constexpr int kFirstRounds = 3;
 
-bool is_believed(const Comparison& gain, double least_errors) {
-  return gain.gain > kFresh && gain.standard_errors > least_errors;
+constexpr double kSavedErrors = 1.64;  // one-sided 95 %
+
+// A cause that gives the axis a body that can be believed needs less.
+bool is_believed(const Context& context, const State& rest, const State& other,
+                 double least_errors) {
+  const Comparison gain = compare(rest.loss, other.loss, 2);
+  const bool saves = has_collapsed(context, rest) && !has_collapsed(context, other);
+  return gain.gain > kFresh && gain.standard_errors > (saves ? kSavedErrors : least_errors);
 }
 
 using Effects = std::vector<const Effect*>;
@@ -37,7 +43,7 @@ void accept_if_believed(Frame& frame, const Effects& added, const Model& start, 
   set_bandwidth(frame, other.fitted.model);
   other = make_state(frame, other.accepted, other.fitted.model);
   const State rest = make_state(frame, now.accepted, now.fitted.model);
-  if (is_believed(compare(rest.loss, other.loss, 2), least_errors)) {
+  if (is_believed(frame.context, rest, other, least_errors)) {
     now = std::move(other);
   } else {
     set_bandwidth(frame, now.fitted.model);
@@ -123,7 +129,7 @@ bool accept_clip(const Frame& frame, const Model& start, double least_errors, St
     State other = with(frame, now, chosen, start);
     const bool better =
         best.accepted.empty() || compare(best.loss, other.loss, 2).standard_errors > kAlias;
-    if (better && is_believed(compare(now.loss, other.loss, 2), least_errors)) {
+    if (better && is_believed(frame.context, now, other, least_errors)) {
       best = std::move(other);
     }
   }
