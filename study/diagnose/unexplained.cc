@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "study/diagnose/free_shapes.h"
+#include "study/prediction/acceptance.h"
 #include "study/prediction/whiteness.h"
 
 namespace towbench::study::diagnose {
@@ -20,6 +21,8 @@ constexpr double kPastGain = 0.1;      // that the past predicts; a wrong noise 
 constexpr double kMisfit = 0.12;       // of the power that a cause predicts, left for a free shape
 constexpr double kForceMisfit = 0.05;  // of its force, for a shape that can stand for it
 constexpr double kStandsFor = 0.3;     // of a column of a cause, rms, that a shape cannot make
+constexpr double kInPlaceErrors = 4;   // by which a shape in a cause's place predicts better
+constexpr double kInPlaceShare = 0.2;  // of the squares beyond the encoder steps
 constexpr double kRidge = 1e-4;  // of a column's own square: a bin that a fold lacks stays zero
 
 // A shape that predicts further.
@@ -57,6 +60,24 @@ class Seeker {
       if (found && (!best || found->share > best->what.share)) {
         best = Against{*std::move(found), smooth, causes_};
       }
+    }
+    return best;
+  }
+
+  // The shape that leaves the least, if that is clearly less than `loss`.
+  std::optional<Unexplained> better_than(const VectorXd& loss) {
+    const Frame frame{&data_, search_.context, search_.bandwidth, search_.spans};
+    std::optional<Unexplained> best;
+    double least = loss.sum();
+    for (const FreeShape& shape : shapes_) {
+      auto found = of(shape);
+      if (!found || loss_.sum() >= least || !is_a_force(*found)) continue;
+      const double share = share_of(frame, loss.sum() - loss_.sum(), loss.sum(), search_.final);
+      if (share < kInPlaceShare || compare(loss, loss_, 2).standard_errors < kInPlaceErrors) {
+        continue;
+      }
+      least = loss_.sum();
+      best = std::move(found);
     }
     return best;
   }
@@ -118,7 +139,8 @@ class Seeker {
     Columns both = up_to(p + k);
     const Columns group(both.begin() + p, both.end());
     const GroupTest test = blocks.test(base, group);
-    const Comparison gain = compare(blocks.predicted(base), blocks.predicted(both), 2.58);
+    loss_ = blocks.predicted(both);
+    const Comparison gain = compare(blocks.predicted(base), loss_, 2.58);
     find_what_it_stands_for(blocks, base, group);
     const Fit fit = blocks.fit(both);
     b_ = fit.b.tail(k);
@@ -176,9 +198,10 @@ class Seeker {
   std::vector<FreeShape> shapes_;
   double to_force_ = 0;
   MatrixXd all_;  // by the model's own parameters, by what is tried, and the error
-  VectorXd b_;
+  VectorXd b_;    // of the shape that was asked last, as what follows
   MatrixXd covariance_;
-  std::vector<Against::Cause> causes_;  // of the shape that was asked last
+  VectorXd loss_;
+  std::vector<Against::Cause> causes_;
 };
 
 // Of the prediction error's power with the causes: what a gain of rms takes away further, and what
@@ -219,6 +242,18 @@ bool drop(const Data& data, Search& search, std::size_t i) {
   return true;
 }
 
+// A shape in a cause's place that predicts better: what is there does not follow its law. Drops it.
+std::optional<Unexplained> drop_for_a_shape(Data& data, Search& search) {
+  const Frame frame{&data, search.context, search.bandwidth, search.spans};
+  for (std::size_t i = 0; i < search.causes.size(); ++i) {
+    Search rest = search;
+    rest.final = without(frame, search.final, i);
+    auto better = Seeker(data, rest).better_than(search.final.loss);
+    if (better && drop(data, search, i)) return better;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Unexplained> judge_rest(Data& data, Search& search) {
@@ -237,6 +272,10 @@ std::optional<Unexplained> judge_rest(Data& data, Search& search) {
     }
     if (refuted && drop(data, search, *refuted)) {
       against = refuting;
+      continue;
+    }
+    if (auto better = drop_for_a_shape(data, search)) {
+      against = std::move(better);
       continue;
     }
     if (most && most->share > kLeastGain) {
