@@ -77,15 +77,18 @@ std::string plant_of(const Machine& m) {
                                                      : 0.01;
   std::string text = fmt::format(
       "# {}: stroke {:.3f}, top speed {:.3f}, {:.0f} Hz\n"
-      "# chain {:.3f} Hz, motor's share {:.3f}\n"
       "schema = 1\n[axis.y]\nmass_kg = {:.9g}\nviscous_friction_N_s_per_m = {:.9g}\n"
       "coulomb_friction_N = {:.9g}\nforce_gain_N_per_V = {:.9g}\npwm_amplitude_V = 10.0\n"
       "gear_ratio = {:.9g}\nsprocket_radius_m = {:.9g}\nencoder_counts_per_m = {:.9g}\n",
-      m.kind, m.stroke_m, m.top_speed_m_per_s, 1 / m.period_s, m.chain_Hz, m.motor_share, m.mass_kg,
-      m.viscous_N_s_per_m, m.coulomb_N, m.limit_N() / 10, gear, radius, 1 / m.metres_per_count);
+      m.kind, m.stroke_m, m.top_speed_m_per_s, 1 / m.period_s, m.mass_kg, m.viscous_N_s_per_m,
+      m.coulomb_N, m.limit_N() / 10, gear, radius, 1 / m.metres_per_count);
   if (m.chain_Hz > 0) {
-    text += fmt::format("[axis.y.elasticity]\nresonance_Hz = {:.9g}\ndamping_ratio = {:.6g}\n",
-                        m.chain_Hz, m.chain_damping);
+    text += fmt::format("rotor_inertia_kg_m2 = {:.9g}\n",
+                        m.motor_share * m.mass_kg * std::pow(m.metres_per_motor_rad, 2));
+    text += fmt::format(
+        "[axis.y.elasticity]\nresonance_Hz = {:.9g}\ndamping_ratio = {:.6g}\n"
+        "[axis.y.friction]\ncarriage_share = {:.6g}\n",
+        m.chain_Hz, m.chain_damping, m.load_friction);
   }
   return text;
 }
