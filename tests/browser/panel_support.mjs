@@ -120,7 +120,9 @@ export class Person {
   // speed: as the page's choices have it; options: hold, clock, limit_s, faults.
   async start(experiment, speed, options = {}) {
     await this.choose(experiment, speed, options);
-    await this.page.click("#start");
+    // By the keyboard: where the page moves between a press of the mouse and its release, nothing is clicked.
+    await this.page.waitForFunction(() => !document.getElementById("start").disabled, null, seldom);
+    await this.page.press("#start", "Enter");
     await this.begun();
   }
   // What is shown is the run's that was started last, no longer the one's before.
