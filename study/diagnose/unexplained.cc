@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "study/diagnose/free_shapes.h"
 #include "study/prediction/acceptance.h"
@@ -259,13 +260,13 @@ std::optional<Unexplained> drop_for_a_shape(Data& data, Search& search) {
 std::optional<Unexplained> judge_rest(Data& data, Search& search) {
   std::optional<Unexplained> against;
   for (;;) {
-    Seeker seeker(data, search);
+    std::optional<Seeker> seeker(std::in_place, data, search);
     std::optional<Unexplained> most;
     std::optional<Unexplained> refuting;
     std::optional<std::size_t> refuted;
     for (const bool smooth : {false, true}) {
-      const auto shape = seeker.best_shape(smooth);
-      if (refuted || !shape || !seeker.is_a_force(shape->what)) continue;
+      const auto shape = seeker->best_shape(smooth);
+      if (refuted || !shape || !seeker->is_a_force(shape->what)) continue;
       refuted = refuted_by(*shape, search.causes);
       if (refuted) refuting = shape->what;
       if (!most || shape->what.share > most->share) most = shape->what;
@@ -274,15 +275,13 @@ std::optional<Unexplained> judge_rest(Data& data, Search& search) {
       against = refuting;
       continue;
     }
+    if (!most || most->share <= kLeastGain) most = seeker->by_its_past();
+    seeker.reset();  // its columns are large, and the next ones are as large
     if (auto better = drop_for_a_shape(data, search)) {
       against = std::move(better);
       continue;
     }
-    if (most && most->share > kLeastGain) {
-      return most;
-    }
-    auto past = seeker.by_its_past();
-    return past ? past : against;
+    return most ? most : against;
   }
 }
 
