@@ -11,14 +11,15 @@ namespace {
 
 constexpr int kFirstRounds = 3;
 
-constexpr double kSavedErrors = 1.64;  // one-sided 95 %
+constexpr double kEndsCollapseErrors = 1.64;  // one-sided 95 %
 
-// A cause that gives the axis a body that can be believed needs less.
+// A cause without which mass or friction is at an end of its range needs fewer standard errors.
 bool is_believed(const Context& context, const State& rest, const State& other,
                  double least_errors) {
   const Comparison gain = compare(rest.loss, other.loss, 2);
-  const bool saves = has_collapsed(context, rest) && !has_collapsed(context, other);
-  return gain.gain > kFresh && gain.standard_errors > (saves ? kSavedErrors : least_errors);
+  const bool ends_collapse = has_collapsed(context, rest) && !has_collapsed(context, other);
+  return gain.gain > kFresh &&
+         gain.standard_errors > (ends_collapse ? kEndsCollapseErrors : least_errors);
 }
 
 using Effects = std::vector<const Effect*>;
