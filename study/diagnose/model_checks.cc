@@ -6,11 +6,14 @@
 
 #include <fmt/format.h>
 
+#include "study/prediction/fit.h"
+
 namespace towbench::study::diagnose {
 namespace {
 
 constexpr double kLongestShift_s = 0.25;
 constexpr double kToldShift_s = 0.02;
+constexpr double kFarLess = 0.7;  // of what is not explained
 constexpr double kLeastExplained = 0.3;
 constexpr Eigen::Index kFewestWindows = 30;
 
@@ -45,11 +48,40 @@ Shift best_shift(const std::vector<Run>& runs, const NominalModel& model, const 
   return best;
 }
 
-void check_shift(const NominalModel& model, const Momentum& fit, const Shift& shift,
-                 logs::Findings& findings) {
+std::vector<Run> shifted(std::vector<Run> runs, double seconds) {
+  for (Run& run : runs) {
+    const Eigen::VectorXd input_N = run.input_N;
+    const auto by = static_cast<Eigen::Index>(std::lround(seconds / run.period_s));
+    for (Eigen::Index i = 0; i < run.size(); ++i) {
+      run.input_N[i] = input_N[std::clamp<Eigen::Index>(i + by, 0, run.size() - 1)];
+    }
+  }
+  return runs;
+}
+
+// A load that swings on its transmission looks shifted by a period of that. What is stated of the
+// transmission predicts which it is.
+bool predicts_better(const std::vector<Run>& runs, const NominalModel& model, double seconds) {
+  if (!model.elastic()) return true;
+  const Model stated{parameters_of(model), std::vector<OfRun>(runs.size())};
+  const std::vector<Run> others = shifted(runs, seconds);
+  const Data as_is = make_data(runs, model);
+  const Data moved = make_data(others, model);
+  const auto best = [&](const Data& data) {
+    return best_bandwidth(data, make_context(model, data), stated, kFollowed);
+  };
+  // A fast correction follows whatever it is given.
+  const double slower = std::min(best(as_is), best(moved));
+  return innovations(moved, stated, slower).squaredNorm() <
+         kFarLess * innovations(as_is, stated, slower).squaredNorm();
+}
+
+void check_shift(const std::vector<Run>& runs, const NominalModel& model, const Momentum& fit,
+                 const Shift& shift, logs::Findings& findings) {
   const double aligned = fit.explained;
   const auto [seconds, most] = shift;
-  if (std::abs(seconds) >= told_shift_s(model) && (1 - most) < 0.7 * (1 - aligned)) {
+  if (std::abs(seconds) >= told_shift_s(model) && (1 - most) < kFarLess * (1 - aligned) &&
+      predicts_better(runs, model, seconds)) {
     // y(t + shift) fits x(t) best: the input column is late by the shift.
     findings.push_back(
         {aligned < kWellExplained ? logs::Finding::Kind::kFatal : logs::Finding::Kind::kNote,
@@ -122,7 +154,7 @@ void check_against_model(const std::vector<Run>& runs, const NominalModel& model
   Shift shift = best_shift(runs, model, fit);
   const bool is_clipped = limited.explained > shift.explained;
   if (is_clipped) shift = best_shift(runs, model, limited);
-  check_shift(model, is_clipped ? limited : fit, shift, findings);
+  check_shift(runs, model, is_clipped ? limited : fit, shift, findings);
   if (is_fatal(findings)) {
     return;
   }

@@ -1,4 +1,4 @@
-// Whether the columns are what they are said to be, asked of a rigid body before any fit.
+// Whether the columns are what they are said to be, asked before any fit.
 #pragma once
 
 #include <vector>
