@@ -1,5 +1,7 @@
 #include "study/commands/diagnose_logs.h"
 
+#include <algorithm>
+
 #include "harness/commands/progress_line.h"
 #include "harness/fixtures/fixture_paths.h"
 #include "harness/proof/run_manifest.h"
@@ -67,14 +69,26 @@ toml::table plant_before(const DiagnoseOptions& options, const PlantModel& plant
   return has_no_model(options) ? diagnose::estimated_plant(d) : plant.plant;
 }
 
+// The logs that judge; of the fitted ones, those that no hand moves.
+std::vector<diagnose::Run> judging_runs(const diagnose::Request& request,
+                                        const diagnose::Diagnosis& d) {
+  if (!request.holdout.empty()) return request.holdout;
+  std::vector<diagnose::Run> runs;
+  for (std::size_t run = 0; run < request.runs.size(); ++run) {
+    const bool left_out = std::find(d.left_out.begin(), d.left_out.end(), run) != d.left_out.end();
+    if (!left_out) runs.push_back(request.runs[run]);
+  }
+  return runs;
+}
+
 // The emulator on the logs that judge. None, and a note, of a machine beyond what it can step.
 void emulate(const DiagnoseOptions& options, const PlantModel& plant,
              const diagnose::Request& request, diagnose::Diagnosis& d) {
   const toml::table before = plant_before(options, plant, d);
   try {
     const diagnose::ExtendedPlant extended = diagnose::extend_plant(before, d);
-    d.emulated = diagnose::emulate(request.holdout.empty() ? request.runs : request.holdout,
-                                   d.context.stated, before, toml::parse(extended.text));
+    d.emulated = diagnose::emulate(judging_runs(request, d), d.context.stated, before,
+                                   toml::parse(extended.text));
     d.emulated->left_out = extended.left_out;
   } catch (const harness::FixtureError& error) {
     d.findings.push_back({logs::Finding::Kind::kNote, "plant_refused", error.what()});

@@ -8,6 +8,7 @@
 #include "study/diagnose/model_checks.h"
 #include "study/diagnose/momentum.h"
 #include "study/diagnose/run_checks.h"
+#include "study/diagnose/unlike_runs.h"
 #include "study/statistics/statistics.h"
 
 namespace towbench::study::diagnose {
@@ -116,6 +117,24 @@ void conclude(Diagnosis& d) {
   }
 }
 
+std::vector<double> innovations_of_run_m(const Data& data, const Search& search) {
+  std::vector<double> rms_m;
+  for (std::size_t run = 0; run < data.scenes.size(); ++run) {
+    const auto e = search.final.fitted.e.segment(data.starts[run], data.scenes[run].run->size());
+    const auto said = static_cast<double>((e.array() != 0).count());
+    rms_m.push_back(e.norm() / std::sqrt(std::max(1.0, said)));
+  }
+  return rms_m;
+}
+
+Aside score_aside(const std::vector<Run>& runs, const Data& data, const Search& search) {
+  Aside aside;
+  if (runs.empty()) return aside;
+  aside.others_rms_N = score_within(data, search).after_rms_N;
+  for (const Run& run : runs) aside.rms_N.push_back(score_on({run}, data, search).after_rms_N);
+  return aside;
+}
+
 }  // namespace
 
 double NamedCause::size(const std::string& name) const {
@@ -124,7 +143,10 @@ double NamedCause::size(const std::string& name) const {
   return found == sizes.end() ? 0 : found->ci95.value;
 }
 
-Diagnosis diagnose(const Request& given) {
+namespace {
+
+// Of all runs, as they are.
+Diagnosis diagnose_all(const Request& given) {
   Diagnosis d;
   Request request = given;
   const auto tell = [&](const char* what_next) {
@@ -178,6 +200,8 @@ Diagnosis diagnose(const Request& given) {
   d.parameters = judge_parameters(data, search);
   tell("what the data cannot show");
   d.not_testable = find_not_testable(search);
+  d.innovations_of_run_m = innovations_of_run_m(data, search);
+  d.aside = score_aside(request.aside, data, search);
   tell("scoring, and running both models by themselves");
   d.scored = request.holdout.empty() ? score_within(data, search)
                                      : score_on(request.holdout, data, search);
@@ -186,6 +210,14 @@ Diagnosis diagnose(const Request& given) {
       search);
   d.series = make_series(data, search);
   conclude(d);
+  return d;
+}
+
+}  // namespace
+
+Diagnosis diagnose(const Request& request) {
+  Diagnosis d = diagnose_all(request);
+  if (auto others = without_unlike_runs(request, d, diagnose_all)) return *std::move(others);
   return d;
 }
 

@@ -24,7 +24,8 @@ struct Request {
   NominalModel model;
   std::vector<Run> runs;
   std::vector<Run> holdout;  // only scored, never fitted; none: the gain is cross-validated
-  Progress progress;
+  std::vector<Run> aside{};  // only asked how much worse they are predicted than `runs`
+  Progress progress{};
 };
 
 // A number that belongs to a cause. Known: a shaft's turn, which is not estimated.
@@ -61,6 +62,12 @@ struct Considered {
   bool plausible = false;      // sign and size as its law allows
 };
 
+// What the extended model lacks in the runs that were put aside, and in the others.
+struct Aside {
+  std::vector<double> rms_N;
+  double others_rms_N = 0;
+};
+
 struct Diagnosis {
   std::vector<std::string> verdicts;  // model_adequate, parameters_off, cause_found, ...
   logs::Findings findings;            // a fatal one: nothing below is filled
@@ -79,10 +86,14 @@ struct Diagnosis {
   Parameters extended;               // the model with what was found
   double bandwidth = 0;              // rad/s
   double innovations_m = 0;          // rms that is left
+  std::vector<double> innovations_of_run_m;
+  Aside aside;
+  std::vector<std::size_t> left_out;  // of the runs, those that something moves which no log has
   std::size_t tried = 0;
   Series series;  // for pictures
 };
 
+// Where something stays unexplained because of runs that are unlike the others, these are left out.
 [[nodiscard]] Diagnosis diagnose(const Request& request);
 
 }  // namespace towbench::study::diagnose

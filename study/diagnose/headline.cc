@@ -156,6 +156,7 @@ std::string next_step(const Diagnosis& d) {
                          cause.effect->needs);
     }
   }
+  if (!d.left_out.empty()) return "find out what touched the axis in the runs that are left out";
   if (d.unexplained) {
     return d.unexplained->at.empty()
                ? std::string(
