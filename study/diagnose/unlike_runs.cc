@@ -51,7 +51,7 @@ bool explains_the_others(const Diagnosis& others, const Diagnosis& all) {
          least_N > kUnlike * others.aside.others_rms_N;
 }
 
-// What is in the runs left out stays unexplained.
+// What is in the runs left out stays unexplained, beside what is in the others.
 void tell_of_aside(const Request& request, const Diagnosis& all, Diagnosis& others) {
   std::vector<std::string> names;
   for (const Run& run : request.aside) {
@@ -60,7 +60,8 @@ void tell_of_aside(const Request& request, const Diagnosis& all, Diagnosis& othe
         {logs::Finding::Kind::kNote, "run_left_out",
          run.name + " is left out: something moves the axis there that the log does not have"});
   }
-  if (!others.unexplained) others.verdicts.emplace_back("unexplained_structure");
+  if (others.unexplained) return;
+  others.verdicts.emplace_back("unexplained_structure");
   const double most_N = *std::max_element(others.aside.rms_N.begin(), others.aside.rms_N.end());
   others.unexplained =
       Unexplained{.coordinate = fmt::format("time in {}", fmt::join(names, " and ")),

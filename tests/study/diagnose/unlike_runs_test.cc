@@ -1,0 +1,122 @@
+// When the answer of some runs is taken for that of all, by answers that are made up.
+#include "study/diagnose/unlike_runs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace towbench::study::diagnose {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+// What the others answer, however many are asked.
+struct MadeUp {
+  double unlike = 3;  // times what they lack, of each run put aside
+  bool names_a_cause = false;
+  bool is_unexplained = false;
+  std::vector<std::size_t> asked{};  // how many runs were put aside, each time
+};
+MadeUp made_up;
+
+Diagnosis answer(bool names_a_cause, bool is_unexplained) {
+  Diagnosis d;
+  if (names_a_cause) d.causes.emplace_back();
+  if (is_unexplained) d.unexplained.emplace();
+  d.verdicts.emplace_back(is_unexplained ? "unexplained_structure" : "model_adequate");
+  return d;
+}
+
+Diagnosis of_others(const Request& request) {
+  made_up.asked.push_back(request.aside.size());
+  Diagnosis d = answer(made_up.names_a_cause, made_up.is_unexplained);
+  d.aside.others_rms_N = 0.2;
+  d.aside.rms_N.assign(request.aside.size(), made_up.unlike * 0.2);
+  return d;
+}
+
+std::optional<Diagnosis> without(const Diagnosis& all) {
+  Request request;
+  for (std::size_t run = 0; run < all.innovations_of_run_m.size(); ++run) {
+    request.runs.emplace_back().name = std::string(1, static_cast<char>('a' + run));
+  }
+  return without_unlike_runs(request, all, of_others);
+}
+
+std::vector<std::size_t> left_out(const MadeUp& others, const Diagnosis& all) {
+  made_up = others;
+  const auto found = without(all);
+  return found ? found->left_out : std::vector<std::size_t>{};
+}
+
+Diagnosis unexplained(std::vector<double> innovations_m, bool names_a_cause = false) {
+  Diagnosis d = answer(names_a_cause, true);
+  d.innovations_of_run_m = std::move(innovations_m);
+  return d;
+}
+
+TEST(WithoutUnlikeRuns, TheWorstIsLeftOutIfItLacksTwiceAsMuch) {
+  EXPECT_THAT(left_out({.unlike = 2.1}, unexplained({1, 1, 4})), ElementsAre(2));
+  EXPECT_THAT(left_out({.unlike = 1.9}, unexplained({1, 1, 4})), IsEmpty());
+}
+
+TEST(WithoutUnlikeRuns, WhatMovesItIsToldByItsName) {
+  made_up = {};
+  const auto found = without(unexplained({1, 5, 1}));
+  ASSERT_TRUE(found && found->unexplained);
+  EXPECT_EQ(found->unexplained->coordinate, "time in b");
+  EXPECT_NEAR(found->unexplained->share, 2.0 / 3, 1e-9);
+  EXPECT_NEAR(found->unexplained->rms_N, 0.6, 1e-9);
+  EXPECT_THAT(found->verdicts, ElementsAre("unexplained_structure"));
+  ASSERT_EQ(found->findings.size(), 1U);
+  EXPECT_EQ(found->findings.front().name, "run_left_out");
+}
+
+TEST(WithoutUnlikeRuns, WhatIsLeftInTheOthersIsToldFirst) {
+  made_up = {.unlike = 9, .names_a_cause = true, .is_unexplained = true};
+  const auto found = without(unexplained({1, 5, 1}));
+  ASSERT_TRUE(found && found->unexplained);
+  EXPECT_EQ(found->unexplained->coordinate, "");
+  EXPECT_THAT(found->verdicts, ElementsAre("unexplained_structure"));
+  EXPECT_EQ(found->findings.size(), 1U);
+}
+
+TEST(WithoutUnlikeRuns, HalfOfThemStay) {
+  EXPECT_THAT(left_out({.unlike = 1}, unexplained({1, 1, 4})), IsEmpty());
+  EXPECT_THAT(made_up.asked, ElementsAre(1));
+  EXPECT_THAT(left_out({.unlike = 1}, unexplained({1, 1, 4, 3, 1, 2})), IsEmpty());
+  EXPECT_THAT(made_up.asked, ElementsAre(1, 2));
+  EXPECT_THAT(left_out({}, unexplained({1})), IsEmpty());
+  EXPECT_THAT(made_up.asked, IsEmpty());
+}
+
+TEST(WithoutUnlikeRuns, OthersThatAreNotExplainedNeedACauseAndFiveTimes) {
+  const MadeUp cause{.unlike = 5.1, .names_a_cause = true, .is_unexplained = true};
+  EXPECT_THAT(left_out(cause, unexplained({1, 4})), ElementsAre(1));
+  EXPECT_THAT(
+      left_out({.unlike = 4.9, .names_a_cause = true, .is_unexplained = true}, unexplained({1, 4})),
+      IsEmpty());
+  EXPECT_THAT(left_out({.unlike = 50, .is_unexplained = true}, unexplained({1, 4})), IsEmpty());
+}
+
+TEST(WithoutUnlikeRuns, ACauseIsNotExchangedForNone) {
+  EXPECT_THAT(left_out({.unlike = 50}, unexplained({1, 4}, true)), IsEmpty());
+  EXPECT_THAT(left_out({.names_a_cause = true}, unexplained({1, 4}, true)), ElementsAre(1));
+}
+
+TEST(WithoutUnlikeRuns, ARunFarOffIsEnoughThoughNothingIsUnexplained) {
+  Diagnosis adequate = answer(false, false);
+  adequate.innovations_of_run_m = {1, 10.1, 0.9};
+  EXPECT_THAT(left_out({}, adequate), ElementsAre(1));
+  adequate.innovations_of_run_m = {1, 9.9, 0.9};
+  EXPECT_THAT(left_out({}, adequate), IsEmpty());
+}
+
+TEST(WithoutUnlikeRuns, DataThatAreRefusedStayRefused) {
+  Diagnosis refused = unexplained({1, 40});
+  refused.findings.push_back({logs::Finding::Kind::kFatal, "too_short", ""});
+  EXPECT_THAT(left_out({}, refused), IsEmpty());
+}
+
+}  // namespace
+}  // namespace towbench::study::diagnose
