@@ -65,12 +65,14 @@ class Seeker {
     return best;
   }
 
-  // The shape that leaves the least, if that is clearly less than `loss`.
-  std::optional<Unexplained> better_than(const VectorXd& loss) {
+  // The shape that leaves the least, if that is clearly less than `loss`; of other coordinates than
+  // `but`.
+  std::optional<Unexplained> better_than(const VectorXd& loss, const std::string& but) {
     const Frame frame{&data_, search_.context, search_.bandwidth, search_.spans};
     std::optional<Unexplained> best;
     double least = loss.sum();
     for (const FreeShape& shape : shapes_) {
+      if (shape.coordinate == but) continue;
       auto found = of(shape);
       if (!found || loss_.sum() >= least || !is_a_force(*found)) continue;
       const double share = share_of(frame, loss.sum() - loss_.sum(), loss.sum(), search_.final);
@@ -214,10 +216,12 @@ double earlier_power(double gain) {
   return 1 / ((1 - gain) * (1 - gain)) - 1;
 }
 
-bool refutes(const Against& shape, std::size_t i, double gain) {
+// A finer shape of what a cause is a force of does not speak against it.
+bool refutes(const Against& shape, std::size_t i, const Cause& cause) {
+  if (shape.what.coordinate == cause.effect->along) return false;
   const auto [stands_for, force_N] = shape.causes[i];
   if (shape.smooth && !stands_for) return false;
-  const double power = earlier_power(std::clamp(gain, 0.0, 0.999));
+  const double power = earlier_power(std::clamp(cause.gain.gain, 0.0, 0.999));
   const bool takes_its_force = force_N > 0 && shape.what.rms_N >= kForceMisfit * force_N;
   return further_power(shape.what.share) >= kMisfit * power || (stands_for && takes_its_force);
 }
@@ -227,7 +231,7 @@ std::optional<std::size_t> refuted_by(const Against& shape, const std::vector<Ca
   std::optional<std::size_t> least;
   for (std::size_t i = 0; i < causes.size(); ++i) {
     const double gain = causes[i].gain.gain;
-    if (refutes(shape, i, gain) && (!least || gain < causes[*least].gain.gain)) least = i;
+    if (refutes(shape, i, causes[i]) && (!least || gain < causes[*least].gain.gain)) least = i;
   }
   return least;
 }
@@ -249,7 +253,7 @@ std::optional<Unexplained> drop_for_a_shape(Data& data, Search& search) {
   for (std::size_t i = 0; i < search.causes.size(); ++i) {
     Search rest = search;
     rest.final = without(frame, search.final, i);
-    auto better = Seeker(data, rest).better_than(search.final.loss);
+    auto better = Seeker(data, rest).better_than(search.final.loss, search.causes[i].effect->along);
     if (better && drop(data, search, i)) return better;
   }
   return std::nullopt;

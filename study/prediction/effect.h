@@ -33,6 +33,7 @@ struct Effect {
   double most = 0;          // of its first amplitude's size; 0: no limit
   double own = 0.02;        // least share of its shape that the model must be unable to make
   bool flexible = false;    // a free shape, that takes on what is not its own
+  std::string along{};      // what it is a force of, in any shape; empty: its law is a certain one
   double whole = 0;         // the amplitude that its law fixes; 0: none
   bool structural = false;  // so large where it acts that no fit without it means anything
   int other = -1;           // which of the log's other axes it is about; -1: none

@@ -81,6 +81,7 @@ void add_place_effects(std::vector<Effect>& library) {
                      .amplitude_names = shape_names("N"),
                      .covers = "cable_spring",
                      .flexible = true,
+                     .along = "position",
                      .shares_mean_with = Key::kBias,
                      .grid = no_scale,
                      .set = set_nothing,

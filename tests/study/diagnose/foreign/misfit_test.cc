@@ -89,6 +89,11 @@ TEST(Misfit, OfFrictionThatItsOwnHeatChangesIsNotCalledDriftOverTheSession) {
   EXPECT_TRUE(!found.causes.empty() || found.unexplained.has_value());
 }
 
+// Finer over the place than the six shapes of the law, which is any force by the place.
+TEST(Misfit, IsNoneOfAFinerForceByThePlace) {
+  EXPECT_EQ(answer_to("one", "position_force", 101010).words(), "position_force");
+}
+
 TEST(Misfit, IsNoneWhereTheLawIsTheRightOne) {
   const auto answer = answer_to("one", "low_speed_rolloff", 70009);
   EXPECT_EQ(answer.words(), "low_speed_rolloff");
