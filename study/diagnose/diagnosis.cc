@@ -197,7 +197,7 @@ Diagnosis diagnose_all(const Request& given) {
       search.final.fitted.e.norm() / std::sqrt(static_cast<double>(search.final.fitted.e.size()));
   tell("what would separate causes");
   name_causes(d, search);
-  d.parameters = judge_parameters(data, search);
+  d.parameters = judge_parameters(data, search, !request.aside.empty());
   tell("what the data cannot show");
   d.not_testable = find_not_testable(search);
   d.innovations_of_run_m = innovations_of_run_m(data, search);

@@ -26,7 +26,9 @@ enum BaseParameter : std::size_t { kInertia, kViscousFriction, kDryFriction, kCo
 // Classes: {inertia, added_mass}; all by one ratio: {amplifier_gain}; inertia and viscous by one
 // ratio, Coulomb as stated: {encoder_count_loss}, or both where the data allow either; Coulomb by
 // another ratio: {amplifier_gain} beside it, two things; bias: {constant_bias, coulomb_asymmetry}.
-[[nodiscard]] std::vector<ParameterShift> judge_parameters(const Data& data, const Search& search);
+// `some_left_out`: the runs are those that are left of several, and may differ from these.
+[[nodiscard]] std::vector<ParameterShift> judge_parameters(const Data& data, const Search& search,
+                                                           bool some_left_out);
 
 // Whether a wrong gain may stand behind the shifts of inertia, viscous and dry friction.
 [[nodiscard]] bool may_be_gain(const std::vector<ParameterShift>& shifts);

@@ -103,9 +103,13 @@ std::vector<Variation> varied(const Model& model, const std::vector<FreeParamete
   return out;
 }
 
+double runs_differ_N(const Context& c) {
+  return kRunsDiffer * std::max(c.stated.coulomb_N, 0.2 * c.input_rms_N);
+}
+
 VectorXd ridge_of(const std::vector<FreeParameter>& free, const Context& c, double mean_square) {
   VectorXd ridge = VectorXd::Zero(std::ssize(free));
-  const double usual = kRunsDiffer * std::max(c.stated.coulomb_N, 0.2 * c.input_rms_N);
+  const double usual = runs_differ_N(c);
   for (std::size_t j = 0; j < free.size(); ++j) {
     if (is_held(free[j])) {
       ridge[static_cast<Index>(j)] = mean_square / (usual * usual);

@@ -29,6 +29,8 @@ struct FreeParameter {
 // One a free parameter, moved by its step: columns -de/dp, so that e = X (p_true - p) + rest.
 [[nodiscard]] std::vector<Variation> varied(const Model& model,
                                             const std::vector<FreeParameter>& free);
+// By how much dry friction and offset of one machine's runs usually differ.
+[[nodiscard]] double runs_differ_N(const Context& c);
 // One a free parameter: what a run has of its own is held near zero by what runs usually differ by.
 [[nodiscard]] Eigen::VectorXd ridge_of(const std::vector<FreeParameter>& free,
                                        const Context& context, double mean_square);

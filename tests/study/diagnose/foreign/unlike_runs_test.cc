@@ -53,6 +53,13 @@ TEST_F(UnlikeRun, IsLeftOutBesideAnother) {
   EXPECT_THAT(left_out(), ElementsAre("pushed", "pushed"));
 }
 
+// The other run is of its own session, whose friction is 3.6 % less.
+TEST_F(UnlikeRun, LeavesARunWhoseFrictionMayBeItsOwn) {
+  diagnose("none", 71042);
+  EXPECT_THAT(left_out(), ElementsAre("pushed"));
+  EXPECT_EQ(answer_of(found_).words(), "nothing");
+}
+
 // A law that the library does not have acts in all of them.
 TEST_F(UnlikeRun, IsNoneOfThoseWithAnUnknownLaw) {
   diagnose("outside", 81020);
