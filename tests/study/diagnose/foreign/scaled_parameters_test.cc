@@ -10,17 +10,36 @@ namespace {
 
 using ::testing::IsSupersetOf;
 using ::testing::SizeIs;
+using ::testing::UnorderedElementsAre;
 
-// A light direct drive, of whose force dry friction is little.
-TEST(ScaledParameters, MayBeLostCountsOrAWrongGainWhereDryFrictionCannotTell) {
+// A light direct drive with lost counts, of whose force dry friction is little.
+Answer answer_to_lost_counts(bool pushed_alone) {
   Wish wish;
   wish.kind = "one";
   const auto drawn = draw_case(wish, 73018);
   EXPECT_EQ(drawn.hidden.front().name, "encoder_count_loss");
-  const auto answer = answer_of(study::diagnose::diagnose(request_of(drawn)));
+  auto request = request_of(drawn);
+  if (pushed_alone) {
+    EXPECT_EQ(request.runs.front().name, "pushed");
+    request.runs.resize(1);
+  }
+  return answer_of(study::diagnose::diagnose(request));
+}
+
+// Somebody leans on it.
+TEST(ScaledParameters, MayBeLostCountsOrAWrongGainWhereDryFrictionCannotTell) {
+  const auto answer = answer_to_lost_counts(true);
   ASSERT_THAT(answer.causes, SizeIs(1)) << answer.words();
   EXPECT_THAT(answer.causes.front().names,
               IsSupersetOf({"inertia", "amplifier_gain", "encoder_count_loss"}));
+}
+
+// That run is left out of five.
+TEST(ScaledParameters, AreLostCountsWhereDryFrictionTells) {
+  const auto answer = answer_to_lost_counts(false);
+  ASSERT_THAT(answer.causes, SizeIs(1)) << answer.words();
+  EXPECT_THAT(answer.causes.front().names,
+              UnorderedElementsAre("inertia", "added_mass", "encoder_count_loss"));
 }
 
 }  // namespace
