@@ -39,16 +39,20 @@ Request with_aside(const Request& all, const std::vector<std::size_t>& which) {
   return out;
 }
 
+bool has_free_shape(const Diagnosis& d) {
+  return std::any_of(d.causes.begin(), d.causes.end(), [](const NamedCause& cause) {
+    return cause.effect != nullptr && cause.effect->flexible;
+  });
+}
+
 // Better than `all` does.
 bool explains_the_others(const Diagnosis& others, const Diagnosis& all) {
   if (is_fatal(others.findings)) return false;
+  if (others.causes.empty() && (others.unexplained || !all.causes.empty())) return false;
+  if (has_free_shape(others)) return false;  // that takes on what is not its own
+  const double unlike = others.unexplained ? kQuiteUnlike : kUnlike;
   const auto& aside_N = others.aside.rms_N;
-  const double least_N = *std::min_element(aside_N.begin(), aside_N.end());
-  if (others.unexplained) {
-    return !others.causes.empty() && least_N > kQuiteUnlike * others.aside.others_rms_N;
-  }
-  return (!others.causes.empty() || all.causes.empty()) &&
-         least_N > kUnlike * others.aside.others_rms_N;
+  return *std::min_element(aside_N.begin(), aside_N.end()) > unlike * others.aside.others_rms_N;
 }
 
 // What is in the runs left out stays unexplained, beside what is in the others.
