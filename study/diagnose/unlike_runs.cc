@@ -40,9 +40,8 @@ Request with_aside(const Request& all, const std::vector<std::size_t>& which) {
 }
 
 bool has_free_shape(const Diagnosis& d) {
-  return std::any_of(d.causes.begin(), d.causes.end(), [](const NamedCause& cause) {
-    return cause.effect != nullptr && cause.effect->flexible;
-  });
+  return std::any_of(d.causes.begin(), d.causes.end(),
+                     [](const NamedCause& cause) { return cause.effect->flexible; });
 }
 
 // Better than `all` does.

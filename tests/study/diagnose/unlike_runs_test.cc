@@ -1,6 +1,8 @@
 // When the answer of some runs is taken for that of all, by answers that are made up.
 #include "study/diagnose/unlike_runs.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,13 +17,19 @@ struct MadeUp {
   double unlike = 3;  // times what they lack, of each run put aside
   bool names_a_cause = false;
   bool is_unexplained = false;
+  bool is_free_shape = false;
   std::vector<std::size_t> asked{};  // how many runs were put aside, each time
 };
 MadeUp made_up;
 
+const Effect* effect_that(bool is_free_shape) {
+  return &*std::find_if(effects().begin(), effects().end(),
+                        [&](const Effect& effect) { return effect.flexible == is_free_shape; });
+}
+
 Diagnosis answer(bool names_a_cause, bool is_unexplained) {
   Diagnosis d;
-  if (names_a_cause) d.causes.emplace_back();
+  if (names_a_cause) d.causes.emplace_back().effect = effect_that(made_up.is_free_shape);
   if (is_unexplained) d.unexplained.emplace();
   d.verdicts.emplace_back(is_unexplained ? "unexplained_structure" : "model_adequate");
   return d;
@@ -102,6 +110,12 @@ TEST(WithoutUnlikeRuns, OthersThatAreNotExplainedNeedACauseAndFiveTimes) {
 TEST(WithoutUnlikeRuns, ACauseIsNotExchangedForNone) {
   EXPECT_THAT(left_out({.unlike = 50}, unexplained({1, 4}, true)), IsEmpty());
   EXPECT_THAT(left_out({.names_a_cause = true}, unexplained({1, 4}, true)), ElementsAre(1));
+}
+
+TEST(WithoutUnlikeRuns, AFreeShapeIsNotBelieved) {
+  EXPECT_THAT(
+      left_out({.unlike = 50, .names_a_cause = true, .is_free_shape = true}, unexplained({1, 4})),
+      IsEmpty());
 }
 
 TEST(WithoutUnlikeRuns, ARunFarOffIsEnoughThoughNothingIsUnexplained) {
