@@ -21,6 +21,8 @@ constexpr double kLeastGain = 0.02;
 constexpr double kPastGain = 0.1;      // that the past predicts; a wrong noise model does less
 constexpr double kMisfit = 0.12;       // of the power that a cause predicts, left for a free shape
 constexpr double kForceMisfit = 0.05;  // of its force, for a shape that can stand for it
+constexpr double kSmallMisfit = 0.2;   // of its force, for a shape too small to matter by itself
+constexpr double kSmallPower = 0.3;    // of the power it predicts, where its force is not known
 constexpr double kStandsFor = 0.3;     // of a column of a cause, rms, that a shape cannot make
 constexpr double kInPlaceErrors = 4;   // by which a shape in a cause's place predicts better
 constexpr double kInPlaceShare = 0.2;  // of the squares beyond the encoder steps
@@ -34,6 +36,7 @@ struct Against {
   };
   Unexplained what;
   bool smooth = false;
+  bool matters = false;  // by itself: too small, it only speaks against causes as small
   std::vector<Cause> causes;
 };
 
@@ -59,7 +62,8 @@ class Seeker {
       if (shape.smooth != smooth) continue;
       auto found = of(shape);
       if (found && (!best || found->share > best->what.share)) {
-        best = Against{*std::move(found), smooth, causes_};
+        const bool matters = is_a_force(*found);
+        best = Against{*std::move(found), smooth, matters, causes_};
       }
     }
     return best;
@@ -220,10 +224,14 @@ double earlier_power(double gain) {
 bool refutes(const Against& shape, std::size_t i, const Cause& cause) {
   if (shape.what.coordinate == cause.effect->along) return false;
   const auto [stands_for, force_N] = shape.causes[i];
+  const double power = further_power(shape.what.share) /
+                       std::max(1e-9, earlier_power(std::clamp(cause.gain.gain, 0.0, 0.999)));
+  if (!shape.matters) {
+    return force_N > 0 ? shape.what.rms_N >= kSmallMisfit * force_N : power >= kSmallPower;
+  }
   if (shape.smooth && !stands_for) return false;
-  const double power = earlier_power(std::clamp(cause.gain.gain, 0.0, 0.999));
   const bool takes_its_force = force_N > 0 && shape.what.rms_N >= kForceMisfit * force_N;
-  return further_power(shape.what.share) >= kMisfit * power || (stands_for && takes_its_force);
+  return power >= kMisfit || (stands_for && takes_its_force);
 }
 
 // The weakest of those that the shape refutes.
@@ -270,10 +278,10 @@ std::optional<Unexplained> judge_rest(Data& data, Search& search) {
     std::optional<std::size_t> refuted;
     for (const bool smooth : {false, true}) {
       const auto shape = seeker->best_shape(smooth);
-      if (refuted || !shape || !seeker->is_a_force(shape->what)) continue;
+      if (refuted || !shape) continue;
       refuted = refuted_by(*shape, search.causes);
       if (refuted) refuting = shape->what;
-      if (!most || shape->what.share > most->share) most = shape->what;
+      if (shape->matters && (!most || shape->what.share > most->share)) most = shape->what;
     }
     if (refuted && drop(data, search, *refuted)) {
       against = refuting;

@@ -75,6 +75,12 @@ TEST(Misfit, OfASpringThatCreepsIsNotCalledPresliding) {
   expect_unexplained("outside_memory", 86008);
 }
 
+// 3 % of the drive force, of place and speed together: what a force by the place leaves of it is
+// below 1 %.
+TEST(Misfit, OfAFaintForceIsNotCalledAForceByThePlace) {
+  expect_unexplained("outside_faint", 104015);
+}
+
 // The library has friction that falls with what it has dissipated, linear in it; this one
 // saturates.
 TEST(Misfit, OfFrictionThatItsOwnHeatChangesIsNotCalledDriftOverTheSession) {
