@@ -69,14 +69,16 @@ toml::table plant_before(const DiagnoseOptions& options, const PlantModel& plant
   return has_no_model(options) ? diagnose::estimated_plant(d) : plant.plant;
 }
 
-// The logs that judge; of the fitted ones, those that no hand moves.
+// The logs that judge; of the fitted ones, those that no hand moves, and while none does.
 std::vector<diagnose::Run> judging_runs(const diagnose::Request& request,
                                         const diagnose::Diagnosis& d) {
   if (!request.holdout.empty()) return request.holdout;
+  std::vector<diagnose::Run> all = request.runs;
+  diagnose::leave_out(d.stretches, all);
   std::vector<diagnose::Run> runs;
-  for (std::size_t run = 0; run < request.runs.size(); ++run) {
+  for (std::size_t run = 0; run < all.size(); ++run) {
     const bool left_out = std::find(d.left_out.begin(), d.left_out.end(), run) != d.left_out.end();
-    if (!left_out) runs.push_back(request.runs[run]);
+    if (!left_out) runs.push_back(std::move(all[run]));
   }
   return runs;
 }

@@ -9,6 +9,7 @@
 #include "study/diagnose/momentum.h"
 #include "study/diagnose/run_checks.h"
 #include "study/diagnose/unlike_runs.h"
+#include "study/diagnose/unlike_stretches.h"
 #include "study/statistics/statistics.h"
 
 namespace towbench::study::diagnose {
@@ -127,11 +128,13 @@ std::vector<double> innovations_of_run_m(const Data& data, const Search& search)
   return rms_m;
 }
 
-Aside score_aside(const std::vector<Run>& runs, const Data& data, const Search& search) {
+Aside score_aside(const Request& given, const Data& data, const Search& search) {
+  if (given.aside.empty()) return score_stretches(given.stretches, given.runs, search);
   Aside aside;
-  if (runs.empty()) return aside;
   aside.others_rms_N = score_within(data, search).after_rms_N;
-  for (const Run& run : runs) aside.rms_N.push_back(score_on({run}, data, search).after_rms_N);
+  for (const Run& run : given.aside) {
+    aside.rms_N.push_back(score_on({run}, data, search).after_rms_N);
+  }
   return aside;
 }
 
@@ -149,6 +152,7 @@ namespace {
 Diagnosis diagnose_all(const Request& given) {
   Diagnosis d;
   Request request = given;
+  leave_out(request.stretches, request.runs);
   const auto tell = [&](const char* what_next) {
     if (request.progress) {
       request.progress(what_next);
@@ -201,7 +205,8 @@ Diagnosis diagnose_all(const Request& given) {
   tell("what the data cannot show");
   d.not_testable = find_not_testable(search);
   d.innovations_of_run_m = innovations_of_run_m(data, search);
-  d.aside = score_aside(request.aside, data, search);
+  d.windows_m = windows_m(data, search);
+  d.aside = score_aside(given, data, search);
   tell("scoring, and running both models by themselves");
   d.scored = request.holdout.empty() ? score_within(data, search)
                                      : score_on(request.holdout, data, search);
@@ -217,6 +222,7 @@ Diagnosis diagnose_all(const Request& given) {
 
 Diagnosis diagnose(const Request& request) {
   Diagnosis d = diagnose_all(request);
+  if (auto rest = without_unlike_stretches(request, d, diagnose_all)) return *std::move(rest);
   if (auto others = without_unlike_runs(request, d, diagnose_all)) return *std::move(others);
   return d;
 }

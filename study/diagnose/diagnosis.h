@@ -11,6 +11,7 @@
 #include "study/diagnose/parameters.h"
 #include "study/diagnose/scored.h"
 #include "study/diagnose/series.h"
+#include "study/diagnose/stretches.h"
 #include "study/diagnose/testability.h"
 #include "study/diagnose/unexplained.h"
 #include "study/logs/finding.h"
@@ -23,8 +24,9 @@ using Progress = std::function<void(const std::string&)>;
 struct Request {
   NominalModel model;
   std::vector<Run> runs;
-  std::vector<Run> holdout;  // only scored, never fitted; none: the gain is cross-validated
-  std::vector<Run> aside{};  // only asked how much worse they are predicted than `runs`
+  std::vector<Run> holdout;          // only scored, never fitted; none: the gain is cross-validated
+  std::vector<Run> aside{};          // only asked how much worse they are predicted than `runs`
+  std::vector<Stretch> stretches{};  // of `runs`, put aside likewise
   Progress progress{};
 };
 
@@ -62,12 +64,6 @@ struct Considered {
   bool plausible = false;      // sign and size as its law allows
 };
 
-// What the extended model lacks in the runs that were put aside, and in the others.
-struct Aside {
-  std::vector<double> rms_N;
-  double others_rms_N = 0;
-};
-
 struct Diagnosis {
   std::vector<std::string> verdicts;  // model_adequate, parameters_off, cause_found, ...
   logs::Findings findings;            // a fatal one: nothing below is filled
@@ -87,13 +83,16 @@ struct Diagnosis {
   double bandwidth = 0;              // rad/s
   double innovations_m = 0;          // rms that is left
   std::vector<double> innovations_of_run_m;
+  std::vector<std::vector<double>> windows_m;  // the same of each window of each run
   Aside aside;
   std::vector<std::size_t> left_out;  // of the runs, those that something moves which no log has
+  std::vector<Stretch> stretches;     // the same of the runs' stretches
   std::size_t tried = 0;
   Series series;  // for pictures
 };
 
-// Where something stays unexplained because of runs that are unlike the others, these are left out.
+// Where something stays unexplained because of stretches or runs that are unlike the others, these
+// are left out.
 [[nodiscard]] Diagnosis diagnose(const Request& request);
 
 }  // namespace towbench::study::diagnose

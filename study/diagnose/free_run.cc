@@ -17,7 +17,8 @@ using Eigen::VectorXd;
 constexpr Index kFewest = 12;
 constexpr double kStart_s = 0.02;  // whose line is the speed that a whole run begins with
 
-// Squares of the distances at the windows' ends: the state at a start is the corrected one.
+// Squares of the distances at the ends of windows in which all is measured: the state at a start is
+// the corrected one.
 std::vector<double> windows_of(const Data& data, const Model& model, double bandwidth) {
   std::vector<double> squares;
   for (std::size_t i = 0; i < data.scenes.size(); ++i) {
@@ -33,7 +34,7 @@ std::vector<double> windows_of(const Data& data, const Model& model, double band
     for (Index k = 0; k + length < run.size(); ++k) {
       const double off = run.position_m[k] - axis.reading_m();
       axis.correct(correction, off);
-      if (k >= settled && k % between == 0) {
+      if (k >= settled && k % between == 0 && run.is_measured(k, k + length + 1)) {
         Axis free = axis;
         for (Index j = k; j < k + length; ++j) free.step(j);
         const double end = run.position_m[k + length] - free.reading_m();

@@ -156,7 +156,10 @@ std::string next_step(const Diagnosis& d) {
                          cause.effect->needs);
     }
   }
-  if (!d.left_out.empty()) return "find out what touched the axis in the runs that are left out";
+  if (!d.left_out.empty() || !d.stretches.empty()) {
+    return fmt::format("find out what touched the axis in the {} that are left out",
+                       d.left_out.empty() ? "stretches" : "runs");
+  }
   if (d.unexplained) {
     return d.unexplained->at.empty()
                ? std::string(

@@ -183,12 +183,14 @@ VectorXd off_m(EmulatedAxis axis, const Scene& scene, std::optional<Index> lengt
   return off;
 }
 
-// Squares of the distances at the ends of the windows.
+// Squares of the distances at the ends of the windows in which all is measured.
 std::vector<double> windows_of(const EmulatedAxis& axis, const Scene& scene) {
   const Index length = std::max<Index>(2, std::lround(kWindow_s / scene.run->period_s));
   const VectorXd off = off_m(axis, scene, length);
   std::vector<double> squares;
-  for (Index k = length; k < off.size(); k += length) squares.push_back(off[k] * off[k]);
+  for (Index k = length; k < off.size(); k += length) {
+    if (scene.run->is_measured(k - length, k + 1)) squares.push_back(off[k] * off[k]);
+  }
   return squares;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,11 @@ struct Run {
   double input_step_N = 0;        // smallest step of the input; 0 when it has none
 
   [[nodiscard]] Eigen::Index size() const noexcept { return position_m.size(); }
+  // Whether each sample from `from` to before `to` is a measurement.
+  [[nodiscard]] bool is_measured(Eigen::Index from, Eigen::Index to) const noexcept {
+    return missing.empty() ||
+           std::find(missing.begin() + from, missing.begin() + to, 1) == missing.begin() + to;
+  }
 };
 
 }  // namespace towbench::study::diagnose

@@ -1,0 +1,44 @@
+#include "study/diagnose/aside.h"
+
+#include <algorithm>
+
+namespace towbench::study::diagnose {
+namespace {
+
+constexpr double kQuiteUnlike = 5;  // where something stays unexplained in it too
+
+// That `all` does not have: it takes on what is not its own.
+bool has_new_free_shape(const Diagnosis& rest, const Diagnosis& all) {
+  return std::any_of(rest.causes.begin(), rest.causes.end(), [&](const NamedCause& cause) {
+    return cause.effect->flexible &&
+           std::none_of(all.causes.begin(), all.causes.end(),
+                        [&](const NamedCause& other) { return other.effect == cause.effect; });
+  });
+}
+
+}  // namespace
+
+bool are_unlike(const Diagnosis& rest, double times) {
+  const auto& aside_N = rest.aside.rms_N;
+  return *std::min_element(aside_N.begin(), aside_N.end()) > times * rest.aside.others_rms_N;
+}
+
+bool explains_the_rest(const Diagnosis& rest, const Diagnosis& all) {
+  if (is_fatal(rest.findings)) return false;
+  if (rest.causes.empty() && (rest.unexplained || !all.causes.empty())) return false;
+  if (has_new_free_shape(rest, all)) return false;
+  return are_unlike(rest, rest.unexplained ? kQuiteUnlike : kUnlike);
+}
+
+void tell_of_aside(const std::string& in, const Diagnosis& all, Diagnosis& rest) {
+  if (rest.unexplained) return;
+  rest.verdicts.emplace_back("unexplained_structure");
+  const double most_N = *std::max_element(rest.aside.rms_N.begin(), rest.aside.rms_N.end());
+  rest.unexplained = Unexplained{.coordinate = "time in " + in,
+                                 .share = 1 - rest.aside.others_rms_N / most_N,
+                                 .rms_N = most_N,
+                                 .p_value = all.unexplained ? all.unexplained->p_value : 0};
+  std::erase(rest.verdicts, "model_adequate");
+}
+
+}  // namespace towbench::study::diagnose
