@@ -213,7 +213,8 @@ Diagnosis diagnose_all(const Request& given) {
   d.free_run = run_free(
       request.holdout.empty() ? data : make_data_like(data, request.holdout, request.model),
       search);
-  d.series = make_series(data, search);
+  const bool all_is_there = given.stretches.empty();  // pictures show what was put aside
+  d.series = make_series(all_is_there ? data : make_data(given.runs, request.model), search);
   conclude(d);
   return d;
 }
