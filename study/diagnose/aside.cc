@@ -16,6 +16,11 @@ bool has_new_free_shape(const Diagnosis& rest, const Diagnosis& all) {
   });
 }
 
+bool all_gain(const std::vector<NamedCause>& causes) {
+  return std::all_of(causes.begin(), causes.end(),
+                     [](const NamedCause& cause) { return cause.gain99.low > 0; });
+}
+
 }  // namespace
 
 bool are_unlike(const Diagnosis& rest, double times) {
@@ -26,7 +31,7 @@ bool are_unlike(const Diagnosis& rest, double times) {
 bool explains_the_rest(const Diagnosis& rest, const Diagnosis& all) {
   if (is_fatal(rest.findings)) return false;
   if (rest.causes.empty() && (rest.unexplained || !all.causes.empty())) return false;
-  if (has_new_free_shape(rest, all)) return false;
+  if (has_new_free_shape(rest, all) || !all_gain(rest.causes)) return false;
   return are_unlike(rest, rest.unexplained ? kQuiteUnlike : kUnlike);
 }
 

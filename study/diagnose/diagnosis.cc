@@ -102,6 +102,17 @@ void name_causes(Diagnosis& d, const Search& search) {
   }
 }
 
+// A stated weight that is off by the ratio by which all else is.
+void tell_of_gain(Diagnosis& d) {
+  const Parameters stated = parameters_of(d.context.stated);
+  for (NamedCause& cause : d.causes) {
+    if (cause.effect->name != "gravity") continue;
+    if (may_be_gain(d.parameters, cause.sizes[0].ci95, cause.sizes[1].ci95, stated)) {
+      cause.alternatives.emplace_back("amplifier_gain");
+    }
+  }
+}
+
 void conclude(Diagnosis& d) {
   if (std::any_of(d.parameters.begin(), d.parameters.end(),
                   [](const ParameterShift& shift) { return shift.moved; })) {
@@ -202,6 +213,7 @@ Diagnosis diagnose_all(const Request& given) {
   tell("what would separate causes");
   name_causes(d, search);
   d.parameters = judge_parameters(data, search, !request.aside.empty());
+  tell_of_gain(d);
   tell("what the data cannot show");
   d.not_testable = find_not_testable(search);
   d.innovations_of_run_m = innovations_of_run_m(data, search);

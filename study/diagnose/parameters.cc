@@ -53,14 +53,19 @@ struct Ratio {
   double error = 0;
 };
 
-Ratio ratio_of(const ParameterShift& shift) {
-  const double error = (shift.fitted.high - shift.fitted.low) / (2 * statistics::kNormal95);
-  return {shift.fitted.value / shift.supplied, error / std::abs(shift.supplied)};
+double error_of(const Interval& ci95) {
+  return (ci95.high - ci95.low) / (2 * statistics::kNormal95);
 }
+
+Ratio ratio_of(const ParameterShift& shift) {
+  return {shift.fitted.value / shift.supplied, error_of(shift.fitted) / std::abs(shift.supplied)};
+}
+
+constexpr double kOffAlike = 0.1;  // of how much is off
 
 bool agree(const Ratio& a, const Ratio& b) {
   return std::abs(a.value - b.value) <
-         std::max(3 * std::hypot(a.error, b.error), 0.1 * std::abs(a.value - 1));
+         std::max(3 * std::hypot(a.error, b.error), kOffAlike * std::abs(a.value - 1));
 }
 
 // What may stand behind a shift of inertia, of viscous and of Coulomb friction, each.
@@ -147,6 +152,18 @@ bool may_be_gain(const std::vector<ParameterShift>& shifts) {
   return std::all_of(causes.begin(), causes.end(), [](const auto& of_one) {
     return std::find(of_one.begin(), of_one.end(), kGain) != of_one.end();
   });
+}
+
+bool may_be_gain(const std::vector<ParameterShift>& shifts, const Interval& sine_Nm,
+                 const Interval& cosine_Nm, const Parameters& stated) {
+  const double size_Nm = std::hypot(stated[Key::kGravitySine], stated[Key::kGravityCosine]);
+  if (size_Nm == 0 || !may_be_gain(shifts)) return false;
+  const Ratio mass = ratio_of(shifts[kInertia]);
+  const double off_Nm = std::hypot(sine_Nm.value - mass.value * stated[Key::kGravitySine],
+                                   cosine_Nm.value - mass.value * stated[Key::kGravityCosine]);
+  const double error =
+      std::hypot(error_of(sine_Nm) / size_Nm, error_of(cosine_Nm) / size_Nm, mass.error);
+  return off_Nm / size_Nm < std::max(3 * error, kOffAlike * std::abs(mass.value - 1));
 }
 
 }  // namespace towbench::study::diagnose

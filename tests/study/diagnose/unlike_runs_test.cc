@@ -18,6 +18,7 @@ struct MadeUp {
   bool names_a_cause = false;
   bool is_unexplained = false;
   bool is_free_shape = false;
+  double least_gain = 0.1;           // of the cause
   std::vector<std::size_t> asked{};  // how many runs were put aside, each time
 };
 MadeUp made_up;
@@ -29,7 +30,11 @@ const Effect* effect_that(bool is_free_shape) {
 
 Diagnosis answer(bool names_a_cause, bool is_unexplained) {
   Diagnosis d;
-  if (names_a_cause) d.causes.emplace_back().effect = effect_that(made_up.is_free_shape);
+  if (names_a_cause) {
+    NamedCause& cause = d.causes.emplace_back();
+    cause.effect = effect_that(made_up.is_free_shape);
+    cause.gain99.low = made_up.least_gain;
+  }
   if (is_unexplained) d.unexplained.emplace();
   d.verdicts.emplace_back(is_unexplained ? "unexplained_structure" : "model_adequate");
   return d;
@@ -116,6 +121,12 @@ TEST(WithoutUnlikeRuns, AFreeShapeIsNotBelieved) {
   EXPECT_THAT(
       left_out({.unlike = 50, .names_a_cause = true, .is_free_shape = true}, unexplained({1, 4})),
       IsEmpty());
+}
+
+TEST(WithoutUnlikeRuns, ACauseThatMayGainNothingIsNotBelieved) {
+  const Diagnosis all = unexplained({1, 4});
+  EXPECT_THAT(left_out({.names_a_cause = true, .least_gain = -0.01}, all), IsEmpty());
+  EXPECT_THAT(left_out({.names_a_cause = true, .least_gain = 0.01}, all), ElementsAre(1));
 }
 
 TEST(WithoutUnlikeRuns, ARunFarOffIsEnoughThoughNothingIsUnexplained) {
