@@ -8,6 +8,7 @@
 namespace towbench::tests::foreign {
 namespace {
 
+using ::testing::Contains;
 using ::testing::IsSupersetOf;
 using ::testing::SizeIs;
 using ::testing::UnorderedElementsAre;
@@ -40,6 +41,19 @@ TEST(ScaledParameters, AreLostCountsWhereDryFrictionTells) {
   ASSERT_THAT(answer.causes, SizeIs(1)) << answer.words();
   EXPECT_THAT(answer.causes.front().names,
               UnorderedElementsAre("inertia", "added_mass", "encoder_count_loss"));
+}
+
+// A joint whose stated weight is off by the ratio by which inertia and friction are.
+TEST(ScaledParameters, OfAWeightMayBeAWrongGain) {
+  Wish wish;
+  wish.kind = "one";
+  const auto drawn = draw_case(wish, 108025);
+  EXPECT_EQ(drawn.hidden.front().name, "amplifier_gain");
+  const auto answer = answer_of(study::diagnose::diagnose(request_of(drawn)));
+  EXPECT_THAT(answer.causes, SizeIs(3)) << answer.words();
+  for (const Named& cause : answer.causes) {
+    EXPECT_THAT(cause.names, Contains("amplifier_gain"));
+  }
 }
 
 }  // namespace

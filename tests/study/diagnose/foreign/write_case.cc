@@ -50,21 +50,23 @@ std::string map_of(const DrawnCase& one) {
       one.machine.kind, one.machine.input, one.machine.newton_per_unit, one.machine.joint());
 }
 
-// Behind a gear of 100; its motor is so strong that it limits nothing.
+// Behind a gear of 100. Its motor limits nothing: at four times the top speed it still has no more
+// than the supply's voltage against it.
 std::string joint_of(const Machine& m, double stated_gravity) {
   constexpr double r = 0.01;
-  constexpr double kFull_A = 10;
+  constexpr double kSupply_V = 60;
+  const double full_A = std::max(10.0, 4 * m.top_speed_m_per_s * m.limit_N() / kSupply_V);
   return fmt::format(
       "# joint: stroke {:.3f}, top speed {:.3f}, {:.0f} Hz\n"
-      "schema = 1\n[supply]\nvoltage_V = 60.0\nover_current_A = 30.0\n"
+      "schema = 1\n[supply]\nvoltage_V = {:.1f}\nover_current_A = {:.1f}\n"
       "[axis.y]\ninertia_kg_m2 = {:.9g}\nviscous_friction_Nm_s_per_rad = {:.9g}\n"
       "coulomb_friction_Nm = {:.9g}\ntorque_constant_Nm_per_A = {:.9g}\n"
-      "amplifier_gain_A_per_V = 1.0\npwm_amplitude_V = {:.1f}\ncurrent_limit_A = {:.1f}\n"
+      "amplifier_gain_A_per_V = {:.9g}\npwm_amplitude_V = 10.0\ncurrent_limit_A = {:.9g}\n"
       "encoder_counts_per_rev = {:.0f}\n"
       "[axis.y.transmission]\nkind = \"gear\"\ngear_ratio = {:.1f}\n"
       "[axis.y.disturbances.gravity]\ntorque_Nm = {:.9g}\nzero_at_deg = {:.9g}\n",
-      m.stroke_m, m.top_speed_m_per_s, 1 / m.period_s, m.mass_kg * r * r,
-      m.viscous_N_s_per_m * r * r, m.coulomb_N * r, m.limit_N() * r / kFull_A, kFull_A, kFull_A,
+      m.stroke_m, m.top_speed_m_per_s, 1 / m.period_s, kSupply_V, 3 * full_A, m.mass_kg * r * r,
+      m.viscous_N_s_per_m * r * r, m.coulomb_N * r, m.limit_N() * r / full_A, full_A / 10, full_A,
       std::max(4.0, 4 * std::round(kTurn * r / m.metres_per_count / 4)), 1 / r,
       stated_gravity * m.gravity_N, m.gravity_at_rad * 360 / kTurn);
 }
