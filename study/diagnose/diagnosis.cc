@@ -194,7 +194,7 @@ Diagnosis diagnose_all(const Request& given) {
     search.causes.clear();
     search.final = search.base;
     d.unexplained.emplace();
-    d.unexplained->coordinate = "the motion as a whole";
+    d.unexplained->coordinate = kWholeMotion;
     d.unexplained->share = 1;
     d.unexplained->rms_N = search.context.input_rms_N;
     d.unexplained->p_value = 0;

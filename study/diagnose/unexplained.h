@@ -10,6 +10,10 @@
 
 namespace towbench::study::diagnose {
 
+// Coordinates that are no shape's: the innovations before, and all where a fit collapses.
+inline constexpr const char* kOwnPast = "its own past";
+inline constexpr const char* kWholeMotion = "the motion as a whole";
+
 struct Unexplained {
   std::string coordinate;
   double share = 0;               // of the prediction error that the shape takes away
@@ -22,8 +26,8 @@ struct Unexplained {
 
 // Drops causes whose law does not fit: a free shape predicts beside all of them an eighth of what
 // the weakest of them does (the test for lack of fit; Draper, Smith 1998, ch. 2); a smooth shape,
-// of those that it can stand for. Returns what no law explains; always something where a cause was
-// dropped.
+// of those that it can stand for; one below 1 % of the force, of causes as small. Returns what no
+// law explains; always something where a cause was dropped.
 [[nodiscard]] std::optional<Unexplained> judge_rest(Data& data, Search& search);
 
 }  // namespace towbench::study::diagnose

@@ -21,6 +21,7 @@ constexpr double kVeryFar = 10;       // the same, where nothing is unexplained
 constexpr std::size_t kBridged = 1;   // windows between two that are far off: a push turns over
 constexpr std::size_t kShortest = 2;  // windows: a reversal is shorter
 constexpr double kMostOfARun = 0.6;   // of a run
+constexpr double kByALaw = 0.4;       // of what is unexplained, explained by the motion
 constexpr int kRounds = 4;            // what is left out lets more be seen
 
 // Of each run, which of its windows are put aside.
@@ -89,6 +90,13 @@ std::vector<Stretch> stretches_of(const Marks& marks, const std::vector<Run>& ru
   return out;
 }
 
+// What is unexplained goes with the motion: it is no hand's.
+bool follows_the_motion(const Unexplained& u) {
+  const bool is_shape =
+      u.coordinate != "time" && u.coordinate != kOwnPast && u.coordinate != kWholeMotion;
+  return is_shape && u.share > kByALaw;
+}
+
 // Of each run that has some, as in the answer.
 std::vector<std::string> words_of(const Request& part) {
   std::map<std::size_t, std::vector<std::string>> of_run;
@@ -110,6 +118,7 @@ std::vector<std::string> words_of(const Request& part) {
 std::optional<Diagnosis> without_unlike_stretches(const Request& request, const Diagnosis& all,
                                                   Diagnosis (*diagnose_all)(const Request&)) {
   if (is_fatal(all.findings)) return std::nullopt;
+  if (all.unexplained && follows_the_motion(*all.unexplained)) return std::nullopt;
   Marks marks(request.runs.size());
   if (!all.unexplained && !mark(all, kVeryFar, marks)) return std::nullopt;
   marks.assign(request.runs.size(), {});

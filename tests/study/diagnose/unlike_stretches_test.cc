@@ -43,7 +43,7 @@ Diagnosis of_rest(const Request& request) {
 }
 
 // Windows of 25 samples; the last one is shorter.
-std::optional<Diagnosis> without(const Diagnosis& all, const MadeUpRest& rest = {}) {
+std::optional<Diagnosis> without_stretches(const Diagnosis& all, const MadeUpRest& rest = {}) {
   made_up_rest = rest;
   Request request;
   Run& run = request.runs.emplace_back();
@@ -63,40 +63,41 @@ std::vector<std::pair<Eigen::Index, Eigen::Index>> asked_last() {
 constexpr bool kUnexplained = true;
 
 TEST(WithoutUnlikeStretches, OneIsThreeTimesTheMedianForTwoWindowsAndOneOnEitherSide) {
-  without(with_windows({1, 1, 1, 1, 3.1, 3.1, 1, 1, 1, 1, 1, 1}, kUnexplained));
+  without_stretches(with_windows({1, 1, 1, 1, 3.1, 3.1, 1, 1, 1, 1, 1, 1}, kUnexplained));
   EXPECT_THAT(asked_last(), ElementsAre(std::pair(75, 175)));
-  without(with_windows({1, 1, 1, 1, 2.9, 3.1, 1, 1, 1, 1, 1, 1}, kUnexplained));
+  without_stretches(with_windows({1, 1, 1, 1, 2.9, 3.1, 1, 1, 1, 1, 1, 1}, kUnexplained));
   EXPECT_THAT(asked_last(), IsEmpty());
 }
 
 TEST(WithoutUnlikeStretches, OneReachesOverAWindowInWhichThePushTurnsOver) {
-  without(with_windows({1, 1, 1, 1, 4, 1, 4, 1, 1, 1, 1, 1}, kUnexplained));
+  without_stretches(with_windows({1, 1, 1, 1, 4, 1, 4, 1, 1, 1, 1, 1}, kUnexplained));
   EXPECT_THAT(asked_last(), ElementsAre(std::pair(75, 200)));
-  without(with_windows({1, 1, 1, 1, 4, 1, 1, 4, 1, 1, 1, 1}, kUnexplained));
+  without_stretches(with_windows({1, 1, 1, 1, 4, 1, 1, 4, 1, 1, 1, 1}, kUnexplained));
   EXPECT_THAT(asked_last(), IsEmpty());
 }
 
 TEST(WithoutUnlikeStretches, TheyEndWithTheRun) {
-  without(with_windows({4, 4, 1, 1, 1, 1, 1, 1, 1, 1, 4, 4}, kUnexplained));
+  without_stretches(with_windows({4, 4, 1, 1, 1, 1, 1, 1, 1, 1, 4, 4}, kUnexplained));
   EXPECT_THAT(asked_last(), ElementsAre(std::pair(0, 75), std::pair(225, 290)));
 }
 
 TEST(WithoutUnlikeStretches, NoneIsMostOfARun) {
-  EXPECT_FALSE(without(with_windows({1, 1, 4, 4, 1, 4, 4, 4, 1, 1, 1, 1}, kUnexplained)));
+  EXPECT_FALSE(without_stretches(with_windows({1, 1, 4, 4, 1, 4, 4, 4, 1, 1, 1, 1}, kUnexplained)));
   EXPECT_THAT(made_up_rest.asked, IsEmpty());
 }
 
 TEST(WithoutUnlikeStretches, WhatTheFirstHideIsPutAsideToo) {
   MadeUpRest rest;
   rest.left = {{1, 1, 0, 0, 0, 0, 1, 1, 4, 4, 1, 1, 1, 1}, {1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
-  EXPECT_TRUE(
-      without(with_windows({1, 1, 1, 9, 9, 1, 1, 1, 1, 1, 1, 1, 1, 1}, kUnexplained), rest));
+  EXPECT_TRUE(without_stretches(
+      with_windows({1, 1, 1, 9, 9, 1, 1, 1, 1, 1, 1, 1, 1, 1}, kUnexplained), rest));
   EXPECT_THAT(made_up_rest.asked, SizeIs(2));
   EXPECT_THAT(asked_last(), ElementsAre(std::pair(50, 150), std::pair(175, 275)));
 }
 
 TEST(WithoutUnlikeStretches, TheyAreToldByTheirTime) {
-  const auto found = without(with_windows({1, 1, 1, 1, 4, 4, 1, 1, 1, 1, 1, 1}, kUnexplained));
+  const auto found =
+      without_stretches(with_windows({1, 1, 1, 1, 4, 4, 1, 1, 1, 1, 1, 1}, kUnexplained));
   ASSERT_TRUE(found && found->unexplained);
   EXPECT_EQ(found->unexplained->coordinate, "time in a: 0.75 to 1.75 s");
   EXPECT_NEAR(found->unexplained->share, 2.0 / 3, 1e-9);
@@ -110,27 +111,44 @@ TEST(WithoutUnlikeStretches, TheyLackTwiceAsMuchAsTheRest) {
   const Diagnosis all = with_windows({1, 1, 1, 1, 4, 4, 1, 1, 1, 1, 1, 1}, kUnexplained);
   MadeUpRest rest;
   rest.unlike = 2.1;
-  EXPECT_TRUE(without(all, rest));
+  EXPECT_TRUE(without_stretches(all, rest));
   rest.unlike = 1.9;
-  EXPECT_FALSE(without(all, rest));
+  EXPECT_FALSE(without_stretches(all, rest));
 }
 
 TEST(WithoutUnlikeStretches, ARestWithoutACauseIsExplained) {
   MadeUpRest rest;
   rest.unlike = 50;
   rest.is_unexplained = true;
-  EXPECT_FALSE(without(with_windows({1, 1, 1, 1, 4, 4, 1, 1, 1, 1, 1, 1}, kUnexplained), rest));
+  EXPECT_FALSE(
+      without_stretches(with_windows({1, 1, 1, 1, 4, 4, 1, 1, 1, 1, 1, 1}, kUnexplained), rest));
 }
 
 TEST(WithoutUnlikeStretches, WhereNothingIsUnexplainedOneIsTenTimesTheMedian) {
-  EXPECT_TRUE(without(with_windows({1, 1, 1, 1, 10.1, 10.1, 1, 1, 1, 1, 1, 1}, !kUnexplained)));
-  EXPECT_FALSE(without(with_windows({1, 1, 1, 1, 9.9, 9.9, 1, 1, 1, 1, 1, 1}, !kUnexplained)));
+  EXPECT_TRUE(
+      without_stretches(with_windows({1, 1, 1, 1, 10.1, 10.1, 1, 1, 1, 1, 1, 1}, !kUnexplained)));
+  EXPECT_FALSE(
+      without_stretches(with_windows({1, 1, 1, 1, 9.9, 9.9, 1, 1, 1, 1, 1, 1}, !kUnexplained)));
+}
+
+TEST(WithoutUnlikeStretches, WhatGoesWithTheMotionIsNoHands) {
+  Diagnosis all = with_windows({1, 1, 1, 1, 4, 4, 1, 1, 1, 1, 1, 1}, kUnexplained);
+  all.unexplained->coordinate = "position and speed";
+  all.unexplained->share = 0.41;
+  EXPECT_FALSE(without_stretches(all));
+  all.unexplained->share = 0.39;
+  EXPECT_TRUE(without_stretches(all));
+  all.unexplained->share = 0.9;
+  for (const char* of_none : {"time", kOwnPast, kWholeMotion}) {
+    all.unexplained->coordinate = of_none;
+    EXPECT_TRUE(without_stretches(all)) << of_none;
+  }
 }
 
 TEST(WithoutUnlikeStretches, DataThatAreRefusedStayRefused) {
   Diagnosis refused = with_windows({1, 1, 1, 1, 40, 40, 1, 1, 1, 1, 1, 1}, kUnexplained);
   refused.findings.push_back({logs::Finding::Kind::kFatal, "too_short", ""});
-  EXPECT_FALSE(without(refused));
+  EXPECT_FALSE(without_stretches(refused));
 }
 
 }  // namespace
