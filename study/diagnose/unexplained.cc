@@ -22,7 +22,8 @@ constexpr double kPastGain = 0.1;      // that the past predicts; a wrong noise 
 constexpr double kMisfit = 0.12;       // of the power that a cause predicts, left for a free shape
 constexpr double kForceMisfit = 0.05;  // of its force, for a shape that can stand for it
 constexpr double kSmallMisfit = 0.2;   // of its force, for a shape too small to matter by itself
-constexpr double kSmallShare = 0.12;   // of the error that is left, the same
+constexpr double kSmallShare = 0.12;   // of the error that is left, which it takes away
+constexpr double kMuchOfIt = 0.4;      // of the cause's force, where it takes less away
 constexpr double kSmallPower = 0.3;    // of the power it predicts, where its force is not known
 constexpr double kStandsFor = 0.3;     // of a column of a cause, rms, that a shape cannot make
 constexpr double kInPlaceErrors = 4;   // by which a shape in a cause's place predicts better
@@ -228,8 +229,9 @@ bool refutes(const Against& shape, std::size_t i, const Cause& cause) {
   const double power = further_power(shape.what.share) /
                        std::max(1e-9, earlier_power(std::clamp(cause.gain.gain, 0.0, 0.999)));
   if (!shape.matters) {
-    if (shape.what.share < kSmallShare) return false;
-    return force_N > 0 ? shape.what.rms_N >= kSmallMisfit * force_N : power >= kSmallPower;
+    const double least = shape.what.share < kSmallShare ? kMuchOfIt : kSmallMisfit;
+    return force_N > 0 ? shape.what.rms_N >= least * force_N
+                       : shape.what.share >= kSmallShare && power >= kSmallPower;
   }
   if (shape.smooth && !stands_for) return false;
   const bool takes_its_force = force_N > 0 && shape.what.rms_N >= kForceMisfit * force_N;

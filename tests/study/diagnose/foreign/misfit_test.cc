@@ -21,6 +21,12 @@ Answer answer_to(const DrawnCase& drawn) {
   return answer_of(study::diagnose::diagnose(request_of(drawn)));
 }
 
+DrawnCase draw_none(std::uint64_t seed) {
+  Wish wish;
+  wish.kind = "none";
+  return draw_case(wish, seed);
+}
+
 Answer answer_to(const char* kind, const char* effect, std::uint64_t seed) {
   Wish wish;
   wish.kind = kind;
@@ -79,6 +85,11 @@ TEST(Misfit, OfASpringThatCreepsIsNotCalledPresliding) {
 // below 1 %.
 TEST(Misfit, OfAFaintForceIsNotCalledAForceByThePlace) {
   expect_unexplained("outside_faint", 104015);
+}
+
+// A joint under a relay, in which nothing is hidden.
+TEST(Misfit, OfAFewSwingsIsNotCalledAForceInTime) {
+  EXPECT_EQ(answer_to(draw_none(71144)).words(), "nothing");
 }
 
 // The library has friction that falls with what it has dissipated, linear in it; this one
