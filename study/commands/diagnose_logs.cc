@@ -69,7 +69,8 @@ toml::table plant_before(const DiagnoseOptions& options, const PlantModel& plant
   return has_no_model(options) ? diagnose::estimated_plant(d) : plant.plant;
 }
 
-// The logs that judge; of the fitted ones, those that no hand moves, and while none does.
+// The logs that judge: the held-out ones, or what was fitted, without runs and stretches that are
+// left out.
 std::vector<diagnose::Run> judging_runs(const diagnose::Request& request,
                                         const diagnose::Diagnosis& d) {
   if (!request.holdout.empty()) return request.holdout;

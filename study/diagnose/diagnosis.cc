@@ -132,9 +132,8 @@ void conclude(Diagnosis& d) {
 std::vector<double> innovations_of_run_m(const Data& data, const Search& search) {
   std::vector<double> rms_m;
   for (std::size_t run = 0; run < data.scenes.size(); ++run) {
-    const auto e = search.final.fitted.e.segment(data.starts[run], data.scenes[run].run->size());
-    const auto said = static_cast<double>((e.array() != 0).count());
-    rms_m.push_back(e.norm() / std::sqrt(std::max(1.0, said)));
+    const Index n = data.scenes[run].run->size();
+    rms_m.push_back(rms_said(search.final.fitted.e.segment(data.starts[run], n)));
   }
   return rms_m;
 }

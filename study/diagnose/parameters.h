@@ -32,8 +32,8 @@ enum BaseParameter : std::size_t { kInertia, kViscousFriction, kDryFriction, kCo
 
 // Whether a wrong gain may stand behind the shifts of inertia, viscous and dry friction.
 [[nodiscard]] bool may_be_gain(const std::vector<ParameterShift>& shifts);
-// The same of a weight of `sine_Nm` and `cosine_Nm` whose stated size is `stated`: it turned no
-// way, and its size is off by their ratio.
+// The same of a weight that is fitted as `sine_Nm` and `cosine_Nm`: both are off from what is
+// stated by the ratio by which inertia is.
 [[nodiscard]] bool may_be_gain(const std::vector<ParameterShift>& shifts, const Interval& sine_Nm,
                                const Interval& cosine_Nm, const Parameters& stated);
 

@@ -4,23 +4,14 @@
 #include <cmath>
 
 namespace towbench::study::diagnose {
-namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
 
-struct Squares {
-  double sum = 0;
-  double said = 0;  // samples
-
-  void add(const Eigen::Ref<const VectorXd>& e) {
-    sum += e.squaredNorm();
-    said += static_cast<double>((e.array() != 0).count());
-  }
-  [[nodiscard]] double rms() const { return std::sqrt(sum / std::max(1.0, said)); }
-};
-
-}  // namespace
+double rms_said(const Eigen::Ref<const VectorXd>& e) {
+  const auto said = static_cast<double>((e.array() != 0).count());
+  return e.norm() / std::sqrt(std::max(1.0, said));
+}
 
 Index samples_of_window(const Run& run) noexcept {
   return std::max<Index>(1, std::lround(kStretchWindow_s / run.period_s));
@@ -33,9 +24,8 @@ std::vector<std::vector<double>> windows_m(const Data& data, const Search& searc
     const Index each = samples_of_window(*data.scenes[run].run);
     std::vector<double>& of_run = out.emplace_back();
     for (Index from = 0; from < n; from += each) {
-      Squares s;
-      s.add(search.final.fitted.e.segment(data.starts[run] + from, std::min(each, n - from)));
-      of_run.push_back(s.rms());
+      of_run.push_back(rms_said(
+          search.final.fitted.e.segment(data.starts[run] + from, std::min(each, n - from))));
     }
   }
   return out;
@@ -56,13 +46,14 @@ Aside score_stretches(const std::vector<Stretch>& stretches, const std::vector<R
   const Model& model = search.final.fitted.model;
   const Data data = make_data(runs, search.context.stated);
   const VectorXd e = innovations(data, model, search.bandwidth);
-  Squares in;
-  for (const Stretch& s : stretches) in.add(e.segment(data.starts[s.run] + s.from, s.to - s.from));
-  Squares rest;
-  rest.add(search.final.fitted.e);
+  VectorXd in = VectorXd::Zero(e.size());
+  for (const Stretch& s : stretches) {
+    const Index from = data.starts[s.run] + s.from;
+    in.segment(from, s.to - s.from) = e.segment(from, s.to - s.from);
+  }
   const double to_N = model.parameters[Key::kMass] * search.bandwidth * search.bandwidth;
-  aside.rms_N.push_back(to_N * in.rms());
-  aside.others_rms_N = to_N * rest.rms();
+  aside.rms_N.push_back(to_N * rms_said(in));
+  aside.others_rms_N = to_N * rms_said(search.final.fitted.e);
   return aside;
 }
 

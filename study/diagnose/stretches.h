@@ -18,6 +18,9 @@ struct Stretch {
   Eigen::Index to = 0;
 };
 
+// Of innovations, over the samples of which something is said: those that are not zero.
+[[nodiscard]] double rms_said(const Eigen::Ref<const Eigen::VectorXd>& e);
+
 // In a window of `run`.
 [[nodiscard]] Eigen::Index samples_of_window(const Run& run) noexcept;
 

@@ -20,7 +20,7 @@ constexpr double kFar = 3;            // times the median of all windows
 constexpr double kVeryFar = 10;       // the same, where nothing is unexplained
 constexpr std::size_t kBridged = 1;   // windows between two that are far off: a push turns over
 constexpr std::size_t kShortest = 2;  // windows: a reversal is shorter
-constexpr double kMostOfARun = 0.6;   // of a run
+constexpr double kMostOfARun = 0.6;   // of its windows
 constexpr double kByALaw = 0.4;       // of what is unexplained, explained by the motion
 constexpr int kRounds = 4;            // what is left out lets more be seen
 
@@ -90,7 +90,7 @@ std::vector<Stretch> stretches_of(const Marks& marks, const std::vector<Run>& ru
   return out;
 }
 
-// What is unexplained goes with the motion: it is no hand's.
+// A shape of the motion makes much of it: a law is missing, and nobody pushed.
 bool follows_the_motion(const Unexplained& u) {
   const bool is_shape =
       u.coordinate != "time" && u.coordinate != kOwnPast && u.coordinate != kWholeMotion;
