@@ -52,18 +52,25 @@ Law outside_memory(const Hidden& hidden, const Machine& m) {
   }};
 }
 
-// Friction that falls where its own heat is, and recovers in seconds.
-Law outside_heating(const Hidden& hidden, const Machine& m) {
-  constexpr double kCools_s = 6;
-  const double share = sized(hidden, 0.4, 0.7);
-  auto warmth = std::make_shared<double>(0);  // 1 after long travel at top speed
+// Friction that is higher after each reversal, until grease has spread over 5 to 15 % of the
+// stroke.
+Law outside_after_reversal(const Hidden& hidden, const Machine& m) {
+  const double more_N = sized(hidden, 0.4, 0.8) * m.coulomb_N;
+  const double spreads_m = (0.05 + 0.1 * hidden.place) * m.stroke_m;
+  struct Way {
+    double m = 0;  // since the last reversal
+    double direction = 0;
+  };
+  auto way = std::make_shared<Way>();
   Law law;
   law.memory_N = [=](const Now& now) {
-    const double heat = 2 * std::abs(now.v_m_per_s) / m.top_speed_m_per_s;
-    *warmth += now.h_s / kCools_s * (heat - *warmth);
+    const double to = direction(now.v_m_per_s);
+    if (to * way->direction < 0) way->m = 0;
+    if (to != 0) way->direction = to;
+    way->m += now.h_s * std::abs(now.v_m_per_s);
     return 0.0;
   };
-  law.dry_N = [=](const Now&) { return -share * m.coulomb_N * std::tanh(*warmth); };
+  law.dry_N = [=](const Now&) { return more_N * std::exp(-way->m / spreads_m); };
   return law;
 }
 
@@ -99,8 +106,6 @@ std::vector<Effect> outside_effects() {
   const std::string family = "outside";
   // What it has in common with the file's structure moves the parameters.
   const std::vector<std::string> mean{"coulomb", "viscous", "inertia", "bias", "constant_bias"};
-  std::vector<std::string> heat = mean;
-  heat.emplace_back("thermal_drift");
   return {
       {"outside_place_and_speed",
        family,
@@ -110,7 +115,13 @@ std::vector<Effect> outside_effects() {
        any_machine,
        outside_of_place_and_speed},
       {"outside_memory", family, {}, mean, Span::kNone, any_machine, outside_memory},
-      {"outside_heating", family, {}, heat, Span::kNone, any_machine, outside_heating},
+      {"outside_after_reversal",
+       family,
+       {},
+       mean,
+       Span::kNone,
+       any_machine,
+       outside_after_reversal},
       {"outside_faint", family, {}, mean, Span::kNone, any_machine, outside_faint},
   };
 }

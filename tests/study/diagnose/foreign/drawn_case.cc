@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "tests/study/diagnose/foreign/beyond_laws.h"
+
 namespace towbench::tests::foreign {
 namespace {
 
@@ -11,13 +13,16 @@ constexpr int kMostDraws = 400;
 // What the file's columns can make of it is no shape of its own.
 constexpr double kLeastOff = 0.2;
 constexpr double kLeastOutside = 0.02;  // of the command's rms, of what is to be told
+// Of its rms, what no law of a textbook makes in this motion: less is that law.
+constexpr double kLeastBeyond = 0.2;
 
 std::vector<const Effect*> fitting(const Wish& wish, const Machine& machine) {
   std::vector<const Effect*> all;
   for (const Effect& effect : effects()) {
     const bool is_outside = effect.family == "outside";
-    const bool wanted =
-        wish.effect.empty() ? is_outside == (wish.kind == "outside") : effect.name == wish.effect;
+    const bool wanted = wish.effect.empty()
+                            ? !effect.by_name && is_outside == (wish.kind == "outside")
+                            : effect.name == wish.effect;
     if (wanted && effect.fits(machine)) {
       all.push_back(&effect);
     }
@@ -58,7 +63,7 @@ bool contradicts(const DrawnCase& one) {
 }
 
 // The effect's own force: without torque noise, and with every session as the file says.
-Visibility shown(const DrawnCase& one, const Hidden& alone) {
+std::vector<Recording> by_itself(const DrawnCase& one, const Hidden& alone) {
   Machine quiet = one.machine;
   quiet.torque_noise_N = 0;
   Plan plain = one.plan;
@@ -66,8 +71,11 @@ Visibility shown(const DrawnCase& one, const Hidden& alone) {
     session.offset_N = 0;
     session.friction = 1;
   }
-  const auto runs = record(quiet, {alone}, plain, one.seed);
-  return visibility(one.machine, runs, find(alone.name)->span);
+  return record(quiet, {alone}, plain, one.seed);
+}
+
+Visibility shown(const DrawnCase& one, const Hidden& alone) {
+  return visibility(one.machine, by_itself(one, alone), find(alone.name)->span);
 }
 
 // The size at which the effect alone is as strong as wished.
@@ -95,13 +103,17 @@ bool shows(DrawnCase& one, const Wish& wish) {
     if (wish.scale == Scale::kDetectable && !resize(one, alone, kFullTimes * wish.strength)) {
       return false;
     }
-    const Visibility seen = shown(one, alone);
+    const auto runs = by_itself(one, alone);
     const Span span = find(alone.name)->span;
+    const Visibility seen = visibility(one.machine, runs, span);
     const double share = seen.force_N / seen.command_N;
     const bool is_shape = span != Span::kNone || seen.off >= kLeastOff;
     const bool is_large = wish.kind != "outside" || share >= kLeastOutside * wish.strength;
     const double least = wish.scale == Scale::kPhysical ? kVisible : 0;
     if (seen.times < least || !is_shape || !is_large) {
+      return false;
+    }
+    if (wish.kind == "outside" && beyond_laws(one.machine, runs) < kLeastBeyond) {
       return false;
     }
     one.visible = std::min(one.visible, seen.times);

@@ -62,6 +62,7 @@ struct Effect {
   Span span = Span::kNone;
   std::function<bool(const Machine&)> fits;
   std::function<Law(const Hidden&, const Machine&)> law;
+  bool by_name = false;  // drawn only where it is asked for
 };
 
 // Of the library's names, and those of no library (family "outside").

@@ -1,6 +1,7 @@
 // Sources of sizes: Armstrong-Helouvry, Dupont, Canudas de Wit 1994, Automatica 30 (Stribeck,
 // break-away, presliding); Dahl 1968; gear catalogues (load-dependent loss of 8 to 20 %).
 #include <cmath>
+#include <memory>
 
 #include "tests/study/diagnose/foreign/effect.h"
 
@@ -77,6 +78,21 @@ Law thermal_drift(const Hidden& hidden, const Machine& m) {
   return {.dry_N = [=](const Now& now) { return cold_N * std::exp(-now.t_s / warm_after_s); }};
 }
 
+// Friction that falls where its own heat is, and recovers in seconds.
+Law work_warming(const Hidden& hidden, const Machine& m) {
+  constexpr double kCools_s = 6;
+  const double share = sized(hidden, 0.4, 0.7);
+  auto warmth = std::make_shared<double>(0);  // 1 after long travel at top speed
+  Law law;
+  law.memory_N = [=](const Now& now) {
+    const double heat = 2 * std::abs(now.v_m_per_s) / m.top_speed_m_per_s;
+    *warmth += now.h_s / kCools_s * (heat - *warmth);
+    return 0.0;
+  };
+  law.dry_N = [=](const Now&) { return -share * m.coulomb_N * std::tanh(*warmth); };
+  return law;
+}
+
 }  // namespace
 
 std::vector<Effect> friction_effects() {
@@ -120,6 +136,14 @@ std::vector<Effect> friction_effects() {
        Span::kNone,
        any_machine,
        thermal_drift},
+      {"work_warming",
+       "session",
+       {"thermal_drift"},
+       {"coulomb", "viscous", "inertia", "bias", "constant_bias"},
+       Span::kNone,
+       any_machine,
+       work_warming,
+       true},
   };
 }
 

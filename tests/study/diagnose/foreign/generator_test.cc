@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/study/diagnose/foreign/beyond_laws.h"
 #include "tests/study/diagnose/foreign/drawn_case.h"
 #include "tests/study/diagnose/foreign/dry_bodies.h"
 #include "tests/study/diagnose/foreign/score.h"
@@ -209,6 +210,41 @@ TEST(Recordings, EachEffectTakesAForceThatTheFileLacks) {
     const double least = effect.name == "stiction" ? 1 : 4;
     EXPECT_GT(with.force_N, least * without.force_N) << effect.name;
   }
+}
+
+double beyond(const std::string& effect, const std::string& motion) {
+  const Hidden hidden{.name = effect};
+  return beyond_laws(stage(), record(stage(), {hidden}, plan_of(motion), 1));
+}
+
+// A law of a textbook leaves nothing; what is no law is none, unless the motion is too poor: on a
+// sine a spring that creeps is a spring and a damper.
+TEST(BeyondLaws, IsWhatNoLawMakes) {
+  EXPECT_LT(beyond("position_viscous", "multisine"), 0.05);
+  EXPECT_LT(beyond("quadratic_drag", "prbs"), 0.05);
+  EXPECT_GT(beyond("outside_memory", "prbs"), 0.5);
+  EXPECT_GT(beyond("outside_after_reversal", "multisine"), 0.5);
+  EXPECT_LT(beyond("outside_memory", "sine"), 0.2);
+}
+
+// More dry friction at each reversal, gone where the stroke's ends are far.
+TEST(Recordings, FrictionAfterAReversalFallsWithTheWay) {
+  const Hidden hidden{.name = "outside_after_reversal", .draw = 0.5, .place = 0.5};
+  const auto runs = record(stage(), {hidden}, plan_of("slow_laps"), 1);
+  double most = 0;
+  double last = 0;
+  double direction = 0;
+  for (const Truth& truth : runs.front().truth) {
+    if (truth.moving < 1) continue;
+    const double against = std::abs(truth.lacking_N);
+    if (truth.v_m_per_s * direction < 0) {
+      EXPECT_LT(last, 0.1 * 0.6 * 2);
+    }
+    direction = truth.v_m_per_s;
+    most = std::max(most, against);
+    last = against;
+  }
+  EXPECT_NEAR(most, 0.6 * 2, 0.1);
 }
 
 TEST(DrawnCases, AreTheSameForTheSameSeed) {

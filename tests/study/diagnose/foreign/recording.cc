@@ -66,6 +66,8 @@ class Rig {
     Truth truth;
     truth.command_N = command_N;
     const Balance before = balance();
+    truth.t_s = clock_s;
+    truth.x_m = before.reading_m;
     const double share = 1.0 / steps;
     drive_.command(command_N);
     for (int i = 0; i < steps; ++i) {

@@ -12,6 +12,8 @@ namespace towbench::tests::foreign {
 // Means over the sample that follows; no bench would log them. They are of what an encoder without
 // steps would read, and of the nominal law.
 struct Truth {
+  double t_s = 0;        // where the sample begins, since the session did
+  double x_m = 0;        // there
   double lacking_N = 0;  // what the file's law leaves of the command
   double a_m_per_s2 = 0;
   double v_m_per_s = 0;

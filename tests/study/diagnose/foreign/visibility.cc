@@ -1,8 +1,9 @@
 #include "tests/study/diagnose/foreign/visibility.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+
+#include "tests/study/diagnose/foreign/block_means.h"
 
 namespace towbench::tests::foreign {
 namespace {
@@ -14,11 +15,6 @@ constexpr double kDetection = 4.5;      // standard errors: some thousand candid
 constexpr double kLeastOfNoise = 0.14;  // what costs 1 % of the residual: sqrt(1 / 0.99^2 - 1)
 constexpr double kLeastOfSpan = 0.01;   // of the command, of what is held against a parameter
 constexpr double kLeastShare = 0.003;   // of the command, of anything else
-constexpr double kMostlyMoving = 0.9;
-
-bool counts(const Recording& run) {
-  return !run.plan.held_out && run.plan.motion != "pushed";
-}
 
 struct Blocks {
   MatrixXd columns;  // a, v, dry, 1
@@ -27,51 +23,18 @@ struct Blocks {
 };
 
 Blocks blocks_of(const std::vector<Recording>& runs, double period_s, double block_s) {
-  const auto length = std::max<std::size_t>(1, static_cast<std::size_t>(block_s / period_s));
-  std::vector<Truth> means;
-  for (const Recording& run : runs) {
-    for (std::size_t from = 0; counts(run) && from + length <= run.truth.size(); from += length) {
-      Truth mean;
-      for (std::size_t i = from; i < from + length; ++i) {
-        const double share = 1 / static_cast<double>(length);
-        mean.lacking_N += share * run.truth[i].lacking_N;
-        mean.a_m_per_s2 += share * run.truth[i].a_m_per_s2;
-        mean.v_m_per_s += share * run.truth[i].v_m_per_s;
-        mean.dry += share * run.truth[i].dry;
-        mean.moving += share * run.truth[i].moving;
-        mean.command_N += share * (run.truth[i].command_N + run.truth[i].hand_N);
-      }
-      if (mean.moving > kMostlyMoving) {
-        means.push_back(mean);
-      }
-    }
-  }
+  const std::vector<Truth> means = block_means(runs, period_s, block_s);
   const auto rows = static_cast<Eigen::Index>(means.size());
-  Blocks out{MatrixXd::Ones(rows, 4), VectorXd(rows), VectorXd(rows)};
+  Blocks out{file_columns(means), VectorXd(rows), VectorXd(rows)};
   for (Eigen::Index i = 0; i < rows; ++i) {
-    const Truth& mean = means[static_cast<std::size_t>(i)];
-    out.columns(i, 0) = mean.a_m_per_s2;
-    out.columns(i, 1) = mean.v_m_per_s;
-    out.columns(i, 2) = mean.dry;
-    out.lacking_N[i] = mean.lacking_N;
-    out.command_N[i] = mean.command_N;
+    out.lacking_N[i] = means[static_cast<std::size_t>(i)].lacking_N;
+    out.command_N[i] = means[static_cast<std::size_t>(i)].command_N;
   }
   return out;
 }
 
 double rms(const VectorXd& x) {
   return x.size() == 0 ? 0 : x.norm() / std::sqrt(static_cast<double>(x.size()));
-}
-
-// Least squares, with columns that hold nothing or the same left to the decomposition.
-VectorXd off(MatrixXd columns, const VectorXd& y) {
-  for (Eigen::Index j = 0; j < columns.cols(); ++j) {
-    columns.col(j) /= std::max(columns.col(j).norm(), 1e-300);
-  }
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
-  solver.setThreshold(1e-6);
-  solver.compute(columns);
-  return y - columns * solver.solve(y);
 }
 
 MatrixXd others(const MatrixXd& columns, Span span) {
@@ -110,8 +73,8 @@ Visibility visibility(const Machine& machine, const std::vector<Recording>& runs
     here.command_N = rms(blocks.command_N);
     const VectorXd& all = blocks.lacking_N;
     const VectorXd left = span == Span::kSeveral ? all
-                          : span == Span::kNone  ? off(blocks.columns, all)
-                                                 : off(others(blocks.columns, span), all);
+                          : span == Span::kNone  ? unmade(blocks.columns, all)
+                                                 : unmade(others(blocks.columns, span), all);
     here.off = rms(left) / std::max(here.force_N, 1e-300);
     const double noise = noise_N(machine, band_Hz);
     const double rows = static_cast<double>(all.size());
