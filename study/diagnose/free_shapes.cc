@@ -14,12 +14,12 @@ using Eigen::VectorXd;
 constexpr int kBins = 12;
 constexpr int kPlaces = 4;
 constexpr int kSpeeds = 5;
-constexpr Index kWaves = 6;                         // half waves over the stroke, at most
-constexpr Index kPowers = 3;                        // of the speed
-constexpr double kMemories_s[] = {0.1, 0.3, 1, 3};  // of a part that gives way
-constexpr double kHeats_s[] = {1, 3, 10};           // of friction that its own work changes
-constexpr Index kEach = 5;                          // of so many samples one is looked at
-constexpr Index kFewestInCell = 50;                 // samples of a cell
+constexpr Index kWaves = 6;   // half waves over the stroke, at most
+constexpr Index kPowers = 3;  // of the speed
+constexpr double kMemories_s[] = {0.1, 0.2, 0.4, 0.8, 1.6, 3.2};  // of a part that gives way
+constexpr double kHeats_s[] = {1, 3, 10};  // of friction that its own work changes
+constexpr Index kEach = 5;                 // of so many samples one is looked at
+constexpr Index kFewestInCell = 50;        // samples of a cell
 
 struct Coordinate {
   const char* name;
@@ -132,19 +132,30 @@ VectorXd low_pass(const VectorXd& signal, const Motion& m, double memory_s) {
   return out;
 }
 
-// Springs that creep (Maxwell), and dry friction that follows the heat of its own work.
-FreeShape of_the_past(const std::vector<Motion>& motions) {
+double top_speed(const std::vector<Motion>& motions) {
   double top_m_per_s = 0;
   for (const Motion& m : motions) {
     top_m_per_s = std::max(top_m_per_s, m.speed_m_per_s.cwiseAbs().maxCoeff());
   }
-  FreeShape shape{.coordinate = "the motion before",
-                  .columns = std::ssize(kMemories_s) + std::ssize(kHeats_s)};
-  shape.force = [top_m_per_s](Index column, const Motion& m) -> VectorXd {
-    const VectorXd speed = m.speed_m_per_s / top_m_per_s;
-    if (column < std::ssize(kMemories_s)) return low_pass(speed, m, kMemories_s[column]);
+  return top_m_per_s;
+}
+
+// Springs that creep (Maxwell).
+FreeShape of_the_past(double top_m_per_s) {
+  FreeShape shape{.coordinate = kMotionBefore, .columns = std::ssize(kMemories_s)};
+  shape.force = [=](Index column, const Motion& m) {
+    return low_pass(m.speed_m_per_s / top_m_per_s, m, kMemories_s[column]);
+  };
+  return shape;
+}
+
+// Dry friction that follows the heat of its own work.
+FreeShape of_its_heat(double top_m_per_s) {
+  FreeShape shape{.coordinate = "the work before", .columns = std::ssize(kHeats_s)};
+  shape.force = [=](Index column, const Motion& m) -> VectorXd {
     constexpr double kTurns = 0.02;  // of top speed, over which friction turns over
-    const VectorXd heat = low_pass(speed.cwiseAbs(), m, kHeats_s[column - std::ssize(kMemories_s)]);
+    const VectorXd speed = m.speed_m_per_s / top_m_per_s;
+    const VectorXd heat = low_pass(speed.cwiseAbs(), m, kHeats_s[column]);
     return heat.cwiseProduct((speed / kTurns).array().tanh().matrix());
   };
   return shape;
@@ -159,7 +170,8 @@ std::vector<FreeShape> free_shapes(const std::vector<Motion>& motions) {
   }
   if (auto grid = along_place_and_speed(motions)) shapes.push_back(std::move(*grid));
   if (auto smooth = smooth_in_place_and_speed(motions)) shapes.push_back(std::move(*smooth));
-  shapes.push_back(of_the_past(motions));
+  shapes.push_back(of_the_past(top_speed(motions)));
+  shapes.push_back(of_its_heat(top_speed(motions)));
   return shapes;
 }
 

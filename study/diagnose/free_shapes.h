@@ -11,6 +11,8 @@
 
 namespace towbench::study::diagnose {
 
+inline constexpr const char* kMotionBefore = "the motion before";
+
 struct FreeShape {
   std::string coordinate;
   bool smooth = false;       // speaks only against causes that it can stand for

@@ -26,8 +26,10 @@ constexpr double kSmallShare = 0.12;   // of the error that is left, which it ta
 constexpr double kMuchOfIt = 0.4;      // of the cause's force, where it takes less away
 constexpr double kSmallPower = 0.3;    // of the power it predicts, where its force is not known
 constexpr double kStandsFor = 0.3;     // of a column of a cause, rms, that a shape cannot make
-constexpr double kInPlaceErrors = 4;   // by which a shape in a cause's place predicts better
+constexpr double kInPlaceErrors = 3;   // by which a shape in a cause's place predicts better
 constexpr double kInPlaceShare = 0.2;  // of the squares beyond the encoder steps
+constexpr double kAsGood = 1.1;        // of the squares, that a shape in its place may leave
+constexpr double kNearlyAll = 0.9;     // of the squares that a cause takes away
 constexpr double kRidge = 1e-4;  // of a column's own square: a bin that a fold lacks stays zero
 
 // A shape that predicts further.
@@ -72,23 +74,28 @@ class Seeker {
   }
 
   // The shape that leaves the least, if that is clearly less than `loss`; of other coordinates than
-  // `but`.
+  // `but`. The motion before need only be as good, where no other shape is better.
   std::optional<Unexplained> better_than(const VectorXd& loss, const std::string& but) {
-    const Frame frame{&data_, search_.context, search_.bandwidth, search_.spans};
     std::optional<Unexplained> best;
+    std::optional<Unexplained> as_good;
     double least = loss.sum();
+    double least_of_all = kAsGood * loss.sum();
     for (const FreeShape& shape : shapes_) {
       if (shape.coordinate == but) continue;
       auto found = of(shape);
-      if (!found || loss_.sum() >= least || !is_a_force(*found)) continue;
-      const double share = share_of(frame, loss.sum() - loss_.sum(), loss.sum(), search_.final);
-      if (share < kInPlaceShare || compare(loss, loss_, 2).standard_errors < kInPlaceErrors) {
-        continue;
+      if (!found || !is_a_force(*found)) continue;
+      const double left = loss_.sum();
+      if (left < least_of_all) {
+        least_of_all = left;
+        as_good.reset();
+        if (shape.coordinate == kMotionBefore && takes_nearly_all(loss)) as_good = found;
       }
-      least = loss_.sum();
-      best = std::move(found);
+      if (left < least && is_clearly_less(loss)) {
+        least = left;
+        best = std::move(found);
+      }
     }
-    return best;
+    return best ? best : as_good;
   }
 
   bool is_a_force(const Unexplained& u) const {
@@ -109,6 +116,17 @@ class Seeker {
   }
 
  private:
+  bool is_clearly_less(const VectorXd& loss) const {
+    const Frame frame{&data_, search_.context, search_.bandwidth, search_.spans};
+    const double share = share_of(frame, loss.sum() - loss_.sum(), loss.sum(), search_.final);
+    return share >= kInPlaceShare && compare(loss, loss_, 2).standard_errors >= kInPlaceErrors;
+  }
+  // Of what the cause takes away.
+  bool takes_nearly_all(const VectorXd& loss) const {
+    const double without_both = search_.final.loss.sum();
+    return without_both - loss_.sum() > kNearlyAll * (without_both - loss.sum());
+  }
+
   std::optional<Unexplained> of(const FreeShape& shape) {
     const State& s = search_.final;
     const double step = 0.02 * search_.context.input_rms_N;

@@ -26,10 +26,10 @@ Motion sine() {
 TEST(FreeShapes, OfBinsCoverEachSampleOnce) {
   const Motion motion = sine();
   const auto shapes = free_shapes({motion});
-  ASSERT_EQ(shapes.size(), 8U);
+  ASSERT_EQ(shapes.size(), 9U);
   for (const FreeShape& shape : shapes) {
-    if (shape.coordinate == "the motion before") continue;
     if (shape.coordinate == "position times speed") continue;
+    if (shape.coordinate == "the motion before" || shape.coordinate == "the work before") continue;
     VectorXd sum = VectorXd::Zero(motion.time_s.size());
     for (Eigen::Index i = 0; i < shape.columns; ++i) sum += shape.force(i, motion);
     const bool is_grid = shape.coordinate == "position and speed";
@@ -53,15 +53,16 @@ TEST(FreeShapes, OfAMotionThatStandsAreOfThePastAlone) {
     of->setConstant(0.1);
   }
   const auto shapes = free_shapes({still});
-  ASSERT_EQ(shapes.size(), 2U);
-  EXPECT_EQ(shapes.front().coordinate, "time");
-  EXPECT_EQ(shapes.back().coordinate, "the motion before");
+  ASSERT_EQ(shapes.size(), 3U);
+  EXPECT_EQ(shapes[0].coordinate, "time");
+  EXPECT_EQ(shapes[1].coordinate, "the motion before");
+  EXPECT_EQ(shapes[2].coordinate, "the work before");
 }
 
 TEST(FreeShapes, OfPlaceTimesSpeedAreProductsOfWavesAndPowers) {
   const Motion motion = sine();
   const auto shapes = free_shapes({motion});
-  const FreeShape& smooth = shapes[shapes.size() - 2];
+  const FreeShape& smooth = shapes[shapes.size() - 3];
   ASSERT_EQ(smooth.columns, 18);
   const double x = 0.5 * (motion.position_m[1234] + 1);
   const double v = motion.speed_m_per_s[1234] / 0.7;
@@ -74,14 +75,14 @@ TEST(FreeShapes, OfPlaceTimesSpeedAreProductsOfWavesAndPowers) {
 TEST(FreeShapes, OfThePastAreLowPasses) {
   Motion steady = sine();
   steady.speed_m_per_s.setConstant(-0.5);
-  const auto past = free_shapes({steady}).back();
-  ASSERT_EQ(past.columns, 7);
-  const auto at = [&](Eigen::Index column, Eigen::Index sample) {
-    return past.force(column, steady)[sample];
-  };
-  EXPECT_NEAR(at(2, 1000), -(1 - std::exp(-1.0)), 2e-3);
-  EXPECT_NEAR(at(3, 3000), -(1 - std::exp(-1.0)), 2e-3);
-  EXPECT_NEAR(at(6, 10000), -(1 - std::exp(-1.0)), 2e-3);
+  const auto shapes = free_shapes({steady});
+  const FreeShape& spring = shapes[shapes.size() - 2];
+  const FreeShape& warmth = shapes.back();
+  ASSERT_EQ(spring.columns, 6);
+  ASSERT_EQ(warmth.columns, 3);
+  EXPECT_NEAR(spring.force(3, steady)[800], -(1 - std::exp(-1.0)), 2e-3);
+  EXPECT_NEAR(spring.force(5, steady)[3200], -(1 - std::exp(-1.0)), 2e-3);
+  EXPECT_NEAR(warmth.force(2, steady)[10000], -(1 - std::exp(-1.0)), 2e-3);
 }
 
 }  // namespace
