@@ -83,7 +83,7 @@ class Seeker {
     for (const FreeShape& shape : shapes_) {
       if (shape.coordinate == but) continue;
       auto found = of(shape);
-      if (!found || !is_a_force(*found)) continue;
+      if (!found) continue;
       const double left = loss_.sum();
       if (left < least_of_all) {
         least_of_all = left;

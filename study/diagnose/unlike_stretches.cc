@@ -91,10 +91,11 @@ std::vector<Stretch> stretches_of(const Marks& marks, const std::vector<Run>& ru
 }
 
 // A shape of the motion makes much of it: a law is missing, and nobody pushed.
-bool follows_the_motion(const Unexplained& u) {
-  const bool is_shape =
-      u.coordinate != "time" && u.coordinate != kOwnPast && u.coordinate != kWholeMotion;
-  return is_shape && u.share > kByALaw;
+bool follows_the_motion(const Diagnosis& d) {
+  if (!d.unexplained) return false;
+  const std::string& of = d.unexplained->coordinate;
+  const bool is_shape = of != "time" && of != kOwnPast && of != kWholeMotion;
+  return is_shape && d.unexplained->share > kByALaw;
 }
 
 // Of each run that has some, as in the answer.
@@ -118,7 +119,7 @@ std::vector<std::string> words_of(const Request& part) {
 std::optional<Diagnosis> without_unlike_stretches(const Request& request, const Diagnosis& all,
                                                   Diagnosis (*diagnose_all)(const Request&)) {
   if (is_fatal(all.findings)) return std::nullopt;
-  if (all.unexplained && follows_the_motion(*all.unexplained)) return std::nullopt;
+  if (follows_the_motion(all)) return std::nullopt;
   Marks marks(request.runs.size());
   if (!all.unexplained && !mark(all, kVeryFar, marks)) return std::nullopt;
   marks.assign(request.runs.size(), {});
@@ -128,6 +129,7 @@ std::optional<Diagnosis> without_unlike_stretches(const Request& request, const 
     part.stretches = stretches_of(marks, request.runs);
     rest = diagnose_all(part);
     if (is_fatal(rest.findings) || !are_unlike(rest, kUnlike)) return std::nullopt;
+    if (follows_the_motion(rest)) return std::nullopt;
   }
   if (part.stretches.empty() || !explains_the_rest(rest, all)) return std::nullopt;
   const std::vector<std::string> words = words_of(part);

@@ -87,6 +87,11 @@ TEST(Misfit, OfAFaintForceIsNotCalledAForceByThePlace) {
   expect_unexplained("outside_faint", 104015);
 }
 
+// Of less than 1 % of the force, which is more than enough to refute presliding in its place.
+TEST(Misfit, OfASpringThatCreepsLittleIsNotCalledPresliding) {
+  expect_unexplained("outside_memory", 110011);
+}
+
 // Two runs of one speed, in which it is nearly friction by the place: smooth shapes of place and
 // speed predict better in its place.
 TEST(Misfit, OfAFaintForceOfTwoSpeedsIsNotCalledFrictionByThePlace) {
