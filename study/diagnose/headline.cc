@@ -143,6 +143,17 @@ std::string about_the_file(const Diagnosis& d) {
              : out;
 }
 
+std::string where_to_look(const Unexplained& u) {
+  if (!u.at.empty()) {
+    return fmt::format("look at unexplained.csv: what is left depends on {}", u.coordinate);
+  }
+  const bool follows_nothing = u.coordinate == kOwnPast || u.coordinate == kWholeMotion;
+  return fmt::format(
+      "look at the residual over time in report.html: {}",
+      follows_nothing ? "no coordinate of the motion explains it"
+                      : fmt::format("what is left depends on {}, by no known law", u.coordinate));
+}
+
 std::string next_step(const Diagnosis& d) {
   for (const NamedCause& cause : d.causes) {
     if (cause.separating) {
@@ -160,14 +171,7 @@ std::string next_step(const Diagnosis& d) {
     return fmt::format("find out what touched the axis in the {} that are left out",
                        d.left_out.empty() ? "stretches" : "runs");
   }
-  if (d.unexplained) {
-    return d.unexplained->at.empty()
-               ? std::string(
-                     "look at the residual over time in report.html: no coordinate of the "
-                     "motion explains it")
-               : fmt::format("look at unexplained.csv: what is left depends on {}",
-                             d.unexplained->coordinate);
-  }
+  if (d.unexplained) return where_to_look(*d.unexplained);
   return d.verdicts.front() == "model_adequate"
              ? "nothing; see not_testable for what was out of reach"
              : what_to_use(d);

@@ -53,6 +53,15 @@ TEST(Headline, NamesWhatTheFileLacksWhateverIsToBeDoneNext) {
   EXPECT_THAT(text, HasSubstr("  extended_plant.toml      lacks transport_delay: "));
 }
 
+TEST(Headline, SaysWhatIsLeftDependsOnWhereThatHasNoBins) {
+  Diagnosis d;
+  d.verdicts = {"unexplained_structure"};
+  d.unexplained = Unexplained{.coordinate = "the motion before", .share = 0.3};
+  EXPECT_THAT(headline(d), HasSubstr("what is left depends on the motion before, by no known law"));
+  d.unexplained->coordinate = kOwnPast;
+  EXPECT_THAT(headline(d), HasSubstr("no coordinate of the motion explains it"));
+}
+
 TEST(Headline, SendsToTheNumbersWhereNoPlantFileWasWritten) {
   Diagnosis d = found(4e-3, 1e-3);
   d.emulated.reset();
