@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <map>
 
 #include <fmt/format.h>
@@ -23,6 +24,7 @@ constexpr std::size_t kShortest = 2;  // windows: a reversal is shorter
 constexpr double kMostOfARun = 0.6;   // of its windows
 constexpr double kByALaw = 0.4;       // of what is unexplained, explained by the motion
 constexpr int kRounds = 4;            // what is left out lets more be seen
+constexpr double kCalmer = 0.95;      // of the median before, of a model that is better
 
 // Of each run, which of its windows are put aside.
 using Marks = std::vector<std::vector<bool>>;
@@ -125,7 +127,11 @@ std::optional<Diagnosis> without_unlike_stretches(const Request& request, const 
   marks.assign(request.runs.size(), {});
   Request part = request;
   Diagnosis rest = all;
-  for (int round = 0; round < kRounds && mark(rest, kFar, marks); ++round) {
+  double usual = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kRounds; ++round) {
+    const double now = median_of(rest.windows_m);
+    if (now > kCalmer * usual || !mark(rest, kFar, marks)) break;
+    usual = now;
     part.stretches = stretches_of(marks, request.runs);
     rest = diagnose_all(part);
     if (is_fatal(rest.findings) || !are_unlike(rest, kUnlike)) return std::nullopt;

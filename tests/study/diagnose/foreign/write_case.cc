@@ -74,9 +74,10 @@ std::string joint_of(const Machine& m, double stated_gravity) {
 // Load-side form; what it has no key for stands as a comment.
 std::string plant_of(const Machine& m) {
   const double gear = m.sprocket_radius_m > 0 ? m.sprocket_radius_m / m.metres_per_motor_rad : 1;
-  const double radius = m.sprocket_radius_m > 0      ? m.sprocket_radius_m
-                        : m.metres_per_motor_rad > 0 ? m.metres_per_motor_rad
-                                                     : 0.01;
+  const double radius = m.sprocket_radius_m > 0 ? m.sprocket_radius_m
+                        : m.metres_per_motor_rad > 0
+                            ? m.metres_per_motor_rad
+                            : 0.005;  // of at most 1,000,000 counts a metre
   std::string text = fmt::format(
       "# {}: stroke {:.3f}, top speed {:.3f}, {:.0f} Hz\n"
       "schema = 1\n[axis.y]\nmass_kg = {:.9g}\nviscous_friction_N_s_per_m = {:.9g}\n"
