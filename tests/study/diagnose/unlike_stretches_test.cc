@@ -86,13 +86,22 @@ TEST(WithoutUnlikeStretches, NoneIsMostOfARun) {
   EXPECT_THAT(made_up_rest.asked, IsEmpty());
 }
 
+const Windows kFirst{1, 1, 1, 9, 9, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+
 TEST(WithoutUnlikeStretches, WhatTheFirstHideIsPutAsideToo) {
   MadeUpRest rest;
-  rest.left = {{1, 1, 0, 0, 0, 0, 1, 1, 4, 4, 1, 1, 1, 1}, {1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
-  EXPECT_TRUE(without_stretches(
-      with_windows({1, 1, 1, 9, 9, 1, 1, 1, 1, 1, 1, 1, 1, 1}, kUnexplained), rest));
+  rest.left = {{.9, .9, 0, 0, 0, 0, .9, .9, 4, 4, .9, .9, .9, .9}, kFirst};
+  EXPECT_TRUE(without_stretches(with_windows(kFirst, kUnexplained), rest));
   EXPECT_THAT(made_up_rest.asked, SizeIs(2));
   EXPECT_THAT(asked_last(), ElementsAre(std::pair(50, 150), std::pair(175, 275)));
+}
+
+// New ones of a model that is no better are no hand's.
+TEST(WithoutUnlikeStretches, NoneIsSoughtWhereTheRestIsNoCalmer) {
+  MadeUpRest rest;
+  rest.left = {{1, 1, 0, 0, 0, 0, 1, 1, 4, 4, 1, 1, 1, 1}, kFirst};
+  without_stretches(with_windows(kFirst, kUnexplained), rest);
+  EXPECT_THAT(made_up_rest.asked, SizeIs(1));
 }
 
 TEST(WithoutUnlikeStretches, TheyAreToldByTheirTime) {
