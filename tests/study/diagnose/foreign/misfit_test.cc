@@ -71,8 +71,9 @@ TEST(Misfit, OfAForceThatALawMakesInPartIsNotCalledByThatLaw) {
   expect_unexplained("outside_place_and_speed", 83019);
 }
 
-TEST(Misfit, OfASpringThatCreepsIsNotCalledACable) {
-  expect_unexplained("outside_memory", 81020);
+// A spring on the load is refused for the motion before, in its place.
+TEST(Misfit, OfFrictionAfterAReversalIsNotCalledACable) {
+  expect_unexplained("outside_after_reversal", 110001);
 }
 
 // Its force fades with time, that of bristles with the way: low passes of the speed in its place

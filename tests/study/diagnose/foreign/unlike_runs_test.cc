@@ -54,7 +54,7 @@ TEST_F(UnlikeRun, LeavesARunWhoseFrictionMayBeItsOwn) {
 
 // A law that the library does not have acts in all of them.
 TEST_F(UnlikeRun, IsNoneOfThoseWithAnUnknownLaw) {
-  diagnose("outside", 81020);
+  diagnose("outside", 112006);
   ASSERT_GT(request_.runs.size(), 1U);
   EXPECT_TRUE(found_.unexplained.has_value());
   EXPECT_THAT(left_out(), IsEmpty());
