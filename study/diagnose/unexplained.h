@@ -26,8 +26,9 @@ struct Unexplained {
 
 // Drops causes whose law does not fit: a free shape predicts beside all of them an eighth of what
 // the weakest of them does (the test for lack of fit; Draper, Smith 1998, ch. 2); a smooth shape,
-// of those that it can stand for; one below 1 % of the force, of causes as small. Returns what no
-// law explains; always something where a cause was dropped.
+// of those that it can stand for; one below 1 % of the force, of causes as small; or in the cause's
+// place one predicts better, or the motion before as well. Returns what no law explains; always
+// something where a cause was dropped.
 [[nodiscard]] std::optional<Unexplained> judge_rest(Data& data, Search& search);
 
 }  // namespace towbench::study::diagnose
