@@ -15,13 +15,13 @@ using Eigen::VectorXd;
 constexpr double kBeyondBlock_s = 0.02;
 constexpr int kHalfWaves = 4;  // half waves over the stroke, two columns each
 
-// A block, without units.
+// The means of a block.
 struct At {
   double x = 0;  // of the stroke
   double v = 0;  // of top speed
   double dry = 0;
   double t_s = 0;
-  double load = 0;  // drive force
+  double drive_N = 0;
 };
 
 // Columns of any shape over the place, times what multiplies it.
@@ -39,12 +39,13 @@ VectorXd single(double column) {
   return VectorXd::Constant(1, column);
 }
 
+// Friction that is higher at low speed: thousandths of top speed.
 template <int kPerMille>
 VectorXd below(const At& at) {
   return single(at.dry * std::exp(-std::pow(1000 * at.v / kPerMille, 2)));
 }
 
-// Friction that falls while a session lasts: seconds.
+// Friction that falls in the course of a session: seconds.
 template <int kAfter_s>
 VectorXd fading(const At& at) {
   return single(at.dry * std::exp(-at.t_s / kAfter_s));
@@ -58,7 +59,7 @@ constexpr LawColumns kLaws[] = {
     [](const At& at) { return single(std::abs(at.v)); },
     [](const At& at) { return single(at.v * std::abs(at.v)); },
     [](const At& at) { return single(at.v * at.v * at.v); },
-    [](const At& at) { return single(at.dry * std::abs(at.load)); },
+    [](const At& at) { return single(at.dry * std::abs(at.drive_N)); },
     below<15>,
     below<30>,
     below<50>,
