@@ -1,4 +1,5 @@
 // What the panel's checks share: the panel's process, counting checks, and a person's hands.
+import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { createHash } from "node:crypto";
 import { request } from "node:http";
@@ -136,10 +137,16 @@ export class Person {
     await this.page.selectOption("#experiment", experiment);
     await this.page.selectOption("#start-clock", options.clock ?? "lockstep");
     if (options.clock !== "real") await this.page.selectOption("#start-speed", speed);
-    await this.page.getByLabel("go on after the script").setChecked(options.hold ?? false);
+    await this.tick("go on after the script", options.hold ?? false);
     const set = (label, value) => this.page.getByLabel(label).evaluate((field, words) => (field.value = words), String(value));
     await set("Faults, separated", options.faults ?? "");
     if (options.limit_s) await set("Time limit", options.limit_s);
+  }
+  // By the keyboard, as a start.
+  async tick(label, wanted) {
+    const box = this.page.getByLabel(label);
+    if ((await box.isChecked()) !== wanted) await box.press("Space");
+    assert.equal(await box.isChecked(), wanted, label);
   }
   async over() {
     await this.page.waitForFunction((before) => {
