@@ -26,10 +26,16 @@ void add_friction(const emulator::FrictionParameters& f, double r, NominalModel&
   m.terms[Key::kCoulombAsymmetry] = f.options.asymmetry.coulomb * m.coulomb_N;
   m.terms[Key::kViscousAsymmetry] = f.options.asymmetry.viscous * m.viscous_N_s_per_m;
   m.terms[Key::kLoadFriction] = f.options.load_ratio;
-  if (f.options.presliding.travel_rad > 0) {
+  const emulator::Presliding& presliding = f.options.presliding;
+  if (presliding.travel_rad > 0 && m.coulomb_N > 0) {
     // All of dry friction follows the way.
+    const double travel_m = presliding.travel_rad * r;
+    const double stiffness_N_per_m = (m.coulomb_N + m.breakaway_excess_N) / travel_m;
+    const double damping_N_s_per_m =
+        2 * presliding.damping_ratio * std::sqrt(stiffness_N_per_m * m.mass_kg);
     m.terms[Key::kPresliding] = 2 * m.coulomb_N;
-    m.terms[Key::kPreslidingTravel] = f.options.presliding.travel_rad * r;
+    m.terms[Key::kPreslidingTravel] = travel_m;
+    m.terms[Key::kPreslidingTime] = damping_N_s_per_m * travel_m / (kPrandtlDamping * m.coulomb_N);
   }
 }
 

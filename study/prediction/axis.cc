@@ -58,6 +58,7 @@ bool any_shape(const Parameters& p, Key first) {
 Axis::Axis(const Parameters& parameters, const Scene& scene)
     : p_(parameters),
       scene_(scene),
+      bristles_(parameters),
       middle_m_(0.5 * (scene.stroke_min_m + scene.stroke_max_m)),
       per_stroke_(std::numbers::pi / (scene.stroke_max_m - scene.stroke_min_m)),
       place_force_(any_shape(p_, Key::kPlaceForce1) || any_shape(p_, Key::kPlaceViscous1)),
@@ -76,7 +77,6 @@ Axis::Axis(const Parameters& parameters, const Scene& scene)
       others_(has_others(p_)),
       temperature_(any(p_, {Key::kTemperatureDry, Key::kTemperatureViscous}) &&
                    scene.run->temperature_K.size() > 0) {
-  bristles_N_ = std::min(0.5 * p_[Key::kPresliding], p_[Key::kCoulomb]);
   const double load = p_[Key::kMass] - p_[Key::kMotorMass];
   substeps_ = scene.substeps;
   if (two_) {
@@ -107,12 +107,12 @@ void Axis::place(double position_m, double speed_m_per_s) {
   motor_ = {position_m / counted, speed_m_per_s / counted, speed_m_per_s == 0};
   load_ = motor_;
   lagged_N_ = scene_.run->input_N[0];
-  strain_ = sign(speed_m_per_s);
-  strained_at_m_ = motor_.x;
+  bristles_.place(motor_.x, motor_.v);
 }
 
 void Axis::correct(const Correction& by, double off_m) {
   motor_.x += by.motor_m * off_m;
+  bristles_.correct(by.motor_m * off_m);
   motor_.v += by.motor_m_per_s * off_m;
   load_.x += by.load_m * off_m;
   load_.v += by.load_m_per_s * off_m;
@@ -255,9 +255,7 @@ double Axis::shared_dry_N(const Body& body, double direction, double t_s) const 
   if (p_[Key::kRolloff] != 0) {
     level -= p_[Key::kRolloff] * faded(speed / p_[Key::kRolloffSpeed]);
   }
-  if (p_[Key::kPresliding] != 0) {
-    level -= bristles_N_;  // that part is in slide()
-  }
+  level -= bristles_.level_N();  // that part is in slide()
   if (p_[Key::kWarming] != 0) {
     const double t = scene_.session_start_s + t_s;
     level -= p_[Key::kWarming] * (1 - std::exp(-t / p_[Key::kWarmingTime])) / warm_end_;
@@ -281,8 +279,12 @@ double Axis::load_dry_N(const Body& body, double drive_N) const {
 }
 
 void Axis::slide(Body& body, const Sliding& how, double force_N, double drive_N, double t_s) const {
-  const double held_N = how.share * bristles_N_ * strain_;
-  const double free = (body.v + how.per_newton * (force_N - held_N)) * how.left;
+  double free = (body.v + how.per_newton * force_N) * how.left;
+  if (bristles_.level_N() > 0) {
+    const double per_newton = how.left * how.per_newton * how.share;
+    free =
+        (free - per_newton * bristles_.grip_N()) / (1 + per_newton * bristles_.damping_N_s_per_m());
+  }
   const double direction = body.v != 0 && !body.stands ? sign(body.v) : sign(free);
   const double dry =
       how.share * shared_dry_N(body, direction, t_s) + (how.load ? load_dry_N(body, drive_N) : 0);
@@ -320,8 +322,8 @@ void Axis::substep(double t_s, double mean_N, Eigen::Index k) {
         std::abs(motor_.v) / scene_.top_speed_m_per_s * (1 - p_[Key::kWorkWarming] * warmth_);
     warmth_ += h_ / p_[Key::kWorkWarmingTime] * (power - warmth_);
   }
-  if (p_[Key::kPresliding] != 0) {
-    strain();
+  if (bristles_.level_N() > 0) {
+    bristles_.go_to(motor_.x);
   }
 }
 
@@ -334,14 +336,6 @@ double Axis::transmission_N() const {
   }
   const double transmission = p_[Key::kStiffness] * past + p_[Key::kDamping] * (motor_.v - load_.v);
   return half > 0 && transmission * past < 0 ? 0 : transmission;  // a flank pushes and never pulls
-}
-
-// The step's way is integrated exactly (Dahl 1968).
-void Axis::strain() {
-  const double way = motor_.x - strained_at_m_;
-  const double end = sign(way);
-  strain_ = end - (end - strain_) * faded(std::abs(way) / p_[Key::kPreslidingTravel]);
-  strained_at_m_ = motor_.x;
 }
 
 }  // namespace towbench::study::diagnose

@@ -4,6 +4,7 @@
 // Of a rigid axis:  v* = v + h (D - B v - ...) / M,  v' = sgn(v*) max(|v*| - h C / M, 0).
 #pragma once
 
+#include "study/prediction/bristles.h"
 #include "study/prediction/correction.h"
 #include "study/prediction/other_axes.h"
 #include "study/prediction/parameters.h"
@@ -54,10 +55,10 @@ class Axis {
   [[nodiscard]] double shared_dry_N(const Body& body, double direction, double t_s) const;
   [[nodiscard]] double load_dry_N(const Body& body, double drive_N) const;
   void slide(Body& body, const Sliding& how, double force_N, double drive_N, double t_s) const;
-  void strain();
 
   Parameters p_;
   const Scene& scene_;
+  Bristles bristles_;
   int substeps_ = 1;
   double h_ = 0;  // of a substep, s
   double middle_m_;
@@ -84,9 +85,6 @@ class Axis {
   double lagged_N_ = 0;
   double acceleration_ = 0;  // of the motor, over the last substep
   double warmth_ = 0;        // 1: of going on at top speed for ever
-  double bristles_N_ = 0;    // of dry friction, what follows the way
-  double strain_ = 0;        // of the bristles, 1: sliding on in the positive direction
-  double strained_at_m_ = 0;
 };
 
 }  // namespace towbench::study::diagnose

@@ -44,6 +44,8 @@ struct Effect {
   // Sets scales and whatever else it needs; amplitudes stay.
   void (*set)(Parameters&, const Context&, std::span<const double>) = nullptr;
   double (*step)(const Context&) = nullptr;  // of an amplitude, for its derivative
+  // With which it is sought as well where its force is far from linear in the amplitude, or null.
+  double (*far_step)(const Context&) = nullptr;
   // Keys of the plant file below [axis.NAME], or of its water, and their values. Empty: the
   // emulator cannot express it.
   std::vector<std::string> plant_keys = {};

@@ -14,14 +14,25 @@ std::vector<Scales> low_speeds(const Context& c) {
   return multiples({0.01, 0.03, 0.08, 0.2}, c.top_speed_m_per_s);
 }
 
-// Travel after a reversal: from what the encoder resolves to a twentieth of the stroke.
+// Travel after a reversal: from what the encoder resolves to a twentieth of the stroke. Damped by a
+// quarter of what is critical if all dry friction is that of bristles.
 std::vector<Scales> travels(const Context& c) {
+  constexpr double kDampingRatio = 0.25;
   std::vector<Scales> grid;
   const double shortest = std::max(3 * c.resolution_m, 1e-4 * c.stroke_m);
+  const double friction_N = std::max(c.stated.coulomb_N, 0.1 * c.input_rms_N);
   for (double travel = shortest; travel < c.stroke_m / 20; travel *= 3) {
-    grid.push_back({travel});
+    grid.push_back({travel, 2 * kDampingRatio * std::sqrt(c.stated.mass_kg * travel / friction_N)});
   }
   return grid;
+}
+// Of kPresliding, with which nothing but bristles is left.
+double all_friction(const Context& c) {
+  return 2 * std::max(c.stated.coulomb_N, 0.1 * c.input_rms_N);
+}
+void set_bristles(Parameters& p, const Context& /*c*/, std::span<const double> scales) {
+  p[Key::kPreslidingTravel] = scales[0];
+  p[Key::kPreslidingTime] = scales[1];
 }
 
 std::vector<Scales> warming_times(const Context& c) {
@@ -79,12 +90,18 @@ PlantValues stribeck_values(const Parameters& p, const StatedPlant& stated) {
           std::string(lorentz ? "lorentz" : "gaussian")};
 }
 
-// Dahl's bristles as Prandtl's element that takes as much work from a reversal: 2 b l = 2 C travel.
+// Dahl's bristles as Prandtl's element that takes as much work from a reversal: 2 b l = 2 C travel,
+// and, at any speed, as much of it by damping.
 PlantValues presliding_values(const Parameters& p, const StatedPlant& stated) {
   const double coulomb_N = p[Key::kCoulomb];
   const double bristles_N = std::min(kDrySpring * p[Key::kPresliding], coulomb_N);
   if (coulomb_N <= 0) return {};
-  return {p[Key::kPreslidingTravel] * bristles_N / (coulomb_N * stated.metres_per_motor_rad), 0.0};
+  const double travel_m = p[Key::kPreslidingTravel] * bristles_N / coulomb_N;
+  const FileFriction f = file_friction(p, stated);
+  const double critical = 2 * std::sqrt((f.coulomb_N + f.excess_N) * p[Key::kMass] / travel_m);
+  const double damping =
+      kPrandtlDamping * coulomb_N * p[Key::kPreslidingTime] / p[Key::kPreslidingTravel];
+  return {travel_m / stated.metres_per_motor_rad, damping / critical};
 }
 
 // k W = depth W' of a store that the power depth C v_top / k fills.
@@ -210,16 +227,17 @@ void add_friction_effects(std::vector<Effect>& library) {
       {.name = "presliding",
        .cause = "friction that builds up over a path after each reversal",
        .needs = "small reversals at two speeds",
-       .law = "dry friction - d/2 (1 - z sgn v), l dz/d|x| = sgn v - z",
+       .law = "dry friction - d/2 (1 - z sgn v) + d/2 (T/l) (1 - |z|) |v|, l dz/d|x| = sgn v - z",
        .source = "Dahl 1968",
        .amplitudes = {Key::kPresliding},
        .amplitude_names = {"missing_at_reversal_N"},
-       .scales = {Key::kPreslidingTravel},
-       .scale_names = {"travel_m"},
+       .scales = {Key::kPreslidingTravel, Key::kPreslidingTime},
+       .scale_names = {"travel_m", "damping_s"},
        .positive = true,
        .grid = travels,
-       .set = set_scale<Key::kPreslidingTravel>,
+       .set = set_bristles,
        .step = force_step,
+       .far_step = all_friction,
        .plant_keys = {"friction.presliding.travel_rad", "friction.presliding.damping_ratio"},
        .plant_values = presliding_values});
   library.push_back({.name = "thermal_drift",

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 
 namespace towbench::study::diagnose {
 
@@ -28,8 +29,9 @@ enum class Key : std::uint8_t {
   kRolloffSpeed,      // m/s
   kBreakaway,         // N, beyond what slides, while the axis stands or leaves
   kBreakawaySpeed,    // m/s
-  kPresliding,        // N missing right after a reversal: half of it follows the way, Dahl 1968
+  kPresliding,        // N missing right after a reversal: half of it follows the way (bristles.h)
   kPreslidingTravel,  // m
+  kPreslidingTime,    // s, of the bristles' damping
   kPlaceFriction1,    // N, cos(k pi x) over the stroke, (3.34)
   kPlaceFriction2,
   kPlaceFriction3,
@@ -106,6 +108,10 @@ enum class Key : std::uint8_t {
   kWheelTurns,
   kCount
 };
+
+// Of the damping that bristles have before they bend, what Prandtl's element has that loses as much
+// to it from one reversal to sliding: the mean of 1 - |z| over its way.
+inline constexpr double kPrandtlDamping = std::numbers::ln2;
 
 inline constexpr int kShapes = 6;  // of each kPlace...
 inline constexpr std::size_t kKeys = static_cast<std::size_t>(Key::kCount);

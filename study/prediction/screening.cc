@@ -51,6 +51,7 @@ struct Slot {
   const Effect* effect;
   Scales scales;
   std::vector<double> turns;  // of each run, of what is periodic
+  double step;                // of its amplitudes
   Index from;                 // its first column
   Index count;
 };
@@ -70,11 +71,15 @@ std::vector<Slot> slots_of(const Frame& frame, const State& s,
     if (is_in(frame, s, effect) ||
         std::find(excluded.begin(), excluded.end(), &effect) != excluded.end())
       continue;
+    const Index count = std::max<Index>(1, std::ssize(effect.amplitudes));
+    const auto add = [&](const Scales& scales, double step) {
+      slots.push_back({&effect, scales, {}, step, column, count});
+      column += count;
+    };
     for (const Scales& scales : effect.grid(frame.context)) {
       if (!is_at_stated_frequency(frame.context.stated.terms, effect, scales)) continue;
-      const Index count = std::max<Index>(1, std::ssize(effect.amplitudes));
-      slots.push_back({&effect, scales, {}, column, count});
-      column += count;
+      add(scales, effect.step(frame.context));
+      if (effect.far_step != nullptr) add(scales, effect.far_step(frame.context));
     }
   }
   in_parallel(slots.size(), [&](std::size_t i) {
@@ -98,7 +103,7 @@ std::vector<Variation> variations_of(const Frame& frame, const State& s,
     set_turns(with, effect, slot.turns);
     if (effect.amplitudes.empty()) all.push_back({.model = with});
     for (const Key key : effect.amplitudes) {
-      Variation& v = all.emplace_back(Variation{with, effect.step(frame.context), {}});
+      Variation& v = all.emplace_back(Variation{with, slot.step, {}});
       v.model.parameters[key] += v.step;
     }
   }

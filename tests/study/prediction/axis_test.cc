@@ -2,6 +2,7 @@
 #include "study/prediction/axis.h"
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -218,6 +219,27 @@ TEST(Axis, BristlesTakeAForceThatFollowsTheWay) {
       ASSERT_NEAR(taken_N, force_N(back ? turned_m - way_m : way_m, back), 0.25) << k;
     }
   }
+}
+
+// About z = 0 a body on bristles is one on a spring C / l and a damper C T / l: let go a little off
+// its place of rest, it swings on below its first overshoot exp(-pi zeta / sqrt(1 - zeta^2)).
+TEST(Axis, BristlesDampASmallSwing) {
+  constexpr double kTravel_m = 2e-3;
+  constexpr double kZeta = 0.2;
+  Parameters p = free_body();
+  p[Key::kCoulomb] = 30;
+  p[Key::kPresliding] = 60;
+  p[Key::kPreslidingTravel] = kTravel_m;
+  const double pulsation = std::sqrt(30 / kTravel_m / kMass_kg);
+  p[Key::kPreslidingTime] = 2 * kZeta / pulsation;
+  constexpr double kForce_N = 0.03;  // a step: from rest it swings about F l / C
+  Stepped body(p, VectorXd::Constant(2000, kForce_N));
+  const double rest_m = kForce_N * kTravel_m / 30;
+  double most_m = 0;
+  for (Index k = 0; k < 200; ++k) most_m = std::max(most_m, body.after(1));
+  const double over = std::exp(-std::numbers::pi * kZeta / std::sqrt(1 - kZeta * kZeta));
+  EXPECT_NEAR(most_m / rest_m, 1 + over, 0.02);
+  EXPECT_NEAR(body.after(1800) / rest_m, 1, 0.02);
 }
 
 // A wheel out of round by w(x) = e cos(k x): energy of the load is M (1 + w)^2 v^2 / 2.

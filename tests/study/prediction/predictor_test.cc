@@ -83,6 +83,23 @@ TEST(Innovations, OfAnElasticAxisFindTheSwingThatTheLogBeginsWith) {
   EXPECT_LT(later, 0.1 * early);
 }
 
+// The log begins while the axis stands on bristles that are bent by half of what they hold, which
+// no prediction can know. It finds the bend: a correction moves the axis and not the bristles.
+TEST(Innovations, OfAnAxisOnBristlesFindTheBendThatTheLogBeginsWith) {
+  Parameters truth = parameters_of(simple_model());
+  truth[Key::kPresliding] = 2 * truth[Key::kCoulomb];
+  truth[Key::kPreslidingTravel] = 1e-3;
+  truth[Key::kPreslidingTime] = 0.02;
+  study::diagnose::Run run = simulated_run(truth, 3, 0);
+  run.input_N.setConstant(0.5 * truth[Key::kCoulomb]);
+  run.position_m.setConstant(0.3);
+  run.position_m.tail(1).setConstant(0.4);  // a stroke
+  const VectorXd e = innovations_of_run(run, truth);
+  const double to_force = truth[Key::kMass] * kBandwidth * kBandwidth;
+  EXPECT_GT(to_force * e.segment(200, 100).cwiseAbs().maxCoeff(), 0.05);
+  EXPECT_LT(to_force * e.segment(2000, 500).cwiseAbs().maxCoeff(), 0.01);
+}
+
 // A prediction that stops and goes on is the same: a long recording is looked at piece by piece.
 TEST(Innovations, InPiecesAreThoseOfTheWhole) {
   const Parameters truth = parameters_of(simple_model());
