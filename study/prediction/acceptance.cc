@@ -12,6 +12,7 @@ using Eigen::VectorXd;
 
 constexpr double kLeastForce = 0.001;    // of the input's rms
 constexpr double kLeastOfStated = 0.03;  // by which what the model states must be off
+constexpr double kLeastGap = 0.1;        // of the input's rms, that would stretch a spring as far
 constexpr double kOfRounding = 0.29;     // rms of an encoder's steps, in steps
 constexpr double kCollapsed = 0.99;      // of what is believed of a mass, or of dry friction
 constexpr double kSwap = 1;              // standard errors by which another must predict better
@@ -26,6 +27,12 @@ bool predict_alike(const State& one, const State& other) {
 bool predicts_better(const State& one, const State& other) {
   return compare(one.loss, other.loss, 2).standard_errors > kSwap &&
          other.loss.sum() < kSwapLoss * one.loss.sum();
+}
+
+// Play below a step of the encoder, or that a spring hides: what is left of it is the spring.
+bool is_closed(const Context& context, const Parameters& p) {
+  return p[Key::kPlay] < context.resolution_m ||
+         p[Key::kStiffness] * p[Key::kPlay] < kLeastGap * context.input_rms_N;
 }
 
 // Whether `holds` of both here, and at the bandwidth at which no more than rounding is left.
@@ -61,6 +68,7 @@ bool is_worth_naming(const Frame& frame, const State& s) {
   const Parameters stated = parameters_of(frame.context.stated);
   return std::all_of(s.accepted.begin(), s.accepted.end(), [&](const Accepted& a) {
     const auto& keys = a.effect->amplitudes;
+    if (a.effect->rough && is_closed(frame.context, p)) return false;
     const double first = keys.empty() ? 0 : std::abs(p[keys.front()]);
     return (keys.empty() || first >= a.effect->least) &&
            (a.effect->most == 0 || first < a.effect->most) &&

@@ -35,6 +35,7 @@ struct Effect {
   bool flexible = false;    // a free shape, that takes on what is not its own
   std::string along{};      // what it is a force of, in any shape; empty: its law is a certain one
   double whole = 0;         // the amplitude that its law fixes; 0: none
+  bool rough = false;       // a fit of it has many minima: begun from all of its grid
   bool structural = false;  // so large where it acts that no fit without it means anything
   int other = -1;           // which of the log's other axes it is about; -1: none
   // The base key that the mean of its shape falls into: with the effect found, that parameter is

@@ -47,7 +47,7 @@ std::vector<Scales> modes(const Context& c) {
 std::vector<Scales> plays(const Context& c) {
   std::vector<Scales> grid;
   const double least = std::max({0.5 * c.resolution_m, 1e-5 * c.stroke_m, 1e-7});
-  for (double play = least; play < c.stroke_m / 20 && !c.stated.elastic(); play *= 3) {
+  for (double play = least; play < c.stroke_m / 20 && !c.stated.elastic(); play *= 2) {
     for (const double load : {0.5, 0.8}) grid.push_back({play, load});
   }
   return grid;
@@ -127,6 +127,7 @@ void add_mechanical_effects(std::vector<Effect>& library) {
                        "friction_share_of_load"},
        .positive = true,
        .whole = 1,
+       .rough = true,
        .grid = plays,
        .set = set_loose,
        .step = whole_step,

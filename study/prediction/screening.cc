@@ -1,5 +1,6 @@
 #include "study/prediction/screening.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "study/prediction/in_parallel.h"
@@ -136,6 +137,45 @@ Candidate judge(const Blocks& blocks, const Slot& slot, Index p, const VectorXd&
   return c;
 }
 
+constexpr double kSlower = 4;  // than the correction that predicts best
+constexpr double kSlowest = 6;
+constexpr int kShortFit = 2;  // rounds
+constexpr int kLongFit = 12;
+constexpr std::size_t kLongFits = 3;
+
+Frame at_slower(Frame frame, const Model& model) {
+  frame.bandwidth = std::max(kSlowest, frame.bandwidth / kSlower);
+  frame.spans = cut(*frame.data, frame.bandwidth);
+  weigh(*frame.data, frame.spans, innovations(*frame.data, model, frame.bandwidth));
+  return frame;
+}
+
+Fitted fit_scales_too(const Frame& frame, std::vector<FreeParameter> free, const Effect& effect,
+                      const Model& from, int rounds) {
+  for (const Key key : effect.scales) {
+    const double step = scale_step(frame.context, key, from.parameters[key], false);
+    free.push_back({.key = key, .step = step, .positive = true});
+  }
+  return fit_model(*frame.data, frame.context, from, free, frame.bandwidth, frame.spans, rounds);
+}
+
+// Of a law whose fit has many minima, a model near the best. At a slower correction they are wider,
+// and the stated body is nearer than one that was fitted without the law.
+Model best_start(const Frame& given, const State& s, const Effect& effect, const Model& stated) {
+  const Frame frame = at_slower(given, s.fitted.model);
+  std::vector<Fitted> tried;
+  for (const Scales& scales : effect.grid(frame.context)) {
+    Model model = with_body_of(stated, s.fitted.model);
+    effect.set(model.parameters, frame.context, scales);
+    tried.push_back(fit_scales_too(frame, s.free, effect, model, kShortFit));
+  }
+  const auto by_cost = [](const Fitted& a, const Fitted& b) { return a.cost < b.cost; };
+  std::sort(tried.begin(), tried.end(), by_cost);
+  tried.resize(std::min(kLongFits, tried.size()));
+  for (Fitted& one : tried) one = fit_scales_too(frame, s.free, effect, one.model, kLongFit);
+  return std::min_element(tried.begin(), tried.end(), by_cost)->model;
+}
+
 }  // namespace
 
 bool is_in(const Frame& frame, const State& s, const Effect& effect) {
@@ -200,6 +240,7 @@ State with(const Frame& frame, const State& s, const Candidate& c, const Model& 
   Model model = s.fitted.model;
   Accepted accepted{c.effect, {}, c.sought};
   c.effect->set(model.parameters, frame.context, c.scales);
+  if (c.effect->rough) model = best_start(frame, s, *c.effect, start);
   set_turns(model, *c.effect, c.turns);
   for (std::size_t j = 0; j < c.effect->amplitudes.size(); ++j) {
     const Key key = c.effect->amplitudes[j];

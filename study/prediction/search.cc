@@ -130,7 +130,8 @@ class Searcher {
     for (const Candidate* c : shortlist(list)) {
       State other = with(frame_, s, *c, start_);
       const Comparison gain = compare(s.loss, other.loss, 2);
-      if (is_weak(frame_, s, other, base_e) || !is_significant(limits_, gain, c->p_value()) ||
+      if (is_weak(frame_, s, other, base_e) ||
+          !is_significant(limits_, gain, first_p_value(*c, other, gain)) ||
           !matters(frame_, *c->effect, s, other) || !is_worth_naming(frame_, other) ||
           collapses(s, other)) {
         continue;
@@ -156,11 +157,18 @@ class Searcher {
   // A score test underestimates what is far from linear: the less of its p-value and that of Wald's
   // test once it is fitted.
   double fitted_p_value(const Candidate& c, const State& fitted, const Comparison& gain) const {
-    if (c.effect->whole != 0) return c.p_value();
+    if (c.effect->whole != 0) return first_p_value(c, fitted, gain);
     return std::min(c.p_value(), own_p_value(fitted, fitted.accepted.size() - 1, gain, c.tried));
   }
 
-  // By the linear prediction, and by certainty.
+  // Before its scales are fitted, what is rough is too far off to be tested.
+  double first_p_value(const Candidate& c, const State& fitted, const Comparison& gain) const {
+    return c.effect->rough ? own_p_value(fitted, fitted.accepted.size() - 1, gain, c.tried)
+                           : c.p_value();
+  }
+
+  // By the linear prediction, and by certainty. What is rough is never sure before it is fitted: it
+  // is tried beside another law of two bodies.
   std::vector<const Candidate*> shortlist(const std::vector<Candidate>& list) const {
     std::vector<const Candidate*> out;
     const Candidate* surest = nullptr;
@@ -169,8 +177,14 @@ class Searcher {
       if (out.size() < kShortlist) out.push_back(&c);
       if (surest == nullptr || c.p_value() < surest->p_value()) surest = &c;
     }
-    if (surest != nullptr && std::find(out.begin(), out.end(), surest) == out.end()) {
-      out.push_back(surest);
+    const auto add = [&](const Candidate* c) {
+      if (c != nullptr && std::find(out.begin(), out.end(), c) == out.end()) out.push_back(c);
+    };
+    add(surest);
+    const bool two_bodies = std::any_of(
+        out.begin(), out.end(), [](const Candidate* c) { return c->effect->amplitudes.empty(); });
+    for (const Candidate& c : list) {
+      if (two_bodies && c.effect->rough) add(&c);
     }
     return out;
   }
@@ -255,8 +269,9 @@ class Searcher {
     for (const Candidate& c : judged.list) {
       // A free shape holds what is structural as one of its forms.
       const bool holds_it = cause.effect->structural && c.effect->flexible;
-      if (c.effect == cause.effect || holds_it || !convinces(c)) continue;
-      if (fitted++ == kFittedOfAShortlist) break;
+      const bool rough = c.effect->rough && cause.effect->amplitudes.empty();
+      if (c.effect == cause.effect || holds_it || !(rough || convinces(c))) continue;
+      if (!rough && fitted++ >= kFittedOfAShortlist) continue;
       State other = with(frame_, judged.rest, c, start_);
       if (!is_worth_naming(frame_, other) || collapses(now, other)) continue;
       if (is_better(frame_, now, other)) return other;
