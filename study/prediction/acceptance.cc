@@ -12,12 +12,12 @@ using Eigen::VectorXd;
 
 constexpr double kLeastForce = 0.001;    // of the input's rms
 constexpr double kLeastOfStated = 0.03;  // by which what the model states must be off
-constexpr double kLeastGap = 0.1;        // of the input's rms, that would stretch a spring as far
-constexpr double kOfRounding = 0.29;     // rms of an encoder's steps, in steps
-constexpr double kCollapsed = 0.99;      // of what is believed of a mass, or of dry friction
-constexpr double kSwap = 1;              // standard errors by which another must predict better
-constexpr double kSwapLoss = 0.98;       // times the loss that it leaves at most
-constexpr double kAliasLoss = 2;         // times the loss that still predicts alike
+constexpr double kLeastGap = 0.1;     // of the input's rms: what stretches the spring by the play
+constexpr double kOfRounding = 0.29;  // rms of an encoder's steps, in steps
+constexpr double kCollapsed = 0.99;   // of what is believed of a mass, or of dry friction
+constexpr double kSwap = 1;           // standard errors by which another must predict better
+constexpr double kSwapLoss = 0.98;    // times the loss that it leaves at most
+constexpr double kAliasLoss = 2;      // times the loss that still predicts alike
 
 bool predict_alike(const State& one, const State& other) {
   return compare(other.loss, one.loss, 2).standard_errors < kAlias &&
@@ -29,7 +29,7 @@ bool predicts_better(const State& one, const State& other) {
          other.loss.sum() < kSwapLoss * one.loss.sum();
 }
 
-// Play below a step of the encoder, or that a spring hides: what is left of it is the spring.
+// Play below a step of the encoder, or small beside the stretch of the spring, is none.
 bool is_closed(const Context& context, const Parameters& p) {
   return p[Key::kPlay] < context.resolution_m ||
          p[Key::kStiffness] * p[Key::kPlay] < kLeastGap * context.input_rms_N;

@@ -6,7 +6,7 @@
 namespace towbench::study::diagnose {
 namespace {
 
-constexpr double kCame_s = 0.1;  // for which a body has moved when a log begins
+constexpr double kCame_s = 0.1;  // of motion assumed before a log begins
 
 }  // namespace
 

@@ -15,7 +15,7 @@ class Bristles {
   // Part of Coulomb friction; zero: there are none.
   [[nodiscard]] double level_N() const noexcept { return level_N_; }
   void place(double position_m, double speed_m_per_s);
-  // The body is somewhere else than it was believed to be: it went no way.
+  // The body is somewhere else than it was believed to be: it has not moved.
   void correct(double by_m) noexcept { at_m_ += by_m; }
   void go_to(double position_m);
   [[nodiscard]] double grip_N() const noexcept { return level_N_ * bend_; }

@@ -137,9 +137,9 @@ Candidate judge(const Blocks& blocks, const Slot& slot, Index p, const VectorXd&
   return c;
 }
 
-constexpr double kSlower = 4;  // than the correction that predicts best
-constexpr double kSlowest = 6;
-constexpr int kShortFit = 2;  // rounds
+constexpr double kSlower = 4;   // than the correction that predicts best
+constexpr double kSlowest = 6;  // rad/s
+constexpr int kShortFit = 2;    // rounds
 constexpr int kLongFit = 12;
 constexpr std::size_t kLongFits = 3;
 

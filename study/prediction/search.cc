@@ -167,7 +167,7 @@ class Searcher {
                            : c.p_value();
   }
 
-  // By the linear prediction, and by certainty. What is rough is never sure before it is fitted: it
+  // By the linear prediction, and by certainty. What is rough cannot be tested before its fit: it
   // is tried beside another law of two bodies.
   std::vector<const Candidate*> shortlist(const std::vector<Candidate>& list) const {
     std::vector<const Candidate*> out;
