@@ -32,13 +32,13 @@ Sizes sizes_in(const Data& data) {
   return {std::sqrt(sum.acceleration / n), std::sqrt(sum.speed / n)};
 }
 
-// Standard error of a mean over runs that differ. Of what few are left of several the spread says
-// little: they may all be off by what runs usually differ by.
-double of_runs(const Model& model, Key key, double usual_N) {
+// Standard error of a mean over runs that differ. Of few the spread says little: they may all be
+// off by what runs usually differ by.
+double of_runs(const Model& model, Key key, double usual_N, bool some_left_out) {
   const auto n = static_cast<double>(model.of_run.size());
   if (key != Key::kBias && key != Key::kCoulomb) return 0;
   const double least_N = usual_N / (kMovedErrors * std::sqrt(n));
-  if (n < 2) return least_N;
+  if (n < 2) return some_left_out ? least_N : 0;
   double square = 0;
   for (const OfRun& run : model.of_run) {
     const double own = key == Key::kBias ? run.bias_N : run.coulomb_N;
@@ -109,13 +109,14 @@ std::vector<ParameterShift> judge_parameters(const Data& data, const Search& sea
                                        model.bias_N};
   const std::array<Key, 4> keys{Key::kMass, Key::kViscous, Key::kCoulomb, Key::kBias};
   const Sizes sizes = sizes_in(data);
-  const double usual_N = some_left_out ? runs_differ_N(search.context) : 0;
+  const double usual_N = runs_differ_N(search.context);
   const std::array<double, 4> columns{sizes.acceleration, sizes.speed, 1, 1};
   std::vector<ParameterShift> shifts;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto j = static_cast<Eigen::Index>(i);
-    const double error = std::hypot(std::sqrt(std::max(0.0, search.final.linear.covariance(j, j))),
-                                    of_runs(search.final.fitted.model, keys[i], usual_N));
+    const double error =
+        std::hypot(std::sqrt(std::max(0.0, search.final.linear.covariance(j, j))),
+                   of_runs(search.final.fitted.model, keys[i], usual_N, some_left_out));
     const double value = search.final.fitted.model.parameters[keys[i]];
     const double off = value - supplied[i];
     const bool shared =

@@ -62,6 +62,15 @@ Model moved(const Model& from, const Context& context, const std::vector<FreePar
   return to;
 }
 
+// What all runs have of their own alike is the model's. Data tell them apart by nothing, and steps
+// as small as the held ones ask for end a fit too early.
+void centre(Model& model, Key key, double OfRun::*own) {
+  double mean = 0;
+  for (const OfRun& run : model.of_run) mean += run.*own / static_cast<double>(model.of_run.size());
+  model.parameters[key] += mean;
+  for (OfRun& run : model.of_run) run.*own -= mean;
+}
+
 }  // namespace
 
 std::vector<FreeParameter> base_free_parameters(const Context& c, std::size_t runs) {
@@ -159,6 +168,10 @@ Fitted fit_model(const Data& data, const Context& context, Model start,
     if (before - best.cost < kGoodEnough * before) {
       break;
     }
+  }
+  if (std::any_of(free.begin(), free.end(), is_held)) {
+    centre(best.model, Key::kBias, &OfRun::bias_N);
+    centre(best.model, Key::kCoulomb, &OfRun::coulomb_N);
   }
   return best;
 }

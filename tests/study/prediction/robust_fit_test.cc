@@ -66,6 +66,27 @@ TEST(Weigh, BlocksThatStandAreNoMeasureOfThoseThatMove) {
   for (const Span& span : spans) EXPECT_EQ(span.weight, 1);
 }
 
+// Of two runs with the same constant force: data tell by nothing whether it is the model's or that
+// of each.
+TEST(FitModel, WhatAllRunsHaveAlikeIsTheModels) {
+  Parameters truth = parameters_of(simple_model());
+  truth[Key::kBias] = 0.5;
+  truth[Key::kCoulomb] = 2.4;
+  const std::vector<Recording> runs{simulated_run(truth, 20, 2e-6), simulated_run(truth, 12, 2e-6)};
+  const NominalModel stated = simple_model();
+  const Data data = make_data(runs, stated);
+  const Context context = make_context(stated, data);
+  const Model start{parameters_of(stated), std::vector<OfRun>(2)};
+  const Model fitted =
+      fit_model(data, context, start, base_free_parameters(context, 2), 30, cut(data, 30), 8).model;
+  EXPECT_NEAR(fitted.parameters[Key::kBias], 0.5, 0.01);
+  EXPECT_NEAR(fitted.parameters[Key::kCoulomb], 2.4, 0.01);
+  for (const OfRun& run : fitted.of_run) {
+    EXPECT_NEAR(run.bias_N, 0, 0.01);
+    EXPECT_NEAR(run.coulomb_N, 0, 0.01);
+  }
+}
+
 // An encoder so coarse that a fast correction follows its steps.
 TEST(Bandwidth, IsNoFasterThanAnEncodersStepsAllow) {
   constexpr double kStep_m = 1e-3;
