@@ -64,15 +64,17 @@ PlantModel load_plant_model(const std::filesystem::path& path, const std::string
   m.metres_per_motor_rad = r;
   m.rotary = rig.transmissions[which]->turns_load;
   m.output_radius_m = p.output_radius_m;
+  m.has_wheel = rig.transmissions[which]->has_wheel;
   const double volts = p.amplifier.output_limit_ratio * rig.parameters.supply.voltage_V;
   m.no_load_speed_m_per_s = volts / p.torque_constant_Nm_per_A * r;
   add_friction_and_transmission(m, p, *stated);
   diagnose::add_stated_terms(rig.parameters, which, m);
   if (stated->contains("mass_kg")) {
-    // A direct drive: gear, wheel and turn of the motor come from no statement of the file.
-    m.metres_per_motor_rad = stated->contains("gear_ratio") ? r : 0;
-    m.output_radius_m = 0;
-    m.no_load_speed_m_per_s = 0;
+    m.no_load_speed_m_per_s = 0;  // comes from no statement of the file
+    if (!stated->contains("gear_ratio") && !stated->contains("transmission")) {
+      m.metres_per_motor_rad = 0;  // a direct drive
+      m.output_radius_m = 0;
+    }
   }
   return out;
 }

@@ -72,6 +72,7 @@ void add_waves(const emulator::RigAxisParameters& axis, double r, NominalModel& 
     m.terms[Key::kWheelCosine] = share * std::cos(phase_rad);
     m.terms[Key::kWheelSine] = -share * std::sin(phase_rad);
     m.terms[Key::kWheelPerMetre] = 1 / (kTurn_rad * p.output_radius_m);
+    m.terms[Key::kWheelDry] = p.friction.carriage_share;
   }
   if (axis.encoder.eccentricity_counts > 0) {
     const double off_m = axis.encoder.eccentricity_counts * m.metres_per_count;

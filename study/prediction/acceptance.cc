@@ -57,10 +57,11 @@ bool is_significant(const Limits& limits, const Comparison& gain, double p_value
 bool matters(const Frame& frame, const Effect& effect, const State& without_it,
              const State& with_it) {
   const double to_force = frame.context.stated.mass_kg * frame.bandwidth * frame.bandwidth;
-  const bool reads = !effect.scales.empty() && effect.scales.front() == Key::kReadPerMetre;
+  const bool is_way = !effect.scales.empty() && (effect.scales.front() == Key::kReadPerMetre ||
+                                                 effect.scales.front() == Key::kWheelPerMetre);
   const double made_m = (without_it.fitted.e - with_it.fitted.e).norm() /
                         std::sqrt(static_cast<double>(frame.data->samples()));
-  return reads || to_force * made_m > kLeastForce * frame.context.input_rms_N;
+  return is_way || to_force * made_m > kLeastForce * frame.context.input_rms_N;
 }
 
 bool is_worth_naming(const Frame& frame, const State& s) {

@@ -200,15 +200,16 @@ double Axis::on_motor_N(Eigen::Index k) const {
 }
 
 // x of the load = r dx of the motor, r = 1 + w(x): the load's inertia and dry friction as the motor
-// feels them, M (r^2 a + r r' v^2) + r C, beside those of r = 1, to the first order in w.
+// feels them, M (r^2 a + r r' v^2) + r C, beside those of r = 1.
 double Axis::wheel_N() const {
   const double turns = p_[Key::kWheelPerMetre] * motor_.x + p_[Key::kWheelTurns];
   const double excess = wave(p_[Key::kWheelCosine], p_[Key::kWheelSine], turns);
   const double slope =
       kTurn * p_[Key::kWheelPerMetre] * wave(p_[Key::kWheelSine], -p_[Key::kWheelCosine], turns);
   const double load_kg = p_[Key::kMass] - p_[Key::kMotorMass];
-  return load_kg * (2 * excess * acceleration_ + slope * motor_.v * motor_.v) +
-         excess * p_[Key::kCoulomb] * sign(motor_.v);
+  const double inertia_N =
+      (2 + excess) * excess * acceleration_ + (1 + excess) * slope * motor_.v * motor_.v;
+  return load_kg * inertia_N + excess * p_[Key::kWheelDry] * p_[Key::kCoulomb] * sign(motor_.v);
 }
 
 double Axis::on_load_N(const Body& body, double t_s) const {

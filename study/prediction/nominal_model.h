@@ -28,7 +28,8 @@ struct NominalModel {
   double bias_N = 0;
   // What one motor radian moves the carriage: R/n. A direct drive has no motor side: 0.
   double metres_per_motor_rad = 0;
-  double output_radius_m = 0;        // 0: none
+  double output_radius_m = 0;        // a radian of the output; 0: not known
+  bool has_wheel = true;             // at the output, which may run out of round
   double metres_per_count = 0;       // 0: positions are given in metres
   double newton_per_duty_pct = 0;    // 0: the log's input is a force
   double newton_per_volt = 0;        // of a log in controller volts

@@ -89,6 +89,7 @@ enum class Key : std::uint8_t {
   kWheelCosine,
   kWheelSine,
   kWheelPerMetre,
+  kWheelDry,  // of dry friction, what is behind the wheel
   // Two bodies; kMotorMass zero: rigid.
   kMotorMass,  // kg, of kMass
   kStiffness,  // N/m

@@ -11,12 +11,16 @@ namespace towbench::study::diagnose {
 namespace {
 
 constexpr double kFullTurn = 2 * std::numbers::pi;
+constexpr double kUsualDry = 0.8;  // of dry friction behind the wheel, per that of what moves
 
 double motor_per_m(const Context& c) {
   return c.stated.metres_per_motor_rad > 0 ? 1 / (kFullTurn * c.stated.metres_per_motor_rad) : 0;
 }
-double wheel_per_m(const Context& c) {
+double output_per_m(const Context& c) {
   return c.stated.output_radius_m > 0 ? 1 / (kFullTurn * c.stated.output_radius_m) : 0;
+}
+double wheel_per_m(const Context& c) {
+  return c.stated.has_wheel ? output_per_m(c) : 0;
 }
 
 // Resolved by the encoder, and long enough travelled to be no slope.
@@ -32,7 +36,7 @@ std::vector<Scales> turns(const Context& c) {
     add_visible(grid, c, harmonic * motor_per_m(c));
   }
   for (const double harmonic : {1.0, 2.0}) {
-    add_visible(grid, c, harmonic * wheel_per_m(c));
+    add_visible(grid, c, harmonic * output_per_m(c));
   }
   for (const double per_m : c.lines_per_m) {
     // Of fewer periods in the stroke it is a shape of the place.
@@ -45,6 +49,21 @@ std::vector<Scales> wheel_turn(const Context& c) {
   std::vector<Scales> grid;
   add_visible(grid, c, wheel_per_m(c));
   return grid;
+}
+
+// Rigid, the load's part of what moves and of what rubs are not known.
+template <std::vector<Scales> (*waves)(const Context&)>
+std::vector<Scales> and_dry(const Context& c) {
+  std::vector<Scales> grid = waves(c);
+  for (Scales& scales : grid) {
+    scales.push_back(c.stated.elastic() ? c.stated.transmission.load_share : kUsualDry);
+  }
+  return grid;
+}
+
+void set_wheel(Parameters& p, const Context& /*c*/, std::span<const double> scales) {
+  p[Key::kWheelPerMetre] = scales[0];
+  p[Key::kWheelDry] = scales[1];
 }
 
 std::vector<Scales> motor_turn(const Context& c) {
@@ -150,10 +169,10 @@ void add_periodic_effects(std::vector<Effect>& library) {
                      .source = "virtual work on an eccentric wheel",
                      .amplitudes = {Key::kWheelCosine, Key::kWheelSine},
                      .amplitude_names = {"cosine_ratio", "sine_ratio"},
-                     .scales = {Key::kWheelPerMetre},
-                     .scale_names = {"spatial_frequency_per_m"},
-                     .grid = wheel_turn,
-                     .set = set_scale<Key::kWheelPerMetre>,
+                     .scales = {Key::kWheelPerMetre, Key::kWheelDry},
+                     .scale_names = {"spatial_frequency_per_m", "friction_share_of_load"},
+                     .grid = and_dry<wheel_turn>,
+                     .set = set_wheel,
                      .step = share_step,
                      .plant_keys = {"disturbances.wheel.eccentricity_m",
                                     "disturbances.wheel.eccentricity_phase_deg"},
@@ -172,6 +191,20 @@ void add_periodic_effects(std::vector<Effect>& library) {
                      .step = reading_step,
                      .plant_keys = {"disturbances.wheel.teeth"},
                      .plant_values = polygon_values});
+  library.push_back({.name = "chain_polygon",
+                     .cause = "links that lie on their wheel as a polygon: the load goes faster "
+                              "and slower",
+                     .needs = "medium speed, where a tooth passes within the band",
+                     .law = "load goes (1 + w) times as far, w = a cos(2 pi f x) + b sin(2 pi f "
+                            "x), f of a tooth",
+                     .source = "chords on a pitch circle, virtual work",
+                     .amplitudes = {Key::kWheelCosine, Key::kWheelSine},
+                     .amplitude_names = {"cosine_ratio", "sine_ratio"},
+                     .scales = {Key::kWheelPerMetre, Key::kWheelDry},
+                     .scale_names = {"spatial_frequency_per_m", "friction_share_of_load"},
+                     .grid = and_dry<teeth>,
+                     .set = set_wheel,
+                     .step = share_step});
   library.push_back(
       {.name = "encoder_eccentricity",
        .cause = "an encoder disk that runs out of centre",

@@ -246,10 +246,10 @@ TEST(Axis, BristlesDampASmallSwing) {
 TEST(Axis, BehindAWheelOutOfRoundTheLoadKeepsItsEnergy) {
   Parameters p = free_body();
   p[Key::kWheelPerMetre] = 4;
-  p[Key::kWheelCosine] = 0.02;
+  p[Key::kWheelCosine] = 0.1;
   Stepped body(p, VectorXd::Zero(1000));
   body.axis().place(0, 0.4);
-  const auto excess = [](double x) { return 1 + 0.02 * std::cos(2 * M_PI * 4 * x); };
+  const auto excess = [](double x) { return 1 + 0.1 * std::cos(2 * M_PI * 4 * x); };
   const double energy = std::pow(excess(0) * 0.4, 2);
   for (int i = 0; i < 20; ++i) {
     const double x = body.after(50);

@@ -71,20 +71,33 @@ std::string joint_of(const Machine& m, double stated_gravity) {
       stated_gravity * m.gravity_N, m.gravity_at_rad * 360 / kTurn);
 }
 
+constexpr double kDirect_m = 0.005;  // a radian of no motor: of at most 1,000,000 counts a metre
+
+// Where the motor's turn is not of a wheel, the table of a screw follows what else is stated.
+std::string wheel_of(const Machine& m) {
+  if (m.sprocket_radius_m > 0) {
+    return fmt::format("gear_ratio = {:.9g}\nsprocket_radius_m = {:.9g}\n",
+                       m.sprocket_radius_m / m.metres_per_motor_rad, m.sprocket_radius_m);
+  }
+  return m.metres_per_motor_rad > 0 ? "" : fmt::format("sprocket_radius_m = {}\n", kDirect_m);
+}
+
+std::string screw_of(const Machine& m) {
+  if (m.sprocket_radius_m > 0 || m.metres_per_motor_rad == 0) return "";
+  return fmt::format("[axis.y.transmission]\nkind = \"screw\"\ngear_ratio = 1.0\nlead_m = {:.9g}\n",
+                     kTurn * m.metres_per_motor_rad);
+}
+
 // Load-side form; what it has no key for stands as a comment.
 std::string plant_of(const Machine& m) {
-  const double gear = m.sprocket_radius_m > 0 ? m.sprocket_radius_m / m.metres_per_motor_rad : 1;
-  const double radius = m.sprocket_radius_m > 0 ? m.sprocket_radius_m
-                        : m.metres_per_motor_rad > 0
-                            ? m.metres_per_motor_rad
-                            : 0.005;  // of at most 1,000,000 counts a metre
   std::string text = fmt::format(
       "# {}: stroke {:.3f}, top speed {:.3f}, {:.0f} Hz\n"
       "schema = 1\n[axis.y]\nmass_kg = {:.9g}\nviscous_friction_N_s_per_m = {:.9g}\n"
       "coulomb_friction_N = {:.9g}\nforce_gain_N_per_V = {:.9g}\npwm_amplitude_V = 10.0\n"
-      "gear_ratio = {:.9g}\nsprocket_radius_m = {:.9g}\nencoder_counts_per_m = {:.9g}\n",
+      "encoder_counts_per_m = {:.9g}\n",
       m.kind, m.stroke_m, m.top_speed_m_per_s, 1 / m.period_s, m.mass_kg, m.viscous_N_s_per_m,
-      m.coulomb_N, m.limit_N() / 10, gear, radius, 1 / m.metres_per_count);
+      m.coulomb_N, m.limit_N() / 10, 1 / m.metres_per_count);
+  text += wheel_of(m);
   if (m.chain_Hz > 0) {
     text += fmt::format("rotor_inertia_kg_m2 = {:.9g}\n",
                         m.motor_share * m.mass_kg * std::pow(m.metres_per_motor_rad, 2));
@@ -93,7 +106,7 @@ std::string plant_of(const Machine& m) {
         "[axis.y.friction]\ncarriage_share = {:.6g}\n",
         m.chain_Hz, m.chain_damping, m.load_friction);
   }
-  return text;
+  return text + screw_of(m);
 }
 
 }  // namespace
