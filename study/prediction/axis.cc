@@ -110,7 +110,9 @@ void Axis::place(double position_m, double speed_m_per_s) {
   bristles_.place(motor_.x, motor_.v);
 }
 
-void Axis::correct(const Correction& by, double off_m) {
+// `read_m` of what is read; lost counts make no correction faster.
+void Axis::correct(const Correction& by, double read_m) {
+  const double off_m = read_m / (1 - p_[Key::kCountLoss]);
   motor_.x += by.motor_m * off_m;
   bristles_.correct(by.motor_m * off_m);
   motor_.v += by.motor_m_per_s * off_m;

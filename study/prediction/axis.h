@@ -20,7 +20,7 @@ class Axis {
   // Over the sample period that begins at sample `k`.
   void step(Eigen::Index k);
   // By what the reading was off.
-  void correct(const Correction& by, double off_m);
+  void correct(const Correction& by, double read_m);
   // What the encoder, on the motor's side, reads.
   [[nodiscard]] double reading_m() const;
   [[nodiscard]] double speed_m_per_s() const noexcept { return motor_.v; }

@@ -101,6 +101,19 @@ TEST(Innovations, OfAnAxisOnBristlesFindTheBendThatTheLogBeginsWith) {
 }
 
 // A prediction that stops and goes on is the same: a long recording is looked at piece by piece.
+// Of x, M x'' + B x' + C sgn(x') = (1 - k) u; read as (1 - k) x with C / (1 - k) it is the same.
+TEST(Innovations, OfLostCountsAreThoseOfAWrongGain) {
+  constexpr double kLoss = 0.2;
+  const study::diagnose::Run run = simulated_run(parameters_of(simple_model()), 5, 2e-6);
+  Parameters gain = parameters_of(simple_model());
+  Parameters counts = gain;
+  gain[Key::kGainLoss] = counts[Key::kCountLoss] = kLoss;
+  counts[Key::kCoulomb] /= 1 - kLoss;
+  const VectorXd e = innovations_of_run(run, gain);
+  EXPECT_LT((innovations_of_run(run, counts) - e).norm(), 1e-6 * e.norm());
+  EXPECT_GT(root_mean_square(e), 1e-5);
+}
+
 TEST(Innovations, InPiecesAreThoseOfTheWhole) {
   const Parameters truth = parameters_of(simple_model());
   const std::vector<study::diagnose::Run> runs{simulated_run(truth, 3, 2e-6)};
