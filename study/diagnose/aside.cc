@@ -6,6 +6,7 @@ namespace towbench::study::diagnose {
 namespace {
 
 constexpr double kQuiteUnlike = 5;  // where something stays unexplained in it too
+constexpr double kMost = 0.85;      // of the prediction error: a shape that leaves less is a law
 
 // That `all` does not have: it takes on what is not its own.
 bool has_new_free_shape(const Diagnosis& rest, const Diagnosis& all) {
@@ -31,7 +32,9 @@ bool are_unlike(const Diagnosis& rest, double times) {
 bool explains_the_rest(const Diagnosis& rest, const Diagnosis& all) {
   if (is_fatal(rest.findings)) return false;
   if (rest.causes.empty() && (rest.unexplained || !all.causes.empty())) return false;
-  if (has_new_free_shape(rest, all) || !all_gain(rest.causes)) return false;
+  const bool explains_most = rest.scored.gain95.value > kMost;
+  if (!explains_most && has_new_free_shape(rest, all)) return false;
+  if (!all_gain(rest.causes)) return false;
   return are_unlike(rest, rest.unexplained ? kQuiteUnlike : kUnlike);
 }
 

@@ -129,11 +129,11 @@ void conclude(Diagnosis& d) {
   }
 }
 
-std::vector<double> innovations_of_run_m(const Data& data, const Search& search) {
+std::vector<double> of_runs_m(const Data& data, const Eigen::VectorXd& e) {
   std::vector<double> rms_m;
   for (std::size_t run = 0; run < data.scenes.size(); ++run) {
     const Index n = data.scenes[run].run->size();
-    rms_m.push_back(rms_said(search.final.fitted.e.segment(data.starts[run], n)));
+    rms_m.push_back(rms_said(e.segment(data.starts[run], n)));
   }
   return rms_m;
 }
@@ -186,8 +186,8 @@ Diagnosis diagnose_all(const Request& given) {
     context.mass_least_kg = std::min(context.mass_least_kg, mass_kg / kMassOff);
     context.mass_most_kg = std::max(context.mass_most_kg, mass_kg * kMassOff);
   }
-  Search search = search_causes(
-      data, context, {parameters_of(request.model), std::vector<OfRun>(request.runs.size())}, {});
+  const Model stated{parameters_of(request.model), std::vector<OfRun>(request.runs.size())};
+  Search search = search_causes(data, context, stated, {});
   const bool collapses = has_collapsed(search.context, search.final);
   if (collapses) {
     search.causes.clear();
@@ -215,7 +215,8 @@ Diagnosis diagnose_all(const Request& given) {
   tell_of_gain(d);
   tell("what the data cannot show");
   d.not_testable = find_not_testable(search);
-  d.innovations_of_run_m = innovations_of_run_m(data, search);
+  d.innovations_of_run_m = of_runs_m(data, search.final.fitted.e);
+  d.stated_of_run_m = of_runs_m(data, innovations(data, stated, search.bandwidth));
   d.windows_m = windows_m(data, search);
   d.aside = score_aside(given, data, search);
   tell("scoring, and running both models by themselves");

@@ -11,7 +11,6 @@
 namespace towbench::study::diagnose {
 namespace {
 
-constexpr std::size_t kMostLeftOut = 2;
 constexpr double kFarOff = 10;  // times the others' innovations, though nothing is unexplained
 
 std::vector<std::size_t> worst_first(const std::vector<double>& rms_m) {
@@ -27,6 +26,19 @@ bool may_be_unlike(const Diagnosis& all, const std::vector<std::size_t>& order) 
   if (is_fatal(all.findings) || order.size() < 2) return false;
   const std::vector<double>& rms_m = all.innovations_of_run_m;
   return all.unexplained || rms_m[order[0]] > kFarOff * rms_m[order[order.size() / 2]];
+}
+
+// The worst run; that of the stated model, where a fit that one run has led astray is worse in
+// another; and the two worst where half of all stay.
+std::vector<std::vector<std::size_t>> left_out_by_turns(const Diagnosis& all,
+                                                        const std::vector<std::size_t>& order) {
+  std::vector<std::vector<std::size_t>> out{{order[0]}};
+  if (!all.stated_of_run_m.empty()) {
+    const std::size_t by_the_stated = worst_first(all.stated_of_run_m).front();
+    if (by_the_stated != order[0]) out.push_back({by_the_stated});
+  }
+  if (order.size() >= 4) out.push_back({order[0], order[1]});
+  return out;
 }
 
 Request with_aside(const Request& all, const std::vector<std::size_t>& which) {
@@ -51,10 +63,7 @@ std::optional<Diagnosis> without_unlike_runs(const Request& request, const Diagn
                                              Diagnosis (*diagnose_all)(const Request&)) {
   const std::vector<std::size_t> order = worst_first(all.innovations_of_run_m);
   if (!may_be_unlike(all, order)) return std::nullopt;
-  const std::size_t most = std::min(kMostLeftOut, request.runs.size() / 2);
-  for (std::size_t count = 1; count <= most; ++count) {
-    const std::vector<std::size_t> worst(order.begin(),
-                                         order.begin() + static_cast<std::ptrdiff_t>(count));
+  for (const std::vector<std::size_t>& worst : left_out_by_turns(all, order)) {
     const Request part = with_aside(request, worst);
     Diagnosis others = diagnose_all(part);
     if (!explains_the_rest(others, all)) continue;

@@ -18,8 +18,10 @@ struct MadeUp {
   bool names_a_cause = false;
   bool is_unexplained = false;
   bool is_free_shape = false;
-  double least_gain = 0.1;           // of the cause
-  std::vector<std::size_t> asked{};  // how many runs were put aside, each time
+  double least_gain = 0.1;                // of the cause
+  double gain = 0.3;                      // of all that is named
+  std::vector<std::size_t> asked{};       // how many runs were put aside, each time
+  std::vector<std::string> runs_asked{};  // the first of them
 };
 MadeUp made_up;
 
@@ -42,7 +44,9 @@ Diagnosis answer(bool names_a_cause, bool is_unexplained) {
 
 Diagnosis of_others(const Request& request) {
   made_up.asked.push_back(request.aside.size());
+  made_up.runs_asked.push_back(request.aside.front().name);
   Diagnosis d = answer(made_up.names_a_cause, made_up.is_unexplained);
+  d.scored.gain95.value = made_up.gain;
   d.aside.others_rms_N = 0.2;
   d.aside.rms_N.assign(request.aside.size(), made_up.unlike * 0.2);
   return d;
@@ -121,6 +125,25 @@ TEST(WithoutUnlikeRuns, AFreeShapeIsNotBelieved) {
   EXPECT_THAT(
       left_out({.unlike = 50, .names_a_cause = true, .is_free_shape = true}, unexplained({1, 4})),
       IsEmpty());
+}
+
+TEST(WithoutUnlikeRuns, AFreeShapeIsBelievedWhereItLeavesLittle) {
+  const auto gains = [](double gain) {
+    return MadeUp{.names_a_cause = true, .is_free_shape = true, .gain = gain};
+  };
+  EXPECT_THAT(left_out(gains(0.86), unexplained({1, 4})), ElementsAre(1));
+  EXPECT_THAT(left_out(gains(0.84), unexplained({1, 4})), IsEmpty());
+}
+
+// A fit that the second has led astray.
+TEST(WithoutUnlikeRuns, TheWorstOfTheStatedModelIsTriedNext) {
+  Diagnosis all = unexplained({4, 1, 1}, true);
+  all.stated_of_run_m = {2, 5, 2};
+  EXPECT_THAT(left_out({.unlike = 1, .names_a_cause = true}, all), IsEmpty());
+  EXPECT_THAT(made_up.runs_asked, ElementsAre("a", "b"));
+  all.stated_of_run_m = {6, 5, 2};
+  EXPECT_THAT(left_out({.unlike = 1, .names_a_cause = true}, all), IsEmpty());
+  EXPECT_THAT(made_up.runs_asked, ElementsAre("a"));
 }
 
 TEST(WithoutUnlikeRuns, ACauseThatMayGainNothingIsNotBelieved) {
