@@ -36,7 +36,7 @@ constexpr double kRidge = 1e-4;  // of a column's own square: a bin that a fold 
 struct Against {
   struct Cause {
     bool stands_for = false;  // it can make what the cause makes
-    double force_N = 0;       // of the cause, rms; zero where that is not the sum of its columns
+    double force_N = 0;       // of the cause, rms; zero where it has no amplitude
   };
   Unexplained what;
   bool smooth = false;
@@ -57,6 +57,7 @@ class Seeker {
     all_.resize(data.samples(), std::ssize(s.free) + most + 1);
     all_.leftCols(std::ssize(s.free)) =
         columns_of(data, s.fitted.e, varied(s.fitted.model, s.free), search.bandwidth);
+    for (const Accepted& a : s.accepted) forces_N_.push_back(force_N(*a.effect));
   }
 
   // Of the shapes that are certain, that which takes away the most.
@@ -188,19 +189,16 @@ class Seeker {
       const bool stands_for = std::all_of(columns.begin(), columns.end(), [&](Index i) {
         return blocks.own_share(with_shape, i) < kStandsFor * blocks.own_share(rest, i);
       });
-      const Effect& effect = *search_.final.accepted[causes_.size()].effect;
-      causes_.push_back({stands_for, force_N(effect, columns)});
+      causes_.push_back({stands_for, forces_N_[causes_.size()]});
     }
   }
-  [[nodiscard]] double force_N(const Effect& effect, const Columns& columns) const {
-    if (effect.whole != 0) return 0;
-    const Parameters& p = search_.final.fitted.model.parameters;
+  // What it changes of the prediction: far from zero its columns may say nothing.
+  [[nodiscard]] double force_N(const Effect& effect) const {
+    if (effect.whole != 0 || effect.amplitudes.empty()) return 0;
     const Parameters stated = parameters_of(search_.context.stated);
-    VectorXd off_m = VectorXd::Zero(all_.rows());
-    for (std::size_t i = 0; i < effect.amplitudes.size(); ++i) {
-      const Key key = effect.amplitudes[i];
-      off_m += (p[key] - stated[key]) * all_.col(columns[i]);
-    }
+    Model rest = search_.final.fitted.model;
+    for (const Key key : effect.amplitudes) rest.parameters[key] = stated[key];
+    const VectorXd off_m = innovations(data_, rest, search_.bandwidth) - search_.final.fitted.e;
     return to_force_ * off_m.norm() / std::sqrt(static_cast<double>(off_m.size()));
   }
   static bool contains(const Columns& columns, Index i) {
@@ -224,8 +222,9 @@ class Seeker {
   std::vector<Motion> motions_;
   std::vector<FreeShape> shapes_;
   double to_force_ = 0;
-  MatrixXd all_;  // by the model's own parameters, by what is tried, and the error
-  VectorXd b_;    // of the shape that was asked last, as what follows
+  std::vector<double> forces_N_;  // of each cause
+  MatrixXd all_;                  // by the model's own parameters, by what is tried, and the error
+  VectorXd b_;                    // of the shape that was asked last, as what follows
   MatrixXd covariance_;
   VectorXd loss_;
   std::vector<Against::Cause> causes_;

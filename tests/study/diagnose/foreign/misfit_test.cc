@@ -173,5 +173,11 @@ TEST(Misfit, IsNoneWhereTheLoadsShareOfFrictionIsFittedWithPlay) {
   EXPECT_EQ(answer_to("one", "backlash", 74046).words(), "backlash");
 }
 
+// With the fit at its end all of dry friction is bristles, and more of them moves nothing: beside a
+// force that its derivative says is none, any shape is large.
+TEST(RightLaw, OfFrictionThatIsAllBristlesIsNotRefuted) {
+  EXPECT_EQ(answer_to("one", "presliding", 113014).words(), "presliding");
+}
+
 }  // namespace
 }  // namespace towbench::tests::foreign
