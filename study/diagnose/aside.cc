@@ -17,9 +17,8 @@ bool has_new_free_shape(const Diagnosis& rest, const Diagnosis& all) {
   });
 }
 
-bool all_gain(const std::vector<NamedCause>& causes) {
-  return std::all_of(causes.begin(), causes.end(),
-                     [](const NamedCause& cause) { return cause.gain99.low > 0; });
+bool surely_gains(const NamedCause& cause) {
+  return cause.gain99.low > 0;
 }
 
 }  // namespace
@@ -31,10 +30,11 @@ bool are_unlike(const Diagnosis& rest, double times) {
 
 bool explains_the_rest(const Diagnosis& rest, const Diagnosis& all) {
   if (is_fatal(rest.findings)) return false;
-  if (rest.causes.empty() && (rest.unexplained || !all.causes.empty())) return false;
+  const bool all_has_one = std::any_of(all.causes.begin(), all.causes.end(), surely_gains);
+  if (rest.causes.empty() && (rest.unexplained || all_has_one)) return false;
   const bool explains_most = rest.scored.gain95.value > kMost;
   if (!explains_most && has_new_free_shape(rest, all)) return false;
-  if (!all_gain(rest.causes)) return false;
+  if (!std::all_of(rest.causes.begin(), rest.causes.end(), surely_gains)) return false;
   return are_unlike(rest, rest.unexplained ? kQuiteUnlike : kUnlike);
 }
 

@@ -83,7 +83,7 @@ struct Diagnosis {
   double bandwidth = 0;              // rad/s
   double innovations_m = 0;          // rms that is left
   std::vector<double> innovations_of_run_m;
-  std::vector<double> stated_of_run_m;  // the same of the stated model
+  std::vector<double> stated_of_run_m;         // the same of the stated model
   std::vector<std::vector<double>> windows_m;  // the same of each window of each run
   Aside aside;
   std::vector<std::size_t> left_out;  // of the runs, those that something moves which no log has

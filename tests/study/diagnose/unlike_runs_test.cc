@@ -117,8 +117,16 @@ TEST(WithoutUnlikeRuns, OthersThatAreNotExplainedNeedACauseAndFiveTimes) {
 }
 
 TEST(WithoutUnlikeRuns, ACauseIsNotExchangedForNone) {
+  made_up = {};
   EXPECT_THAT(left_out({.unlike = 50}, unexplained({1, 4}, true)), IsEmpty());
   EXPECT_THAT(left_out({.names_a_cause = true}, unexplained({1, 4}, true)), ElementsAre(1));
+}
+
+TEST(WithoutUnlikeRuns, ACauseThatMayGainNothingIsExchangedForNone) {
+  made_up.least_gain = -0.01;
+  const Diagnosis all = unexplained({1, 4}, true);
+  EXPECT_THAT(left_out({.unlike = 50}, all), ElementsAre(1));
+  EXPECT_THAT(left_out({.unlike = 50, .is_unexplained = true}, all), IsEmpty());
 }
 
 TEST(WithoutUnlikeRuns, AFreeShapeIsNotBelieved) {
