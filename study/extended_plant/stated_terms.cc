@@ -55,6 +55,29 @@ void add_forces_by_place(const AxisParameters& p, double r, NominalModel& m) {
   }
 }
 
+// The axis has one wave of the wheel: of a polygon beside an eccentricity the encoder stays behind.
+void add_wheel(const AxisParameters& p, NominalModel& m) {
+  const auto& wheel = p.disturbances.wheel;
+  const double turns_per_m = 1 / (kTurn_rad * p.output_radius_m);
+  if (wheel.eccentricity_m > 0 || wheel.teeth > 0) {
+    m.terms[Key::kWheelDry] = p.friction.carriage_share;
+  }
+  if (wheel.eccentricity_m > 0) {
+    const double share = wheel.eccentricity_m / p.output_radius_m;
+    const double phase_rad = radians(wheel.eccentricity_phase_deg);
+    m.terms[Key::kWheelCosine] = share * std::cos(phase_rad);
+    m.terms[Key::kWheelSine] = -share * std::sin(phase_rad);
+    m.terms[Key::kWheelPerMetre] = turns_per_m;
+    if (wheel.teeth > 0) {
+      m.terms[Key::kReadSine] = -2 * p.output_radius_m / std::pow(wheel.teeth, 3);
+      m.terms[Key::kReadPerMetre] = wheel.teeth * turns_per_m;
+    }
+  } else if (wheel.teeth > 0) {
+    m.terms[Key::kWheelCosine] = 2 / std::pow(wheel.teeth, 2);
+    m.terms[Key::kWheelPerMetre] = wheel.teeth * turns_per_m;
+  }
+}
+
 // One wave of a kind.
 void add_waves(const emulator::RigAxisParameters& axis, double r, NominalModel& m) {
   const AxisParameters& p = axis.plant;
@@ -65,24 +88,13 @@ void add_waves(const emulator::RigAxisParameters& axis, double r, NominalModel& 
     m.terms[Key::kRippleSine] = -ripple.amplitude_Nm / r * std::cos(phase_rad);
     m.terms[Key::kRipplePerMetre] = ripple.periods_per_turn / (kTurn_rad * r);
   }
-  const auto& wheel = p.disturbances.wheel;
-  if (wheel.eccentricity_m > 0) {
-    const double share = wheel.eccentricity_m / p.output_radius_m;
-    const double phase_rad = radians(wheel.eccentricity_phase_deg);
-    m.terms[Key::kWheelCosine] = share * std::cos(phase_rad);
-    m.terms[Key::kWheelSine] = -share * std::sin(phase_rad);
-    m.terms[Key::kWheelPerMetre] = 1 / (kTurn_rad * p.output_radius_m);
-    m.terms[Key::kWheelDry] = p.friction.carriage_share;
-  }
+  add_wheel(p, m);
   if (axis.encoder.eccentricity_counts > 0) {
     const double off_m = axis.encoder.eccentricity_counts * m.metres_per_count;
     const double phase_rad = radians(axis.encoder.eccentricity_phase_deg);
     m.terms[Key::kReadCosine] = -off_m * std::sin(phase_rad);
     m.terms[Key::kReadSine] = off_m * std::cos(phase_rad);
     m.terms[Key::kReadPerMetre] = 1 / (kTurn_rad * r);
-  } else if (wheel.teeth > 0) {
-    m.terms[Key::kReadSine] = -2 * p.output_radius_m / std::pow(wheel.teeth, 3);
-    m.terms[Key::kReadPerMetre] = wheel.teeth / (kTurn_rad * p.output_radius_m);
   }
 }
 

@@ -106,6 +106,7 @@ void Axis::place(double position_m, double speed_m_per_s) {
   const double counted = 1 - p_[Key::kCountLoss];
   motor_ = {position_m / counted, speed_m_per_s / counted, speed_m_per_s == 0};
   load_ = motor_;
+  if (two_) load_.x += wheel_at(p_, motor_.x).ahead_m;
   lagged_N_ = scene_.run->input_N[0];
   bristles_.place(motor_.x, motor_.v);
 }
@@ -192,26 +193,13 @@ double Axis::on_motor_N(Eigen::Index k) const {
     force += wave(p_[Key::kRippleCosine], p_[Key::kRippleSine],
                   p_[Key::kRipplePerMetre] * x + p_[Key::kRippleTurns]);
   }
-  if (p_[Key::kWheelPerMetre] != 0) {
-    force += wheel_N();
+  if (p_[Key::kWheelPerMetre] != 0 && !two_) {
+    force += rigid_wheel_N(p_, motor_.x, motor_.v, acceleration_);
   }
   if (scene_.extra_N.size() > 0) {
     force += scene_.extra_N[k];
   }
   return force;
-}
-
-// x of the load = r dx of the motor, r = 1 + w(x): the load's inertia and dry friction as the motor
-// feels them, M (r^2 a + r r' v^2) + r C, beside those of r = 1.
-double Axis::wheel_N() const {
-  const double turns = p_[Key::kWheelPerMetre] * motor_.x + p_[Key::kWheelTurns];
-  const double excess = wave(p_[Key::kWheelCosine], p_[Key::kWheelSine], turns);
-  const double slope =
-      kTurn * p_[Key::kWheelPerMetre] * wave(p_[Key::kWheelSine], -p_[Key::kWheelCosine], turns);
-  const double load_kg = p_[Key::kMass] - p_[Key::kMotorMass];
-  const double inertia_N =
-      (2 + excess) * excess * acceleration_ + (1 + excess) * slope * motor_.v * motor_.v;
-  return load_kg * inertia_N + excess * p_[Key::kWheelDry] * p_[Key::kCoulomb] * sign(motor_.v);
 }
 
 double Axis::on_load_N(const Body& body, double t_s) const {
@@ -310,8 +298,9 @@ void Axis::substep(double t_s, double mean_N, Eigen::Index k) {
   }
   const double on_motor = drive - on_motor_N(k);
   if constexpr (two) {
-    const double transmission = transmission_N();
-    slide(motor_, motor_slides_, on_motor - transmission, drive, t_s);
+    const Wheel wheel = wheel_at(p_, motor_.x);
+    const double transmission = transmission_N(wheel);
+    slide(motor_, motor_slides_, on_motor - (1 + wheel.excess) * transmission, drive, t_s);
     slide(load_, load_slides_, transmission - on_load_N(load_, t_s), transmission, t_s);
   } else {
     slide(motor_, motor_slides_, on_motor - on_load_N(motor_, t_s), drive, t_s);
@@ -330,14 +319,15 @@ void Axis::substep(double t_s, double mean_N, Eigen::Index k) {
   }
 }
 
-double Axis::transmission_N() const {
+double Axis::transmission_N(const Wheel& wheel) const {
   const double half = 0.5 * p_[Key::kPlay];
-  const double stretch = motor_.x - load_.x;
+  const double stretch = motor_.x + wheel.ahead_m - load_.x;
   const double past = std::abs(stretch) <= half ? 0 : stretch - sign(stretch) * half;
   if (past == 0 && half > 0) {
     return 0;
   }
-  const double transmission = p_[Key::kStiffness] * past + p_[Key::kDamping] * (motor_.v - load_.v);
+  const double transmission =
+      p_[Key::kStiffness] * past + p_[Key::kDamping] * ((1 + wheel.excess) * motor_.v - load_.v);
   return half > 0 && transmission * past < 0 ? 0 : transmission;  // a flank pushes and never pulls
 }
 

@@ -9,6 +9,7 @@
 #include "study/prediction/other_axes.h"
 #include "study/prediction/parameters.h"
 #include "study/prediction/scene.h"
+#include "study/prediction/wheel.h"
 
 namespace towbench::study::diagnose {
 
@@ -45,11 +46,10 @@ class Axis {
   void look_up(Eigen::Index k);
   template <bool two>
   void substep(double t_s, double mean_N, Eigen::Index k);
-  [[nodiscard]] double transmission_N() const;
+  [[nodiscard]] double transmission_N(const Wheel& wheel) const;
   [[nodiscard]] double driven_N(double input_N);
   // What resists whatever the direction: where the motor is felt, and at the load.
   [[nodiscard]] double on_motor_N(Eigen::Index k) const;
-  [[nodiscard]] double wheel_N() const;
   [[nodiscard]] double on_load_N(const Body& body, double t_s) const;
   // Dry friction: of both bodies by their shares, and of the load alone.
   [[nodiscard]] double shared_dry_N(const Body& body, double direction, double t_s) const;

@@ -121,6 +121,15 @@ PlantValues polygon_values(const Parameters& p, const StatedPlant& stated) {
   return off_m < 0.5 * std::hypot(cosine, sine) ? PlantValues{teeth} : PlantValues{};
 }
 
+// The slope of the same: 2 / N^2 cos(N phi).
+PlantValues polygon_wheel_values(const Parameters& p, const StatedPlant& stated) {
+  const double teeth = std::round(p[Key::kWheelPerMetre] * kFullTurn * stated.output_radius_m);
+  const double cosine = p[Key::kWheelCosine];
+  const double sine = p[Key::kWheelSine];
+  const double off = std::hypot(cosine - 2 / (teeth * teeth), sine);
+  return off < 0.5 * std::hypot(cosine, sine) ? PlantValues{teeth} : PlantValues{};
+}
+
 // A cos(alpha) + B sin(alpha) = e sin(alpha - phase)
 PlantValues eccentric_disk_values(const Parameters& p, const StatedPlant& stated) {
   if (stated.model.metres_per_count <= 0) return {};
@@ -204,7 +213,9 @@ void add_periodic_effects(std::vector<Effect>& library) {
                      .scale_names = {"spatial_frequency_per_m", "friction_share_of_load"},
                      .grid = and_dry<teeth>,
                      .set = set_wheel,
-                     .step = share_step});
+                     .step = share_step,
+                     .plant_keys = {"disturbances.wheel.teeth"},
+                     .plant_values = polygon_wheel_values});
   library.push_back(
       {.name = "encoder_eccentricity",
        .cause = "an encoder disk that runs out of centre",

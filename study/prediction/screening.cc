@@ -33,6 +33,8 @@ double scale_step(const Context& c, Key key, double value, bool sought) {
     case Key::kOutOfRoundPerMetre:
     case Key::kWheelPerMetre:
       return sought ? 0.01 / c.stroke_m : 0;
+    case Key::kWheelDry:  // what a load of its own body rubs is known
+      return c.stated.elastic() ? 0 : 0.02 * value;
     case Key::kPeriodicHertz:
       return 0.01 / c.duration_s;
     default:

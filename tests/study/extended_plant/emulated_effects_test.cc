@@ -1,7 +1,7 @@
 // Each cause that the emulator can express, made by the axis that predicts and written into a plant
 // file of either form: the emulator must then follow the log. The two share no code. What is left
-// of a law that the plant has by another (Dahl's, Karnopp's) or exactly where the fit has its first
-// order (a wheel out of round) is more.
+// of a law that the plant has by another (Dahl's, Karnopp's), or with more harmonics than its first
+// (a polygon of links), is more.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -277,6 +277,13 @@ INSTANTIATE_TEST_SUITE_P(
              {{Key::kWheelCosine, 0.03},
               {Key::kWheelSine, -0.02},
               {Key::kWheelPerMetre, 7.9577},
+              {Key::kWheelDry, 0.65}},
+             kElastic | kMotorOnly,
+             0.04},
+        Made{"chain_polygon",
+             {{Key::kWheelCosine, 2.0 / 144},
+              {Key::kWheelSine, 0.0},
+              {Key::kWheelPerMetre, 95.493},
               {Key::kWheelDry, 0.65}},
              kElastic | kMotorOnly,
              0.3},
