@@ -21,6 +21,11 @@ bool surely_gains(const NamedCause& cause) {
   return cause.gain99.low > 0;
 }
 
+// Against an answer that needs none: a free shape that may gain nothing took on a push.
+bool stands(const NamedCause& cause) {
+  return !cause.effect->flexible || surely_gains(cause);
+}
+
 }  // namespace
 
 bool are_unlike(const Diagnosis& rest, double times) {
@@ -30,7 +35,7 @@ bool are_unlike(const Diagnosis& rest, double times) {
 
 bool explains_the_rest(const Diagnosis& rest, const Diagnosis& all) {
   if (is_fatal(rest.findings)) return false;
-  const bool all_has_one = std::any_of(all.causes.begin(), all.causes.end(), surely_gains);
+  const bool all_has_one = std::any_of(all.causes.begin(), all.causes.end(), stands);
   if (rest.causes.empty() && (rest.unexplained || all_has_one)) return false;
   const bool explains_most = rest.scored.gain95.value > kMost;
   if (!explains_most && has_new_free_shape(rest, all)) return false;

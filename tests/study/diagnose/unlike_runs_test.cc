@@ -122,11 +122,14 @@ TEST(WithoutUnlikeRuns, ACauseIsNotExchangedForNone) {
   EXPECT_THAT(left_out({.names_a_cause = true}, unexplained({1, 4}, true)), ElementsAre(1));
 }
 
-TEST(WithoutUnlikeRuns, ACauseThatMayGainNothingIsExchangedForNone) {
-  made_up.least_gain = -0.01;
-  const Diagnosis all = unexplained({1, 4}, true);
-  EXPECT_THAT(left_out({.unlike = 50}, all), ElementsAre(1));
-  EXPECT_THAT(left_out({.unlike = 50, .is_unexplained = true}, all), IsEmpty());
+TEST(WithoutUnlikeRuns, AFreeShapeThatMayGainNothingIsExchangedForNone) {
+  made_up = {.is_free_shape = true, .least_gain = -0.01};
+  const Diagnosis shape = unexplained({1, 4}, true);
+  EXPECT_THAT(left_out({.unlike = 50}, shape), ElementsAre(1));
+  EXPECT_THAT(left_out({.unlike = 50, .is_unexplained = true}, shape), IsEmpty());
+  made_up = {.least_gain = -0.01};
+  const Diagnosis law = unexplained({1, 4}, true);
+  EXPECT_THAT(left_out({.unlike = 50}, law), IsEmpty());
 }
 
 TEST(WithoutUnlikeRuns, AFreeShapeIsNotBelieved) {
