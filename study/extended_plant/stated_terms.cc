@@ -55,7 +55,7 @@ void add_forces_by_place(const AxisParameters& p, double r, NominalModel& m) {
   }
 }
 
-// The axis has one wave of the wheel: of a polygon beside an eccentricity the encoder stays behind.
+// The axis has one wave of the wheel: a polygon beside an eccentricity is a wave of the reading.
 void add_wheel(const AxisParameters& p, NominalModel& m) {
   const auto& wheel = p.disturbances.wheel;
   const double turns_per_m = 1 / (kTurn_rad * p.output_radius_m);

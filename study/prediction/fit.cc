@@ -62,11 +62,12 @@ Model moved(const Model& from, const Context& context, const std::vector<FreePar
   return to;
 }
 
-// What all runs have of their own alike is the model's. Data tell them apart by nothing, and steps
-// as small as the held ones ask for end a fit too early.
+// Moves the mean of what each run has of its own into the model: no data tell one from the other,
+// and a fit ends before the weak hold on the runs has done it. Dry friction stays above zero.
 void centre(Model& model, Key key, double OfRun::*own) {
   double mean = 0;
   for (const OfRun& run : model.of_run) mean += run.*own / static_cast<double>(model.of_run.size());
+  if (key == Key::kCoulomb) mean = std::max(mean, -model.parameters[key]);
   model.parameters[key] += mean;
   for (OfRun& run : model.of_run) run.*own -= mean;
 }

@@ -66,25 +66,41 @@ TEST(Weigh, BlocksThatStandAreNoMeasureOfThoseThatMove) {
   for (const Span& span : spans) EXPECT_EQ(span.weight, 1);
 }
 
-// Of two runs with the same constant force: data tell by nothing whether it is the model's or that
-// of each.
+// A fit that ends at once with it in the runs: no data tell whether it is theirs or the model's.
 TEST(FitModel, WhatAllRunsHaveAlikeIsTheModels) {
   Parameters truth = parameters_of(simple_model());
   truth[Key::kBias] = 0.5;
   truth[Key::kCoulomb] = 2.4;
-  const std::vector<Recording> runs{simulated_run(truth, 20, 2e-6), simulated_run(truth, 12, 2e-6)};
+  const std::vector<Recording> runs{simulated_run(truth, 5, 2e-6), simulated_run(truth, 3, 2e-6)};
   const NominalModel stated = simple_model();
   const Data data = make_data(runs, stated);
   const Context context = make_context(stated, data);
-  const Model start{parameters_of(stated), std::vector<OfRun>(2)};
-  const Model fitted =
-      fit_model(data, context, start, base_free_parameters(context, 2), 30, cut(data, 30), 8).model;
-  EXPECT_NEAR(fitted.parameters[Key::kBias], 0.5, 0.01);
-  EXPECT_NEAR(fitted.parameters[Key::kCoulomb], 2.4, 0.01);
-  for (const OfRun& run : fitted.of_run) {
-    EXPECT_NEAR(run.bias_N, 0, 0.01);
-    EXPECT_NEAR(run.coulomb_N, 0, 0.01);
+  Model start{parameters_of(stated), std::vector<OfRun>(2)};
+  for (OfRun& run : start.of_run) {
+    run.bias_N = 0.5;
+    run.coulomb_N = 0.4;
   }
+  start.of_run[0].bias_N += 0.1;
+  const Model fitted =
+      fit_model(data, context, start, base_free_parameters(context, 2), 30, cut(data, 30), 0).model;
+  EXPECT_NEAR(fitted.parameters[Key::kBias], 0.55, 1e-12);
+  EXPECT_NEAR(fitted.parameters[Key::kCoulomb], 2.4, 1e-12);
+  EXPECT_NEAR(fitted.of_run[0].bias_N, 0.05, 1e-12);
+  EXPECT_NEAR(fitted.of_run[1].coulomb_N, 0, 1e-12);
+}
+
+TEST(FitModel, WhatRunsLackOfDryFrictionMakesTheModelsNoneNegative) {
+  const std::vector<Recording> runs{simulated_run(parameters_of(simple_model()), 5, 2e-6),
+                                    simulated_run(parameters_of(simple_model()), 5, 2e-6)};
+  const NominalModel stated = simple_model();
+  const Data data = make_data(runs, stated);
+  const Context context = make_context(stated, data);
+  Model start{parameters_of(stated), std::vector<OfRun>(2)};
+  start.parameters[Key::kCoulomb] = 0.5;
+  for (OfRun& run : start.of_run) run.coulomb_N = -1;
+  const Model fitted =
+      fit_model(data, context, start, base_free_parameters(context, 2), 30, cut(data, 30), 0).model;
+  EXPECT_GE(fitted.parameters[Key::kCoulomb], 0);
 }
 
 // An encoder so coarse that a fast correction follows its steps.
