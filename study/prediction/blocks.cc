@@ -130,6 +130,17 @@ double weighted_square(const std::vector<Span>& spans, const VectorXd& e) {
   return sum;
 }
 
+double long_run_variance(const std::vector<Span>& spans, const VectorXd& e) {
+  double of_sums = 0;
+  double of_samples = 0;
+  for (const Span& span : spans) {
+    const auto part = e.segment(span.from, span.to - span.from);
+    of_sums += span.weight * part.sum() * part.sum();
+    of_samples += span.weight * part.squaredNorm();
+  }
+  return std::max(of_sums, of_samples) / static_cast<double>(e.size());
+}
+
 MatrixXd gram_of(const Eigen::Ref<const MatrixXd>& rows, double weight) {
   MatrixXd gram = MatrixXd::Zero(rows.cols(), rows.cols());
   gram.selfadjointView<Eigen::Upper>().rankUpdate(rows.transpose(), weight);

@@ -28,6 +28,9 @@ struct Span {
 inline constexpr double kOutlying = 4;
 void weigh(const Data& data, std::vector<Span>& spans, const Eigen::VectorXd& e);
 [[nodiscard]] double weighted_square(const std::vector<Span>& spans, const Eigen::VectorXd& e);
+// Of a sum of samples, each: the variance of a sample times how long neighbours are alike (Newey,
+// West 1987; here by block).
+[[nodiscard]] double long_run_variance(const std::vector<Span>& spans, const Eigen::VectorXd& e);
 
 [[nodiscard]] Eigen::MatrixXd gram_of(const Eigen::Ref<const Eigen::MatrixXd>& rows, double weight);
 // Of an error, those of which something can be said, by their weights.

@@ -117,12 +117,12 @@ double runs_differ_N(const Context& c) {
   return kRunsDiffer * std::max(c.stated.coulomb_N, 0.2 * c.input_rms_N);
 }
 
-VectorXd ridge_of(const std::vector<FreeParameter>& free, const Context& c, double mean_square) {
+VectorXd ridge_of(const std::vector<FreeParameter>& free, const Context& c, double variance) {
   VectorXd ridge = VectorXd::Zero(std::ssize(free));
   const double usual = runs_differ_N(c);
   for (std::size_t j = 0; j < free.size(); ++j) {
     if (is_held(free[j])) {
-      ridge[static_cast<Index>(j)] = mean_square / (usual * usual);
+      ridge[static_cast<Index>(j)] = variance / (usual * usual);
     }
   }
   return ridge;
@@ -133,8 +133,7 @@ Fitted fit_model(const Data& data, const Context& context, Model start,
                  const std::vector<Span>& spans, int rounds) {
   Fitted best{std::move(start), {}, 0};
   best.e = innovations(data, best.model, bandwidth);
-  const double mean_square = weighted_square(spans, best.e) / static_cast<double>(best.e.size());
-  const VectorXd ridge = ridge_of(free, context, mean_square);
+  const VectorXd ridge = ridge_of(free, context, long_run_variance(spans, best.e));
   best.cost = weighted_square(spans, best.e) + penalty(free, ridge, best.model);
   const Index last = std::ssize(free);
   double damping = 1e-6;

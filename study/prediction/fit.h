@@ -32,8 +32,9 @@ struct FreeParameter {
 // By how much dry friction and offset of one machine's runs usually differ.
 [[nodiscard]] double runs_differ_N(const Context& c);
 // One a free parameter: what a run has of its own is held near zero by what runs usually differ by.
+// `variance`: of an innovation, in the long run.
 [[nodiscard]] Eigen::VectorXd ridge_of(const std::vector<FreeParameter>& free,
-                                       const Context& context, double mean_square);
+                                       const Context& context, double variance);
 
 struct Fitted {
   Model model;

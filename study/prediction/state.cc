@@ -32,9 +32,7 @@ State make_state(const Frame& frame, std::vector<Accepted> accepted, const Model
   s.accepted = std::move(accepted);
   s.fitted = fit_model(*frame.data, frame.context, from, s.free, frame.bandwidth, frame.spans,
                        kStateRounds);
-  s.ridge =
-      ridge_of(s.free, frame.context,
-               weighted_square(frame.spans, s.fitted.e) / static_cast<double>(s.fitted.e.size()));
+  s.ridge = ridge_of(s.free, frame.context, long_run_variance(frame.spans, s.fitted.e));
   const Blocks blocks(grams_of(*frame.data, s.fitted.e, varied(s.fitted.model, s.free),
                                frame.bandwidth, frame.spans),
                       samples_in(frame.spans, s.fitted.e), s.ridge);

@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -62,6 +63,21 @@ TEST(Blocks, KnowAnErrorThatLasts) {
   }
   const Fit fit = Blocks(all, equal_spans(200, 100), {}).fit({0});
   EXPECT_NEAR(fit.covariance(0, 0) * 200, 1, 0.5);
+}
+
+// Of neighbours alike by rho the variance of a sum is (1 + rho) / (1 - rho) times that of as many
+// independent samples.
+TEST(LongRunVariance, IsThatOfASumOfNeighboursThatAreAlike) {
+  constexpr double kAlike = 0.9;
+  core::Random random(12);
+  VectorXd e(80'000);
+  e[0] = random.gaussian();
+  for (Index i = 1; i < e.size(); ++i) {
+    e[i] = kAlike * e[i - 1] + std::sqrt(1 - kAlike * kAlike) * random.gaussian();
+  }
+  EXPECT_NEAR(long_run_variance(equal_spans(200, 400), e), 19, 4);
+  const VectorXd white = all_noise(80'000, 1, random).col(0);
+  EXPECT_NEAR(long_run_variance(equal_spans(200, 400), white), 1, 0.3);
 }
 
 // 400 times at 0.05: twenty, and 99.8 % of draws lie within 8 and 34.
