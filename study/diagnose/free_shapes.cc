@@ -17,6 +17,8 @@ constexpr int kSpeeds = 5;
 constexpr Index kWaves = 6;   // half waves over the stroke, at most
 constexpr Index kPowers = 3;  // of the speed
 constexpr double kMemories_s[] = {0.1, 0.2, 0.4, 0.8, 1.6, 3.2};  // of a part that gives way
+constexpr double kWays[] = {0.02, 0.05, 0.1, 0.2, 0.4};           // of the stroke, after a reversal
+constexpr double kTurnsBack = 0.002;       // of the stroke; less is no reversal
 constexpr double kHeats_s[] = {1, 3, 10};  // of friction that its own work changes
 constexpr Index kEach = 5;                 // of so many samples one is looked at
 constexpr Index kFewestInCell = 50;        // samples of a cell
@@ -97,25 +99,41 @@ std::optional<FreeShape> along_place_and_speed(const std::vector<Motion>& motion
   return shape;
 }
 
+struct Range {
+  double least_m;
+  double most_m;
+  [[nodiscard]] double stroke_m() const noexcept { return most_m - least_m; }
+};
+Range range_of(const std::vector<Motion>& motions) {
+  Range range{motions.front().position_m[0], motions.front().position_m[0]};
+  for (const Motion& m : motions) {
+    range.least_m = std::min(range.least_m, m.position_m.minCoeff());
+    range.most_m = std::max(range.most_m, m.position_m.maxCoeff());
+  }
+  return range;
+}
+
+double top_speed(const std::vector<Motion>& motions) {
+  double top_m_per_s = 0;
+  for (const Motion& m : motions) {
+    top_m_per_s = std::max(top_m_per_s, m.speed_m_per_s.cwiseAbs().maxCoeff());
+  }
+  return top_m_per_s;
+}
+
 // Products of the slowest shapes of place and of powers of the speed: smooth in both, and finer
 // over the place than the grid.
 std::optional<FreeShape> smooth_in_place_and_speed(const std::vector<Motion>& motions) {
-  double least_m = motions.front().position_m[0];
-  double most_m = least_m;
-  double top_m_per_s = 0;
-  for (const Motion& m : motions) {
-    least_m = std::min(least_m, m.position_m.minCoeff());
-    most_m = std::max(most_m, m.position_m.maxCoeff());
-    top_m_per_s = std::max(top_m_per_s, m.speed_m_per_s.cwiseAbs().maxCoeff());
-  }
-  if (most_m <= least_m || top_m_per_s <= 0) return std::nullopt;
+  const Range places = range_of(motions);
+  const double top_m_per_s = top_speed(motions);
+  if (places.stroke_m() <= 0 || top_m_per_s <= 0) return std::nullopt;
   FreeShape shape{
       .coordinate = "position times speed", .smooth = true, .columns = kWaves * kPowers};
   shape.force = [=](Index column, const Motion& m) -> VectorXd {
     const double per_m =
-        std::numbers::pi * static_cast<double>(1 + column % kWaves) / (most_m - least_m);
+        std::numbers::pi * static_cast<double>(1 + column % kWaves) / places.stroke_m();
     const auto speed = (m.speed_m_per_s / top_m_per_s).array();
-    return ((m.position_m.array() - least_m) * per_m).cos() *
+    return ((m.position_m.array() - places.least_m) * per_m).cos() *
            speed.pow(static_cast<double>(1 + column / kWaves));
   };
   return shape;
@@ -130,14 +148,6 @@ VectorXd low_pass(const VectorXd& signal, const Motion& m, double memory_s) {
   double value = 0;
   for (Index i = 0; i < signal.size(); ++i) out[i] = value += share * (signal[i] - value);
   return out;
-}
-
-double top_speed(const std::vector<Motion>& motions) {
-  double top_m_per_s = 0;
-  for (const Motion& m : motions) {
-    top_m_per_s = std::max(top_m_per_s, m.speed_m_per_s.cwiseAbs().maxCoeff());
-  }
-  return top_m_per_s;
 }
 
 // Springs that creep (Maxwell).
@@ -161,6 +171,35 @@ FreeShape of_its_heat(double top_m_per_s) {
   return shape;
 }
 
+// Along the motion, and gone some way behind the place where it turned back.
+VectorXd since_reversal(const Motion& m, double least_m, double fades_m) {
+  VectorXd out(m.position_m.size());
+  double turned_m = m.position_m[0];
+  double farthest_m = turned_m;
+  double direction = 0;
+  for (Index i = 0; i < out.size(); ++i) {
+    const double x = m.position_m[i];
+    if (direction * (x - farthest_m) > 0) farthest_m = x;
+    if (std::abs(x - farthest_m) > least_m) {
+      turned_m = farthest_m;
+      farthest_m = x;
+      direction = x > turned_m ? 1 : -1;
+    }
+    out[i] = direction * std::exp(-std::abs(farthest_m - turned_m) / fades_m);
+  }
+  return out;
+}
+
+// Dry friction that each reversal changes.
+std::optional<FreeShape> of_the_way_since(double stroke_m) {
+  if (stroke_m <= 0) return std::nullopt;
+  FreeShape shape{.coordinate = kWaySince, .columns = std::ssize(kWays)};
+  shape.force = [=](Index column, const Motion& m) {
+    return since_reversal(m, kTurnsBack * stroke_m, kWays[column] * stroke_m);
+  };
+  return shape;
+}
+
 }  // namespace
 
 std::vector<FreeShape> free_shapes(const std::vector<Motion>& motions) {
@@ -170,6 +209,7 @@ std::vector<FreeShape> free_shapes(const std::vector<Motion>& motions) {
   }
   if (auto grid = along_place_and_speed(motions)) shapes.push_back(std::move(*grid));
   if (auto smooth = smooth_in_place_and_speed(motions)) shapes.push_back(std::move(*smooth));
+  if (auto way = of_the_way_since(range_of(motions).stroke_m())) shapes.push_back(std::move(*way));
   shapes.push_back(of_the_past(top_speed(motions)));
   shapes.push_back(of_its_heat(top_speed(motions)));
   return shapes;

@@ -12,6 +12,7 @@
 namespace towbench::study::diagnose {
 
 inline constexpr const char* kMotionBefore = "the motion before";
+inline constexpr const char* kWaySince = "the way since the reversal";
 
 struct FreeShape {
   std::string coordinate;

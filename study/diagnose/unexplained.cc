@@ -18,19 +18,20 @@ using Eigen::VectorXd;
 constexpr double kAlpha = 1e-4;
 constexpr double kLeastForce = 0.01;  // of the input's rms; less is too small to matter
 constexpr double kLeastGain = 0.02;
-constexpr double kPastGain = 0.1;      // that the past predicts; a wrong noise model does less
-constexpr double kMisfit = 0.12;       // of the power that a cause predicts, left for a free shape
-constexpr double kForceMisfit = 0.05;  // of its force, for a shape that can stand for it
-constexpr double kSmallMisfit = 0.2;   // of its force, for a shape too small to matter by itself
-constexpr double kSmallShare = 0.12;   // of the error that is left, which it takes away
-constexpr double kMuchOfIt = 0.4;      // of the cause's force, where it takes less away
-constexpr double kSmallPower = 0.3;    // of the power it predicts, where its force is not known
-constexpr double kStandsFor = 0.3;     // of a column of a cause, rms, that a shape cannot make
-constexpr double kInPlaceErrors = 3;   // by which a shape in a cause's place predicts better
-constexpr double kInPlaceShare = 0.2;  // of the squares beyond the encoder steps
-constexpr double kAsGood = 1.1;        // of the squares, that a shape in its place may leave
-constexpr double kNearlyAll = 0.9;     // of the squares that a cause takes away
-constexpr double kRidge = 1e-4;  // of a column's own square: a bin that a fold lacks stays zero
+constexpr double kPastGain = 0.1;       // that the past predicts; a wrong noise model does less
+constexpr double kMisfit = 0.12;        // of the power that a cause predicts, left for a free shape
+constexpr double kForceMisfit = 0.05;   // of its force, for a shape that can stand for it
+constexpr double kSmallMisfit = 0.2;    // of its force, for a shape too small to matter by itself
+constexpr double kSmallShare = 0.12;    // of the error that is left, which it takes away
+constexpr double kMuchOfIt = 0.4;       // of the cause's force, where it takes less away
+constexpr double kSmallPower = 0.3;     // of the power it predicts, where its force is not known
+constexpr double kStandsFor = 0.3;      // of a column of a cause, rms, that a shape cannot make
+constexpr double kInPlaceErrors = 1.5;  // by which a shape in a cause's place predicts better
+constexpr double kInPlaceShare = 0.2;   // of the squares beyond the encoder steps
+constexpr double kAsGood = 1.1;         // of the squares, that a shape in its place may leave
+constexpr double kNearlyAll = 0.9;      // of the squares that a cause takes away
+// Of a column's own square, that which predicts best: a bin that a fold lacks stays zero.
+constexpr double kRidges[] = {1e-4, 1e-3, 1e-2, 1e-1};
 
 // A shape that predicts further.
 struct Against {
@@ -156,13 +157,9 @@ class Seeker {
     const State& s = search_.final;
     const Index p = std::ssize(s.free);
     all_.col(p + k) = s.fitted.e;
-    VectorXd ridge = VectorXd::Zero(p + k);
-    ridge.head(p) = s.ridge;
-    for (Index i = 0; i < k; ++i) {
-      all_.col(p + i) = column(i);
-      ridge[p + i] = kRidge * all_.col(p + i).squaredNorm();
-    }
-    const Blocks blocks(all_.leftCols(p + k + 1), search_.spans, ridge);
+    for (Index i = 0; i < k; ++i) all_.col(p + i) = column(i);
+    Blocks blocks(all_.leftCols(p + k + 1), search_.spans, {});
+    hold(blocks, p, k);
     Columns base = up_to(p);
     Columns both = up_to(p + k);
     const Columns group(both.begin() + p, both.end());
@@ -176,7 +173,25 @@ class Seeker {
     u.share = gain.gain;
     u.rms_N = to_force_ * test.rms;
     u.p_value = std::min(1.0, test.p_value * static_cast<double>(shapes_.size() + 1));
-    return u.p_value < kAlpha && gain.low > 0;
+    return u.p_value < kAlpha &&
+           (gain.low > 0 || (u.p_value < kBeyondDoubt && gain.gain > kLeastGain));
+  }
+
+  // The shape's columns, as much as predicts best.
+  void hold(Blocks& blocks, Index p, Index k) const {
+    VectorXd best;
+    double least = 0;
+    VectorXd ridge(p + k);
+    ridge.head(p) = search_.final.ridge;
+    for (const double share : kRidges) {
+      ridge.tail(k) = share * all_.middleCols(p, k).colwise().squaredNorm();
+      blocks.set_ridge(ridge);
+      const double left = blocks.predicted(up_to(p + k)).sum();
+      if (best.size() > 0 && left >= least) continue;
+      least = left;
+      best = ridge;
+    }
+    blocks.set_ridge(best);
   }
 
   void find_what_it_stands_for(const Blocks& blocks, const Columns& base, const Columns& group) {

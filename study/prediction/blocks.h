@@ -65,6 +65,8 @@ class Blocks {
   // Of each block its [X e]'[X e]; `samples`: of which something can be said.
   Blocks(std::vector<Eigen::MatrixXd> grams, double samples, Eigen::VectorXd ridge);
 
+  void set_ridge(const Eigen::VectorXd& ridge) { ridge_ = ridge; }
+
   [[nodiscard]] Fit fit(const Columns& of) const;
   // Of a column's rms, what the others cannot make.
   [[nodiscard]] double own_share(const Columns& others, Eigen::Index column) const;

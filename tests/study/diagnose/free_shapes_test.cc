@@ -1,7 +1,9 @@
 // Shapes without a law, on motions whose values are known.
 #include "study/diagnose/free_shapes.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,14 +24,18 @@ Motion sine() {
   return m;
 }
 
+const FreeShape& named(const std::vector<FreeShape>& shapes, const std::string& coordinate) {
+  return *std::find_if(shapes.begin(), shapes.end(),
+                       [&](const FreeShape& shape) { return shape.coordinate == coordinate; });
+}
+
 // The grid leaves out cells that the motion hardly enters.
 TEST(FreeShapes, OfBinsCoverEachSampleOnce) {
   const Motion motion = sine();
   const auto shapes = free_shapes({motion});
-  ASSERT_EQ(shapes.size(), 9U);
+  ASSERT_EQ(shapes.size(), 10U);
   for (const FreeShape& shape : shapes) {
-    if (shape.coordinate == "position times speed") continue;
-    if (shape.coordinate == "the motion before" || shape.coordinate == "the work before") continue;
+    if (shape.at.empty() && shape.coordinate != "position and speed") continue;
     VectorXd sum = VectorXd::Zero(motion.time_s.size());
     for (Eigen::Index i = 0; i < shape.columns; ++i) sum += shape.force(i, motion);
     const bool is_grid = shape.coordinate == "position and speed";
@@ -62,7 +68,7 @@ TEST(FreeShapes, OfAMotionThatStandsAreOfThePastAlone) {
 TEST(FreeShapes, OfPlaceTimesSpeedAreProductsOfWavesAndPowers) {
   const Motion motion = sine();
   const auto shapes = free_shapes({motion});
-  const FreeShape& smooth = shapes[shapes.size() - 3];
+  const FreeShape& smooth = named(shapes, "position times speed");
   ASSERT_EQ(smooth.columns, 18);
   const double x = 0.5 * (motion.position_m[1234] + 1);
   const double v = motion.speed_m_per_s[1234] / 0.7;
@@ -76,13 +82,31 @@ TEST(FreeShapes, OfThePastAreLowPasses) {
   Motion steady = sine();
   steady.speed_m_per_s.setConstant(-0.5);
   const auto shapes = free_shapes({steady});
-  const FreeShape& spring = shapes[shapes.size() - 2];
-  const FreeShape& warmth = shapes.back();
+  const FreeShape& spring = named(shapes, "the motion before");
+  const FreeShape& warmth = named(shapes, "the work before");
   ASSERT_EQ(spring.columns, 6);
   ASSERT_EQ(warmth.columns, 3);
   EXPECT_NEAR(spring.force(3, steady)[800], -(1 - std::exp(-1.0)), 2e-3);
   EXPECT_NEAR(spring.force(5, steady)[3200], -(1 - std::exp(-1.0)), 2e-3);
   EXPECT_NEAR(warmth.force(2, steady)[10000], -(1 - std::exp(-1.0)), 2e-3);
+}
+
+// Of a sine from the middle: 0.02 ... 0.4 of the stroke of 2 m, each way back from its end. A
+// reversal shorter than 4 mm is none.
+TEST(FreeShapes, OfTheWaySinceAReversalFadeWithIt) {
+  Motion motion = sine();
+  motion.position_m.array() += 1e-3 * (200 * motion.time_s.array()).sin();
+  const auto shapes = free_shapes({motion});
+  const FreeShape& since = named(shapes, "the way since the reversal");
+  ASSERT_EQ(since.columns, 5);
+  const auto expect_at = [&](Eigen::Index i, double way_m, double direction) {
+    EXPECT_NEAR(since.force(0, motion)[i], direction * std::exp(-way_m / 0.04), 0.08) << i;
+    EXPECT_NEAR(since.force(4, motion)[i], direction * std::exp(-way_m / 0.8), 0.01) << i;
+  };
+  expect_at(1000, std::sin(0.7), 1);
+  expect_at(2400, 1 - std::sin(0.7 * 2.4), -1);  // 0.16 s behind the end, 6 mm
+  expect_at(4000, 1 - std::sin(0.7 * 4), -1);
+  expect_at(8000, 1 + std::sin(0.7 * 8), 1);
 }
 
 }  // namespace

@@ -76,6 +76,11 @@ TEST(Misfit, OfFrictionAfterAReversalIsNotCalledACable) {
   expect_unexplained("outside_after_reversal", 110001);
 }
 
+// Two runs of steps and of coasting: what follows the way since the reversal predicts better.
+TEST(Misfit, OfFrictionAfterAReversalIsNotCalledStiction) {
+  expect_unexplained("outside_after_reversal", 114007);
+}
+
 // Its force fades with time, that of bristles with the way: low passes of the speed in its place
 // predict better.
 TEST(Misfit, OfASpringThatCreepsIsNotCalledPresliding) {
