@@ -21,9 +21,10 @@ bool surely_gains(const NamedCause& cause) {
   return cause.gain99.low > 0;
 }
 
-// Against an answer that needs none: a free shape that may gain nothing took on a push.
+// Against an answer that needs none: a free shape or a clip that may gain nothing took on a push.
 bool stands(const NamedCause& cause) {
-  return !cause.effect->flexible || surely_gains(cause);
+  const bool takes_on_others = cause.effect->flexible || cause.effect->whole != 0;
+  return !takes_on_others || surely_gains(cause);
 }
 
 }  // namespace

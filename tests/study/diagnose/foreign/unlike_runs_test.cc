@@ -52,6 +52,13 @@ TEST_F(UnlikeRun, LeavesARunWhoseFrictionMayBeItsOwn) {
   EXPECT_THAT(study::diagnose::headline(found_), HasSubstr("what touched the axis in the runs"));
 }
 
+// A supply too low predicts the push away, and may gain nothing.
+TEST_F(UnlikeRun, IsNotTakenForAClip) {
+  diagnose("none", 138010);
+  EXPECT_EQ(answer_of(found_).words(), "nothing");
+  EXPECT_TRUE(found_.unexplained.has_value());
+}
+
 // A law that the library does not have acts in all of them.
 TEST_F(UnlikeRun, IsNoneOfThoseWithAnUnknownLaw) {
   diagnose("outside", 112006);
