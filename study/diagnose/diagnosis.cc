@@ -36,6 +36,13 @@ void begin_from_momentum(NominalModel& model, const Momentum& fit) {
   model.bias_N = fit.bias_N;
 }
 
+// No data tell it from dry friction where all motion is in one direction.
+void take_bias_for_friction(NominalModel& model, double direction) {
+  if (direction == 0) return;
+  model.coulomb_N = std::max(0.0, model.coulomb_N + direction * model.bias_N);
+  model.bias_N = 0;
+}
+
 Interval gain_of(const Comparison& c) {
   // From two standard errors either side to 99 %.
   constexpr double kWider = 2.58 / 2;
@@ -179,6 +186,7 @@ Diagnosis diagnose_all(const Request& given) {
     begin_from_momentum(request.model, limited);
   }
   Data data = make_data(request.runs, request.model);
+  if (!request.model.supplied) take_bias_for_friction(request.model, one_way(data));
   tell("looking for causes");
   Context context = make_context(request.model, data);
   for (const double mass_kg : {momentum.mass_kg, limited.mass_kg}) {

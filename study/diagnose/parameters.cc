@@ -112,7 +112,8 @@ std::vector<ParameterShift> judge_parameters(const Data& data, const Search& sea
   const double usual_N = runs_differ_N(search.context);
   const std::array<double, 4> columns{sizes.acceleration, sizes.speed, 1, 1};
   std::vector<ParameterShift> shifts;
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  const std::size_t fitted = search.context.one_way != 0 ? kConstantForce : names.size();
+  for (std::size_t i = 0; i < fitted; ++i) {
     const auto j = static_cast<Eigen::Index>(i);
     const double error =
         std::hypot(std::sqrt(std::max(0.0, search.final.linear.covariance(j, j))),
@@ -137,8 +138,11 @@ std::vector<ParameterShift> judge_parameters(const Data& data, const Search& sea
   if (shifts[kInertia].moved) {
     shifts[kInertia].indistinguishable_from = {"added_mass"};
   }
-  if (shifts[kConstantForce].moved) {
-    shifts[kConstantForce].indistinguishable_from = {"constant_bias", "coulomb_asymmetry"};
+  const std::vector<std::string> constant_forces{"constant_bias", "coulomb_asymmetry"};
+  if (search.context.one_way != 0) {
+    if (shifts[kDryFriction].moved) shifts[kDryFriction].indistinguishable_from = constant_forces;
+  } else if (shifts[kConstantForce].moved) {
+    shifts[kConstantForce].indistinguishable_from = constant_forces;
   }
   const Behind causes = behind(shifts);
   for (std::size_t i = 0; i < causes.size(); ++i) {

@@ -14,7 +14,30 @@ double least_of(const Eigen::VectorXd& values) {
   return values.size() > 0 ? values.minCoeff() : kNone;
 }
 
+constexpr double kGoesBack = 0.02;  // of its way, at most
+
+// How far a run goes back in one direction, of its way.
+double goes_back(const Run& run, double direction) {
+  double farthest_m = direction * run.position_m[0];
+  double back_m = 0;
+  for (const double position_m : run.position_m) {
+    farthest_m = std::max(farthest_m, direction * position_m);
+    back_m = std::max(back_m, farthest_m - direction * position_m);
+  }
+  return back_m / std::max(1e-12, run.position_m.maxCoeff() - run.position_m.minCoeff());
+}
+
 }  // namespace
+
+double one_way(const Data& data) {
+  const auto all_go = [&](double direction) {
+    return std::all_of(data.scenes.begin(), data.scenes.end(), [&](const Scene& scene) {
+      return goes_back(*scene.run, direction) < kGoesBack;
+    });
+  };
+  if (all_go(1)) return 1;
+  return all_go(-1) ? -1 : 0;
+}
 
 Context make_context(const NominalModel& stated, const Data& data) {
   Context c;
@@ -42,6 +65,7 @@ Context make_context(const NominalModel& stated, const Data& data) {
   c.top_speed_m_per_s = data.scenes.front().top_speed_m_per_s;
   c.mass_least_kg = stated.mass_kg / kMassOff;
   c.mass_most_kg = stated.mass_kg * kMassOff;
+  c.one_way = one_way(data);
   c.stroke_min_m = data.scenes.front().stroke_min_m;
   c.stroke_m = data.scenes.front().stroke_max_m - data.scenes.front().stroke_min_m;
   return c;

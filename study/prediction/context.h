@@ -25,6 +25,7 @@ struct Context {
   double mass_most_kg = 0;
   double stroke_min_m = 0;
   double stroke_m = 0;
+  double one_way = 0;  // the sign of all motion, where a constant force is dry friction
   double period_s = 0;
   double duration_s = 0;
   double resolution_m = 0;
@@ -35,6 +36,9 @@ struct Context {
   std::vector<OtherInLog> others;
   double temperature_range_K = 0;  // in the log; 0: none
 };
+
+// The direction of all motion; 0: there are both.
+[[nodiscard]] double one_way(const Data& data);
 
 [[nodiscard]] Context make_context(const NominalModel& stated, const Data& data);
 

@@ -80,8 +80,8 @@ std::vector<FreeParameter> base_free_parameters(const Context& c, std::size_t ru
   std::vector<FreeParameter> free{
       {.key = Key::kMass, .step = 0.01 * c.stated.mass_kg, .positive = true},
       {.key = Key::kViscous, .step = force / speed},
-      {.key = Key::kCoulomb, .step = force},
-      {.key = Key::kBias, .step = force}};
+      {.key = Key::kCoulomb, .step = force}};
+  if (c.one_way == 0) free.push_back({.key = Key::kBias, .step = force});
   for (std::size_t run = 0; run < runs && runs > 1; ++run) {
     free.push_back({.of = FreeParameter::Of::kBiasOfRun, .run = run, .step = force});
     free.push_back({.of = FreeParameter::Of::kCoulombOfRun, .run = run, .step = force});
@@ -170,7 +170,7 @@ Fitted fit_model(const Data& data, const Context& context, Model start,
     }
   }
   if (std::any_of(free.begin(), free.end(), is_held)) {
-    centre(best.model, Key::kBias, &OfRun::bias_N);
+    if (context.one_way == 0) centre(best.model, Key::kBias, &OfRun::bias_N);
     centre(best.model, Key::kCoulomb, &OfRun::coulomb_N);
   }
   return best;
