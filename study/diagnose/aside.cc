@@ -23,8 +23,9 @@ bool surely_gains(const NamedCause& cause) {
 
 // Against an answer that needs none: a free shape or a clip that may gain nothing took on a push.
 bool stands(const NamedCause& cause) {
-  const bool takes_on_others = cause.effect->flexible || cause.effect->whole != 0;
-  return !takes_on_others || surely_gains(cause);
+  const Effect& effect = *cause.effect;
+  const bool is_clip = effect.whole != 0 && !effect.amplitudes.empty();
+  return !(effect.flexible || is_clip) || surely_gains(cause);
 }
 
 }  // namespace

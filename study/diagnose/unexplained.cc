@@ -18,18 +18,20 @@ using Eigen::VectorXd;
 constexpr double kAlpha = 1e-4;
 constexpr double kLeastForce = 0.01;  // of the input's rms; less is too small to matter
 constexpr double kLeastGain = 0.02;
-constexpr double kPastGain = 0.1;       // that the past predicts; a wrong noise model does less
-constexpr double kMisfit = 0.12;        // of the power that a cause predicts, left for a free shape
-constexpr double kForceMisfit = 0.05;   // of its force, for a shape that can stand for it
-constexpr double kSmallMisfit = 0.2;    // of its force, for a shape too small to matter by itself
-constexpr double kSmallShare = 0.12;    // of the error that is left, which it takes away
-constexpr double kMuchOfIt = 0.4;       // of the cause's force, where it takes less away
-constexpr double kSmallPower = 0.3;     // of the power it predicts, where its force is not known
-constexpr double kStandsFor = 0.3;      // of a column of a cause, rms, that a shape cannot make
-constexpr double kInPlaceErrors = 1.5;  // by which a shape in a cause's place predicts better
-constexpr double kInPlaceShare = 0.2;   // of the squares beyond the encoder steps
-constexpr double kAsGood = 1.1;         // of the squares, that a shape in its place may leave
-constexpr double kNearlyAll = 0.9;      // of the squares that a cause takes away
+constexpr double kPastGain = 0.1;      // that the past predicts; a wrong noise model does less
+constexpr double kMisfit = 0.12;       // of the power that a cause predicts, left for a free shape
+constexpr double kForceMisfit = 0.05;  // of its force, for a shape that can stand for it
+constexpr double kSmallMisfit = 0.2;   // of its force, for a shape too small to matter by itself
+constexpr double kSmallShare = 0.12;   // of the error that is left, which it takes away
+constexpr double kMuchOfIt = 0.4;      // of the cause's force, where it takes less away
+constexpr double kSmallPower = 0.3;    // of the power it predicts, where its force is not known
+constexpr double kStandsFor = 0.3;     // of a column of a cause, rms, that a shape cannot make
+constexpr double kInPlaceErrors = 3;   // by which a shape in a cause's place predicts better
+constexpr double kInPlaceShare = 0.2;  // of the squares beyond the encoder steps
+constexpr double kFewErrors = 1.5;     // the same where the share is large: few blocks show no more
+constexpr double kLargeShare = 0.3;
+constexpr double kAsGood = 1.1;     // of the squares, that a shape in its place may leave
+constexpr double kNearlyAll = 0.9;  // of the squares that a cause takes away
 // Of a column's own square, that which predicts best: a bin that a fold lacks stays zero.
 constexpr double kRidges[] = {1e-4, 1e-3, 1e-2, 1e-1};
 
@@ -121,7 +123,9 @@ class Seeker {
   bool is_clearly_less(const VectorXd& loss) const {
     const Frame frame{&data_, search_.context, search_.bandwidth, search_.spans};
     const double share = share_of(frame, loss.sum() - loss_.sum(), loss.sum(), search_.final);
-    return share >= kInPlaceShare && compare(loss, loss_, 2).standard_errors >= kInPlaceErrors;
+    const double errors = compare(loss, loss_, 2).standard_errors;
+    return (share >= kInPlaceShare && errors >= kInPlaceErrors) ||
+           (share >= kLargeShare && errors >= kFewErrors);
   }
   // Of what the cause takes away.
   bool takes_nearly_all(const VectorXd& loss) const {
