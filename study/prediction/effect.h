@@ -51,6 +51,9 @@ struct Effect {
   // emulator cannot express it.
   std::vector<std::string> plant_keys = {};
   PlantValues (*plant_values)(const Parameters&, const StatedPlant&) = nullptr;
+
+  // Of the command or of the drive: its level is the scale.
+  [[nodiscard]] bool is_clip() const { return whole != 0 && !amplitudes.empty(); }
 };
 
 // The families; each in a file of its own.

@@ -124,7 +124,7 @@ void accept_structural(Frame& frame, const Model& start, double least_errors, St
 bool accept_clip(const Frame& frame, const Model& start, double least_errors, State& now) {
   State best;
   for (const Effect& effect : effects()) {
-    if (effect.whole == 0 || effect.amplitudes.empty() || is_in(frame, now, effect)) continue;
+    if (!effect.is_clip() || is_in(frame, now, effect)) continue;
     const Candidate chosen = best_level(frame, effect, start);
     if (chosen.scales.empty()) continue;
     State other = with(frame, now, chosen, start);
