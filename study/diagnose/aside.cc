@@ -6,6 +6,7 @@ namespace towbench::study::diagnose {
 namespace {
 
 constexpr double kQuiteUnlike = 5;  // where something stays unexplained in it too
+constexpr double kSure = 2.58;      // standard errors: 99 %
 constexpr double kMost = 0.85;      // of the prediction error: a shape that leaves less is a law
 
 // That `all` does not have: it takes on what is not its own.
@@ -18,14 +19,14 @@ bool has_new_free_shape(const Diagnosis& rest, const Diagnosis& all) {
 }
 
 bool surely_gains(const NamedCause& cause) {
-  return cause.gain99.low > 0;
+  return cause.standard_errors > kSure;
 }
 
-// Against an answer that needs none: a free shape or a clip that may gain nothing took on a push.
+// Against an answer that needs none: a free shape or a clip that may gain nothing took on a push,
+// though many blocks gain by it.
 bool stands(const NamedCause& cause) {
   const Effect& effect = *cause.effect;
-  const bool is_clip = effect.whole != 0 && !effect.amplitudes.empty();
-  return !(effect.flexible || is_clip) || surely_gains(cause);
+  return !(effect.flexible || effect.is_clip()) || cause.gain99.low > 0;
 }
 
 }  // namespace

@@ -82,9 +82,11 @@ std::vector<Size> sizes_of(const State& state, std::size_t which) {
 void name_causes(Diagnosis& d, const Search& search) {
   for (std::size_t i = 0; i < search.causes.size(); ++i) {
     const Cause& cause = search.causes[i];
-    NamedCause named{
-        cause.effect, sizes_of(search.final, i), cause.p_value, gain_of(cause.gain), {},
-        std::nullopt};
+    NamedCause named{.effect = cause.effect,
+                     .sizes = sizes_of(search.final, i),
+                     .p_value = cause.p_value,
+                     .gain99 = gain_of(cause.gain),
+                     .standard_errors = cause.gain.standard_errors};
     for (const Alternative& other : cause.alternatives) {
       named.alternatives.push_back(other.effect->name);
     }

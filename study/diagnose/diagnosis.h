@@ -40,10 +40,11 @@ struct Size {
 struct NamedCause {
   const Effect* effect = nullptr;
   std::vector<Size> sizes;
-  double p_value = 1;  // corrected for the number tried
-  Interval gain99;     // its own, of the prediction error, over the best model without it
-  std::vector<std::string> alternatives;  // that predict as well in its place
-  std::optional<NextExperiment> separating;
+  double p_value = 1;          // corrected for the number tried
+  Interval gain99;             // its own, of the prediction error, over the best model without it
+  double standard_errors = 0;  // of the gain above zero
+  std::vector<std::string> alternatives{};  // that predict as well in its place
+  std::optional<NextExperiment> separating{};
 
   // Of the size of that name; zero where there is none.
   [[nodiscard]] double size(const std::string& name) const;

@@ -21,11 +21,18 @@ std::vector<std::size_t> worst_first(const std::vector<double>& rms_m) {
   return order;
 }
 
+// It takes on what moves the axis in one run.
+bool is_of_time(const NamedCause& cause) {
+  const auto& scales = cause.effect->scales;
+  return !scales.empty() && scales.front() == Key::kPeriodicHertz;
+}
+
 // Whether the others are asked by themselves.
 bool may_be_unlike(const Diagnosis& all, const std::vector<std::size_t>& order) {
   if (is_fatal(all.findings) || order.size() < 2) return false;
   const std::vector<double>& rms_m = all.innovations_of_run_m;
-  return all.unexplained || rms_m[order[0]] > kFarOff * rms_m[order[order.size() / 2]];
+  return all.unexplained || std::any_of(all.causes.begin(), all.causes.end(), is_of_time) ||
+         rms_m[order[0]] > kFarOff * rms_m[order[order.size() / 2]];
 }
 
 // The worst run; that of the stated model, where a fit that one run has led astray is worse in

@@ -16,12 +16,11 @@ using testing::StartsWith;
 TEST(Explain, SaysForEachFateOfAnEffectWhatDecided) {
   Diagnosis d;
   d.tried = 60;
-  d.causes.push_back({find_effect("stribeck"),
-                      {{"excess_N", {2, 1.8, 2.2}, false}},
-                      1e-9,
-                      {0.3, 0.2, 0.4},
-                      {"stiction"},
-                      {}});
+  d.causes.push_back({.effect = find_effect("stribeck"),
+                      .sizes = {{"excess_N", {2, 1.8, 2.2}, false}},
+                      .p_value = 1e-9,
+                      .gain99 = {0.3, 0.2, 0.4},
+                      .alternatives = {"stiction"}});
   d.not_testable.push_back({"backlash", "only 1 % of it is its own", "reversals"});
   d.dropped = {"cable_spring"};
   d.considered = {{"presliding", 0.2, {0.05, 0, 0.1}, 4, true},

@@ -15,7 +15,8 @@ using testing::Not;
 Diagnosis found(double supplied_m, double extended_m) {
   Diagnosis d;
   d.verdicts = {"cause_found"};
-  d.causes.push_back({find_effect("backlash"), {}, 1e-9, {0.3, 0.2, 0.4}, {}, {}});
+  d.causes.push_back(
+      {.effect = find_effect("backlash"), .sizes = {}, .p_value = 1e-9, .gain99 = {0.3, 0.2, 0.4}});
   d.emulated = Emulated{};
   d.emulated->windows.count = 40;
   d.emulated->windows.supplied_m = supplied_m;

@@ -19,6 +19,7 @@ struct MadeUp {
   bool is_unexplained = false;
   bool is_free_shape = false;
   double least_gain = 0.1;                // of the cause
+  double standard_errors = 3;             // of that gain
   double gain = 0.3;                      // of all that is named
   std::vector<std::size_t> asked{};       // how many runs were put aside, each time
   std::vector<std::string> runs_asked{};  // the first of them
@@ -36,6 +37,7 @@ Diagnosis answer(bool names_a_cause, bool is_unexplained) {
     NamedCause& cause = d.causes.emplace_back();
     cause.effect = effect_that(made_up.is_free_shape);
     cause.gain99.low = made_up.least_gain;
+    cause.standard_errors = made_up.standard_errors;
   }
   if (is_unexplained) d.unexplained.emplace();
   d.verdicts.emplace_back(is_unexplained ? "unexplained_structure" : "model_adequate");
@@ -159,8 +161,8 @@ TEST(WithoutUnlikeRuns, TheWorstOfTheStatedModelIsTriedNext) {
 
 TEST(WithoutUnlikeRuns, ACauseThatMayGainNothingIsNotBelieved) {
   const Diagnosis all = unexplained({1, 4});
-  EXPECT_THAT(left_out({.names_a_cause = true, .least_gain = -0.01}, all), IsEmpty());
-  EXPECT_THAT(left_out({.names_a_cause = true, .least_gain = 0.01}, all), ElementsAre(1));
+  EXPECT_THAT(left_out({.names_a_cause = true, .standard_errors = 2.5}, all), IsEmpty());
+  EXPECT_THAT(left_out({.names_a_cause = true, .standard_errors = 2.7}, all), ElementsAre(1));
 }
 
 TEST(WithoutUnlikeRuns, ARunFarOffIsEnoughThoughNothingIsUnexplained) {
@@ -169,6 +171,15 @@ TEST(WithoutUnlikeRuns, ARunFarOffIsEnoughThoughNothingIsUnexplained) {
   EXPECT_THAT(left_out({}, adequate), ElementsAre(1));
   adequate.innovations_of_run_m = {1, 9.9, 0.9};
   EXPECT_THAT(left_out({}, adequate), IsEmpty());
+}
+
+// It takes on what moves the axis in one run.
+TEST(WithoutUnlikeRuns, AForceOfTimeIsEnoughThoughNothingIsUnexplained) {
+  Diagnosis all = answer(true, false);
+  all.innovations_of_run_m = {1, 2};
+  EXPECT_THAT(left_out({.names_a_cause = true}, all), IsEmpty());
+  all.causes.front().effect = find_effect("periodic_force");
+  EXPECT_THAT(left_out({.names_a_cause = true}, all), ElementsAre(1));
 }
 
 TEST(WithoutUnlikeRuns, DataThatAreRefusedStayRefused) {

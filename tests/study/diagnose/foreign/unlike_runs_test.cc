@@ -59,6 +59,14 @@ TEST_F(UnlikeRun, IsNotTakenForAClip) {
   EXPECT_TRUE(found_.unexplained.has_value());
 }
 
+// Of two runs, which has the push repeat as its pushes do. The other one is steps: the gain is in
+// few of its blocks.
+TEST_F(UnlikeRun, IsNotTakenForAForceOfTime) {
+  diagnose("one", 140043);
+  EXPECT_EQ(answer_of(found_).words(), "presliding");
+  EXPECT_THAT(left_out(), ElementsAre("pushed"));
+}
+
 // A law that the library does not have acts in all of them.
 TEST_F(UnlikeRun, IsNoneOfThoseWithAnUnknownLaw) {
   diagnose("outside", 112006);
