@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
 #include "study/diagnose/motion.h"
 #include "study/prediction/units.h"
 #include "study/statistics/statistics.h"
@@ -32,9 +35,15 @@ Sizes sizes_in(const Data& data) {
   return {std::sqrt(sum.acceleration / n), std::sqrt(sum.speed / n)};
 }
 
-// Standard error of a mean over runs that differ. Of few the spread says little: they may all be
-// off by what runs usually differ by.
-double of_runs(const Model& model, Key key, double usual_N, bool some_left_out) {
+// So many times their spread is as sure for a mean of `n` as kMovedErrors standard errors are.
+double spreads_of_few(double n) {
+  const double beyond = boost::math::cdf(complement(boost::math::normal(), kMovedErrors));
+  return boost::math::quantile(complement(boost::math::students_t(n - 1), beyond));
+}
+
+// Standard error of a mean over runs that differ, each known to `error_N`. Of few the spread says
+// little: they may all be off by what runs usually differ by, unless they hardly differ.
+double of_runs(const Model& model, Key key, double error_N, double usual_N, bool some_left_out) {
   const auto n = static_cast<double>(model.of_run.size());
   if (key != Key::kBias && key != Key::kCoulomb) return 0;
   const double least_N = usual_N / (kMovedErrors * std::sqrt(n));
@@ -44,7 +53,9 @@ double of_runs(const Model& model, Key key, double usual_N, bool some_left_out) 
     const double own = key == Key::kBias ? run.bias_N : run.coulomb_N;
     square += own * own;
   }
-  return std::max(least_N, std::sqrt(square / (n - 1) / n));
+  const double spread_N = std::sqrt(square / (n - 1) / n);
+  const double of_few_N = spreads_of_few(n) / kMovedErrors * std::max(spread_N, error_N);
+  return std::max(spread_N, std::min(least_N, of_few_N));
 }
 
 // fitted / supplied with its standard error.
@@ -75,12 +86,15 @@ constexpr const char* kGain = "amplifier_gain";
 constexpr const char* kCounts = "encoder_count_loss";
 
 Behind behind(const std::vector<ParameterShift>& shifts) {
-  if (!shifts[kInertia].moved || shifts[kViscousFriction].supplied == 0 ||
-      shifts[kDryFriction].supplied == 0) {
-    return {};
-  }
+  if (shifts[kViscousFriction].supplied == 0 || shifts[kDryFriction].supplied == 0) return {};
   const Ratio mass = ratio_of(shifts[kInertia]);
   const Ratio viscous = ratio_of(shifts[kViscousFriction]);
+  if (!shifts[kInertia].moved) {
+    // Where friction is nearly all, the rest may be off by as much without being seen.
+    const Ratio dry = ratio_of(shifts[kDryFriction]);
+    const bool by_gain = agree(dry, mass) && agree(dry, viscous);
+    return by_gain ? Behind{{{}, {kGain}, {kGain}}} : Behind{};
+  }
   if (!agree(mass, viscous)) {
     return {};
   }
@@ -115,9 +129,9 @@ std::vector<ParameterShift> judge_parameters(const Data& data, const Search& sea
   const std::size_t fitted = search.context.one_way != 0 ? kConstantForce : names.size();
   for (std::size_t i = 0; i < fitted; ++i) {
     const auto j = static_cast<Eigen::Index>(i);
-    const double error =
-        std::hypot(std::sqrt(std::max(0.0, search.final.linear.covariance(j, j))),
-                   of_runs(search.final.fitted.model, keys[i], usual_N, some_left_out));
+    const double own_error = std::sqrt(std::max(0.0, search.final.linear.covariance(j, j)));
+    const double error = std::hypot(
+        own_error, of_runs(search.final.fitted.model, keys[i], own_error, usual_N, some_left_out));
     const double value = search.final.fitted.model.parameters[keys[i]];
     const double off = value - supplied[i];
     const bool shared =

@@ -25,8 +25,10 @@ enum BaseParameter : std::size_t { kInertia, kViscousFriction, kDryFriction, kCo
 // what was supplied, and no accepted cause shares its mean with it.
 // Classes: {inertia, added_mass}; all by one ratio: {amplifier_gain}; inertia and viscous by one
 // ratio, Coulomb as stated: {encoder_count_loss}, or both where the data allow either; Coulomb by
-// another ratio: {amplifier_gain} beside it, two things; bias: {constant_bias, coulomb_asymmetry}.
-// `some_left_out`: the runs are those that are left of several, and may differ from these.
+// another ratio: {amplifier_gain} beside it, two things; inertia too little to move, but off by the
+// ratio of Coulomb and viscous: {amplifier_gain} of these; bias: {constant_bias,
+// coulomb_asymmetry}. `some_left_out`: the runs are those that are left of several, and may differ
+// from these.
 [[nodiscard]] std::vector<ParameterShift> judge_parameters(const Data& data, const Search& search,
                                                            bool some_left_out);
 

@@ -43,6 +43,14 @@ TEST(ScaledParameters, AreLostCountsWhereDryFrictionTells) {
               UnorderedElementsAre("inertia", "added_mass", "encoder_count_loss"));
 }
 
+// Pulses of a direct drive whose force is dry friction for the most part: inertia is off by the
+// same 9 %, which is below a hundredth of the force.
+TEST(ScaledParameters, OfDryFrictionAloneMayBeAWrongGain) {
+  const auto drawn = draw_case({.motion = "pulses", .effect = "amplifier_gain"}, 142110);
+  EXPECT_EQ(answer_of(study::diagnose::diagnose(request_of(drawn))).words(),
+            "coulomb~amplifier_gain");
+}
+
 // A joint whose stated weight is off by the ratio by which inertia and friction are.
 TEST(ScaledParameters, OfAWeightMayBeAWrongGain) {
   Wish wish;
