@@ -125,6 +125,7 @@ void add_place_effects(std::vector<Effect>& library) {
                      .amplitudes = shapes(Key::kPlaceViscous1),
                      .amplitude_names = shape_names("N_s_per_m"),
                      .flexible = true,
+                     .along = "position times speed",
                      .shares_mean_with = Key::kViscous,
                      .grid = no_scale,
                      .set = set_nothing,

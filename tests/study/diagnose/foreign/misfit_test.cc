@@ -124,6 +124,12 @@ TEST(Misfit, IsNoneOfAFinerForceByThePlace) {
   EXPECT_EQ(answer_to("one", "position_force", 101010).words(), "position_force");
 }
 
+// The same of viscous friction, in stairs at 100 Hz.
+TEST(Misfit, IsNoneOfAFinerViscousFrictionByThePlace) {
+  const auto drawn = draw_case({.motion = "stairs", .effect = "position_viscous"}, 142508);
+  EXPECT_EQ(answer_to(drawn).words(), "position_viscous");
+}
+
 TEST(Misfit, IsNoneWhereTheLawIsTheRightOne) {
   const auto answer = answer_to("one", "low_speed_rolloff", 70009);
   EXPECT_EQ(answer.words(), "low_speed_rolloff");
