@@ -17,6 +17,7 @@ constexpr double kOfRounding = 0.29;  // rms of an encoder's steps, in steps
 constexpr double kCollapsed = 0.99;   // of what is believed of a mass, or of dry friction
 constexpr double kSwap = 1;           // standard errors by which another must predict better
 constexpr double kSwapLoss = 0.98;    // times the loss that it leaves at most
+constexpr double kCancels = 0.1;      // of what an inertia is off
 constexpr double kAliasLoss = 2;      // times the loss that still predicts alike
 
 bool predict_alike(const State& one, const State& other) {
@@ -33,6 +34,22 @@ bool predicts_better(const State& one, const State& other) {
 bool is_closed(const Context& context, const Parameters& p) {
   return p[Key::kPlay] < context.resolution_m ||
          p[Key::kStiffness] * p[Key::kPlay] < kLeastGap * context.input_rms_N;
+}
+
+// A travel below a step of the encoder is none.
+bool is_at_once(const Effect& effect, const Context& context, const Parameters& p) {
+  return effect.amplitudes == std::vector{Key::kPresliding} &&
+         p[Key::kPreslidingTravel] < context.resolution_m;
+}
+
+// A scale of what is read or driven beside an inertia that is off by as much: the motion shows
+// neither, and both only bend what does not scale with them.
+bool is_cancelled(const Effect& effect, double share, const Parameters& p, double stated_kg) {
+  const bool scales = effect.amplitudes == std::vector{Key::kCountLoss} ||
+                      effect.amplitudes == std::vector{Key::kGainLoss};
+  if (!scales || stated_kg <= 0) return false;
+  const double shown = p[Key::kMass] / (1 - share) / stated_kg - 1;
+  return std::abs(shown) < kCancels * std::abs(p[Key::kMass] / stated_kg - 1);
 }
 
 // Whether `holds` of both here, and at the bandwidth at which no more than rounding is left.
@@ -70,7 +87,11 @@ bool is_worth_naming(const Frame& frame, const State& s) {
   return std::all_of(s.accepted.begin(), s.accepted.end(), [&](const Accepted& a) {
     const auto& keys = a.effect->amplitudes;
     if (a.effect->rough && is_closed(frame.context, p)) return false;
+    if (is_at_once(*a.effect, frame.context, p)) return false;
     const double first = keys.empty() ? 0 : std::abs(p[keys.front()]);
+    if (!keys.empty() && is_cancelled(*a.effect, p[keys.front()], p, stated[Key::kMass])) {
+      return false;
+    }
     return (keys.empty() || first >= a.effect->least) &&
            (a.effect->most == 0 || first < a.effect->most) &&
            (keys.empty() || std::any_of(keys.begin(), keys.end(), [&](Key key) {

@@ -91,6 +91,33 @@ TEST_F(Acceptance, AGainIsAskedForHoweverCertainACauseIs) {
   EXPECT_FALSE(is_significant(limits, {.gain = 0.1, .standard_errors = 9}, 1e-2));
 }
 
+class WorthNaming : public Acceptance {
+ protected:
+  [[nodiscard]] bool is_worth(const char* effect, Key key, double value, double mass_kg) const {
+    State s;
+    s.accepted.push_back({find_effect(effect), {}, false});
+    s.fitted.model.parameters = parameters_of(nominal_);
+    s.fitted.model.parameters[Key::kMass] = mass_kg;
+    s.fitted.model.parameters[Key::kPresliding] = 1;
+    s.fitted.model.parameters[key] = value;
+    return is_worth_naming(frame_, s);
+  }
+};
+
+TEST_F(WorthNaming, ATravelBelowAStepOfTheEncoderIsNone) {
+  EXPECT_FALSE(is_worth("presliding", Key::kPreslidingTravel, 0.9 * kCount_m, 2));
+  EXPECT_TRUE(is_worth("presliding", Key::kPreslidingTravel, 1.1 * kCount_m, 2));
+}
+
+// 9 % more counts and 9 % more inertia move as the model does.
+TEST_F(WorthNaming, AScaleThatInertiaTakesBackIsNone) {
+  EXPECT_FALSE(is_worth("encoder_count_loss", Key::kCountLoss, -0.09, 2 * 1.09));
+  EXPECT_TRUE(is_worth("encoder_count_loss", Key::kCountLoss, -0.09, 2 * 1.07));
+  EXPECT_TRUE(is_worth("encoder_count_loss", Key::kCountLoss, -0.09, 2));
+  EXPECT_FALSE(is_worth("amplifier_gain", Key::kGainLoss, 0.1, 2 * 0.9));
+  EXPECT_TRUE(is_worth("amplifier_gain", Key::kGainLoss, 0.1, 2));
+}
+
 // A load without mass would have a mode without end.
 TEST(AnotherBody, LeavesAnElasticAxisItsMotorsShareAndItsMode) {
   Model start;
