@@ -17,6 +17,7 @@ namespace {
 constexpr double kMovedErrors = 4;    // standard errors
 constexpr double kMovedShare = 0.01;  // of the input's rms
 constexpr double kBesideMuch = 0.05;  // the same where much is left that nothing explains
+constexpr double kBesidePlay = 0.1;   // and the motor is free of its load now and then
 
 // Rms of what multiplies mass and viscous friction.
 struct Sizes {
@@ -33,6 +34,14 @@ Sizes sizes_in(const Data& data) {
   }
   const auto n = static_cast<double>(data.samples());
   return {std::sqrt(sum.acceleration / n), std::sqrt(sum.speed / n)};
+}
+
+// Of the input's rms, of what is off by less nothing is said.
+double least_share(const Search& search) {
+  if (!search.structured) return kMovedShare;
+  const bool plays = std::any_of(search.causes.begin(), search.causes.end(),
+                                 [](const Cause& cause) { return cause.effect->rough; });
+  return plays ? kBesidePlay : kBesideMuch;
 }
 
 // So many times their spread is as sure for a mean of `n` as kMovedErrors standard errors are.
@@ -111,6 +120,18 @@ Behind behind(const std::vector<ParameterShift>& shifts) {
   return {one, one, one};
 }
 
+// What predicts as well as a named cause, and needs no shift of this parameter.
+void add_what_needs_none(const Search& search, Key key, ParameterShift& shift) {
+  const double most = kOffAlike * std::abs(shift.fitted.value - shift.supplied);
+  for (const Cause& cause : search.causes) {
+    for (const Alternative& other : cause.alternatives) {
+      if (std::abs(other.state.fitted.model.parameters[key] - shift.supplied) < most) {
+        shift.indistinguishable_from.push_back(other.effect->name);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<ParameterShift> judge_parameters(const Data& data, const Search& search,
@@ -139,8 +160,7 @@ std::vector<ParameterShift> judge_parameters(const Data& data, const Search& sea
                     [&](const Cause& c) { return c.effect->shares_mean_with == keys[i]; });
     const bool moved =
         model.supplied && !shared && std::abs(off) > kMovedErrors * error &&
-        std::abs(off) * columns[i] >
-            (search.structured ? kBesideMuch : kMovedShare) * search.context.input_rms_N;
+        std::abs(off) * columns[i] > least_share(search) * search.context.input_rms_N;
     shifts.push_back(
         {names[i],
          supplied[i],
@@ -162,6 +182,9 @@ std::vector<ParameterShift> judge_parameters(const Data& data, const Search& sea
   for (std::size_t i = 0; i < causes.size(); ++i) {
     auto& alike = shifts[i].indistinguishable_from;
     if (shifts[i].moved) alike.insert(alike.end(), causes[i].begin(), causes[i].end());
+  }
+  for (std::size_t i = 0; i < fitted; ++i) {
+    if (shifts[i].moved) add_what_needs_none(search, keys[i], shifts[i]);
   }
   return shifts;
 }

@@ -51,6 +51,22 @@ TEST(ScaledParameters, OfDryFrictionAloneMayBeAWrongGain) {
             "coulomb~amplifier_gain");
 }
 
+// Two bodies: what is driven or read is scaled by a cause of its own. Lost counts predict as well
+// as a wrong gain, with dry friction off beside them.
+TEST(ScaledParameters, OfTwoBodiesMayBeAWrongGain) {
+  const auto drawn = draw_case({.motion = "fast_laps", .effect = "amplifier_gain"}, 143002);
+  EXPECT_EQ(answer_of(study::diagnose::diagnose(request_of(drawn))).words(),
+            "encoder_count_loss~amplifier_gain coulomb~amplifier_gain");
+}
+
+// Bristles of a fourteenth of an encoder step would predict better beside it.
+TEST(ScaledParameters, AreNotNamedWithATravelBelowAnEncoderStep) {
+  const auto drawn = draw_case({.motion = "prbs", .effect = "amplifier_gain"}, 142604);
+  const auto answer = answer_of(study::diagnose::diagnose(request_of(drawn)));
+  EXPECT_THAT(answer.causes, SizeIs(3)) << answer.words();
+  for (const Named& cause : answer.causes) EXPECT_THAT(cause.names, Contains("amplifier_gain"));
+}
+
 // A joint whose stated weight is off by the ratio by which inertia and friction are.
 TEST(ScaledParameters, OfAWeightMayBeAWrongGain) {
   Wish wish;
