@@ -117,7 +117,7 @@ void tell_of_gain(Diagnosis& d) {
   for (NamedCause& cause : d.causes) {
     if (cause.effect->name != "gravity") continue;
     if (may_be_gain(d.parameters, cause.sizes[0].ci95, cause.sizes[1].ci95, stated)) {
-      cause.alternatives.emplace_back("amplifier_gain");
+      add_once(cause.alternatives, "amplifier_gain");
     }
   }
 }

@@ -59,6 +59,16 @@ std::string what_is_wrong(const Diagnosis& d) {
   return out;
 }
 
+// Held-out runs are surely predicted worse with the causes than without.
+bool is_refuted(const Diagnosis& d) {
+  return !d.causes.empty() && !d.scored.same_session && d.scored.gain95.high < 0;
+}
+
+std::string where_scored(const Diagnosis& d) {
+  if (d.scored.same_session) return {};
+  return is_refuted(d) ? "; the held-out runs speak against it" : "; scored on held-out runs";
+}
+
 std::string how_sure(const Diagnosis& d) {
   if (d.causes.empty() && !moved_parameters(d).empty()) {
     return fmt::format(
@@ -76,7 +86,7 @@ std::string how_sure(const Diagnosis& d) {
   }
   return fmt::format(
       "each at p < {:.1e} after correction for {} tried, and confirmed by cross-validation{}",
-      std::max(worst, 1e-300), d.tried, d.scored.same_session ? "" : "; scored on held-out runs");
+      std::max(worst, 1e-300), d.tried, where_scored(d));
 }
 
 std::string simulated(const Diagnosis& d, const Units& units) {
@@ -155,6 +165,9 @@ std::string where_to_look(const Unexplained& u) {
 }
 
 std::string next_step(const Diagnosis& d) {
+  if (is_refuted(d)) {
+    return "use none of it: the held-out runs are predicted worse with the causes than without";
+  }
   for (const NamedCause& cause : d.causes) {
     if (cause.separating) {
       return fmt::format("run {}: it tells {} from {}", cause.separating->motion.words(),

@@ -120,13 +120,21 @@ Behind behind(const std::vector<ParameterShift>& shifts) {
   return {one, one, one};
 }
 
+}  // namespace
+
+void add_once(std::vector<std::string>& names, const std::string& name) {
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+namespace {
+
 // What predicts as well as a named cause, and needs no shift of this parameter.
 void add_what_needs_none(const Search& search, Key key, ParameterShift& shift) {
   const double most = kOffAlike * std::abs(shift.fitted.value - shift.supplied);
   for (const Cause& cause : search.causes) {
     for (const Alternative& other : cause.alternatives) {
       if (std::abs(other.state.fitted.model.parameters[key] - shift.supplied) < most) {
-        shift.indistinguishable_from.push_back(other.effect->name);
+        add_once(shift.indistinguishable_from, other.effect->name);
       }
     }
   }

@@ -32,6 +32,8 @@ enum BaseParameter : std::size_t { kInertia, kViscousFriction, kDryFriction, kCo
 [[nodiscard]] std::vector<ParameterShift> judge_parameters(const Data& data, const Search& search,
                                                            bool some_left_out);
 
+void add_once(std::vector<std::string>& names, const std::string& name);
+
 // Whether a wrong gain may stand behind the shifts of inertia, viscous and dry friction.
 [[nodiscard]] bool may_be_gain(const std::vector<ParameterShift>& shifts);
 // The same of a weight that is fitted as `sine_Nm` and `cosine_Nm`: both are off from what is

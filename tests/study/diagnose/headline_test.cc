@@ -38,6 +38,18 @@ TEST(Headline, KeepsTheSuppliedPlantWhereTheEmulatorEndsNoNearer) {
   EXPECT_THAT(text, HasSubstr("  extended_plant.toml      in the emulator ends no nearer"));
 }
 
+// A cause that took on a push in the fitted runs.
+TEST(Headline, SendsNobodyToWhatTheHeldOutRunsSpeakAgainst) {
+  Diagnosis d = found(4e-3, 1e-3);
+  d.scored.same_session = false;
+  d.scored.gain95 = {-1.6, -2.2, -0.1};
+  EXPECT_THAT(headline(d), HasSubstr("; the held-out runs speak against it."));
+  EXPECT_THAT(headline(d), HasSubstr("What to do:    use none of it: the held-out runs"));
+  d.scored.gain95.high = 0.1;
+  EXPECT_THAT(headline(d), HasSubstr("; scored on held-out runs."));
+  EXPECT_THAT(headline(d), HasSubstr("What to do:    use extended_plant.toml."));
+}
+
 TEST(Headline, SendsToTheSizesWhereTheEmulatorCannotHaveThem) {
   Diagnosis d = found(1e-3, 1e-3);
   d.emulated->left_out = {"cross_axis_coupling"};
