@@ -258,10 +258,13 @@ double earlier_power(double gain) {
   return 1 / ((1 - gain) * (1 - gain)) - 1;
 }
 
-// A finer shape of what a cause is a force of does not speak against it.
+// A finer shape of what a cause is a force of does not speak against it, if it is small.
 bool refutes(const Against& shape, std::size_t i, const Cause& cause) {
-  if (shape.what.coordinate == cause.effect->along) return false;
   const auto [stands_for, force_N] = shape.causes[i];
+  if (shape.what.coordinate == cause.effect->along) {
+    const double finer = cause.effect->finer;
+    return finer > 0 && shape.what.rms_N > finer * force_N;
+  }
   const double power = further_power(shape.what.share) /
                        std::max(1e-9, earlier_power(std::clamp(cause.gain.gain, 0.0, 0.999)));
   if (!shape.matters) {

@@ -34,6 +34,7 @@ struct Effect {
   double own = 0.02;        // least share of its shape that the model must be unable to make
   bool flexible = false;    // a free shape, that takes on what is not its own
   std::string along{};      // what it is a force of, in any shape; empty: its law is a certain one
+  double finer = 0;         // of its force, that finer shapes along it make at most; 0: no limit
   double whole = 0;         // the amplitude that its law fixes; 0: none
   bool rough = false;       // a fit of it has many minima: begun from all of its grid
   bool structural = false;  // so large where it acts that no fit without it means anything

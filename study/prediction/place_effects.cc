@@ -126,6 +126,7 @@ void add_place_effects(std::vector<Effect>& library) {
                      .amplitude_names = shape_names("N_s_per_m"),
                      .flexible = true,
                      .along = "position times speed",
+                     .finer = 0.2,
                      .shares_mean_with = Key::kViscous,
                      .grid = no_scale,
                      .set = set_nothing,
