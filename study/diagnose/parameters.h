@@ -32,6 +32,7 @@ enum BaseParameter : std::size_t { kInertia, kViscousFriction, kDryFriction, kCo
 [[nodiscard]] std::vector<ParameterShift> judge_parameters(const Data& data, const Search& search,
                                                            bool some_left_out);
 
+// To alternatives that may hold it already.
 void add_once(std::vector<std::string>& names, const std::string& name);
 
 // Whether a wrong gain may stand behind the shifts of inertia, viscous and dry friction.
