@@ -96,8 +96,9 @@ make_simulated_chip() {
 failed_only_by_jitter() { [[ $(grep -oE '^ +FAIL +[a-z_]+' "$1" | sed 's/.* //') == control_jitter ]]; }
 
 # wall_clock NAME ATTEMPTS [OPTION...]: short runs by the wall clock until one is valid. Each attempt is
-# shown and counted. INVALID is tried again, and so is the first that fails by jitter alone: the host can
-# interrupt the work of two ticks and show it nowhere else. A controller that is uneven fails twice.
+# shown and counted. INVALID is tried again, and so are two that fail by jitter alone: the host can
+# interrupt the work of two ticks and show it nowhere else, on a busy one in two attempts of a few. A
+# controller that is uneven fails three times.
 wall_clock() {
   local name=$1 attempts=$2 log=$runs/wall-clock.log folder=$runs/wall-clock attempt code uneven=0
   shift 2
@@ -106,7 +107,7 @@ wall_clock() {
     code=0
     rm -rf "$folder"
     "$build/bin/towbench-bench" run wall-clock-window --clock real --no-report --out "$folder" "$@" >"$log" 2>&1 || code=$?
-    if ((code == 1)) && failed_only_by_jitter "$log" && ((++uneven < 2)); then
+    if ((code == 1)) && failed_only_by_jitter "$log" && ((++uneven < 3)); then
       code=4
     fi
     ((code == 4)) || break
@@ -115,11 +116,9 @@ wall_clock() {
   done
   grep -E 'overruns|lateness|execution' "$log"
   case $code in
-    0)
-      echo "@@ passed: by the wall clock over $name, 10 kHz and 1 kHz, valid in attempt $attempt of $attempts"
-      valid_windows=$((valid_windows + 1))
-      ;;
-    4) echo "   by the wall clock over $name: the host was late in each of $attempts attempts" ;;
+    0) echo "@@ passed: by the wall clock over $name, 10 kHz and 1 kHz, valid in attempt $attempt of $attempts" ;;
+    # A host that is too busy proves nothing, and that is said, not hidden.
+    4) echo "@@ real time unproven: over $name the host was late in each of $attempts attempts" ;;
     *)
       echo "@@ FAILED: by the wall clock over $name, exit code $code"
       cat "$log"
@@ -263,10 +262,7 @@ three_carriers_at_once() {
 }
 
 on_host() {
-  valid_windows=0
   wall_clock 'a local socket' 6
-  # A host that is too busy proves nothing, and that is said, not hidden.
-  ((valid_windows > 0)) || echo '@@ real time unproven: the host was late in every attempt'
   demo_over in-process in-process
   local ends line
   ends=$(mktemp -d)
