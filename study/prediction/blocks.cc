@@ -122,6 +122,15 @@ void weigh(const Data& data, std::vector<Span>& spans, const VectorXd& e) {
   }
 }
 
+VectorXd squares_of(const VectorXd& e, const std::vector<Span>& spans) {
+  VectorXd squares(std::ssize(spans));
+  for (Index i = 0; i < squares.size(); ++i) {
+    const Span& span = spans[static_cast<std::size_t>(i)];
+    squares[i] = e.segment(span.from, span.to - span.from).squaredNorm();
+  }
+  return squares;
+}
+
 double weighted_square(const std::vector<Span>& spans, const VectorXd& e) {
   double sum = 0;
   for (const Span& span : spans) {

@@ -27,6 +27,7 @@ struct Span {
 // 1964).
 inline constexpr double kOutlying = 4;
 void weigh(const Data& data, std::vector<Span>& spans, const Eigen::VectorXd& e);
+[[nodiscard]] Eigen::VectorXd squares_of(const Eigen::VectorXd& e, const std::vector<Span>& spans);
 [[nodiscard]] double weighted_square(const std::vector<Span>& spans, const Eigen::VectorXd& e);
 // Of a sum of samples, each: the variance of a sample times how long neighbours are alike (Newey,
 // West 1987; here by block).
