@@ -7,6 +7,7 @@
 
 #include "study/diagnose/model_checks.h"
 #include "study/diagnose/momentum.h"
+#include "study/diagnose/refutation.h"
 #include "study/diagnose/run_checks.h"
 #include "study/diagnose/unlike_runs.h"
 #include "study/diagnose/unlike_stretches.h"
@@ -202,15 +203,13 @@ Diagnosis diagnose_all(const Request& given) {
   if (collapses) {
     search.causes.clear();
     search.final = search.base;
-    d.unexplained.emplace();
-    d.unexplained->coordinate = kWholeMotion;
-    d.unexplained->share = 1;
-    d.unexplained->rms_N = search.context.input_rms_N;
-    d.unexplained->p_value = 0;
+    d.unexplained = Unexplained{
+        .coordinate = kWholeMotion, .share = 1, .rms_N = search.context.input_rms_N, .p_value = 0};
     search.context.stated.supplied = false;  // its parameters are not comparable
   } else {
     tell("whether the causes' laws fit, and what is left");
     d.unexplained = judge_rest(data, search);
+    refute_causes(d, request.holdout, data, search);
   }
   d.estimated = !request.model.supplied && !collapses;
   d.context = search.context;
@@ -222,6 +221,7 @@ Diagnosis diagnose_all(const Request& given) {
   tell("what would separate causes");
   name_causes(d, search);
   d.parameters = judge_parameters(data, search, !request.aside.empty());
+  refute_parameters(d, request.holdout, data, search);
   tell_of_gain(d);
   tell("what the data cannot show");
   d.not_testable = find_not_testable(search);

@@ -73,6 +73,7 @@ struct Diagnosis {
   std::vector<Refused> refused;  // what the data speak for, and what was not accepted
   std::vector<Considered> considered;
   std::vector<std::string> dropped;  // effects that were accepted for a while
+  std::vector<std::string> refuted;  // what a run speaks against
   std::vector<ParameterShift> parameters;
   bool estimated = false;  // the parameters: no model stated them
   std::optional<Unexplained> unexplained;

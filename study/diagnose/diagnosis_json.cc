@@ -182,6 +182,7 @@ std::string diagnosis_json(const Diagnosis& d) {
                                {"p_value", entry.p_value},
                                {"gain_heldout_pct", interval(entry.gain99, 100, "ci99")}});
   }
+  out["refuted"] = d.refuted;
   out["heldout"] = heldout(d);
   out["confirmed"] = free_run(d.free_run);
   out["emulated"] = emulated(d.emulated);

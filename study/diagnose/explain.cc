@@ -69,11 +69,16 @@ std::string explain(const Diagnosis& d, const std::string& effect) {
   const auto of = [&](const auto& entry) { return entry.effect == effect; };
   const auto blind = std::find_if(d.not_testable.begin(), d.not_testable.end(), of);
   const auto seen = std::find_if(d.considered.begin(), d.considered.end(), of);
-  const bool dropped = std::find(d.dropped.begin(), d.dropped.end(), effect) != d.dropped.end();
+  const auto is_in = [&](const std::vector<std::string>& list) {
+    return std::find(list.begin(), list.end(), effect) != list.end();
+  };
+  if (is_in(d.refuted)) {
+    why = "not named: some runs speak for it, and another surely against";
+  }
   if (why.empty() && blind != d.not_testable.end()) {
     why = fmt::format("not to be seen in this data: {}; it takes {}", blind->why, blind->needs);
   }
-  if (why.empty() && dropped) {
+  if (why.empty() && is_in(d.dropped)) {
     why =
         "not named: it was accepted and dropped again, because beside what is left unexplained it "
         "says too little, or its law does not fit";

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "study/prediction/units.h"
 
@@ -59,17 +60,18 @@ std::string what_is_wrong(const Diagnosis& d) {
   return out;
 }
 
-// Held-out runs are surely predicted worse with the causes than without.
-bool is_refuted(const Diagnosis& d) {
-  return !d.causes.empty() && !d.scored.same_session && d.scored.gain95.high < 0;
-}
-
 std::string where_scored(const Diagnosis& d) {
   if (d.scored.same_session) return {};
-  return is_refuted(d) ? "; the held-out runs speak against it" : "; scored on held-out runs";
+  return d.scored.gain95.high < 0
+             ? "; the held-out runs bear it out only where all of each says what it has of its own"
+             : "; scored on held-out runs";
 }
 
 std::string how_sure(const Diagnosis& d) {
+  if (!d.refuted.empty()) {
+    return fmt::format("{} predicts some runs better and another surely worse",
+                       fmt::join(d.refuted, " with "));
+  }
   if (d.causes.empty() && !moved_parameters(d).empty()) {
     return fmt::format(
         "each more than 4 standard errors from the model; of {} groups of effects "
@@ -165,8 +167,8 @@ std::string where_to_look(const Unexplained& u) {
 }
 
 std::string next_step(const Diagnosis& d) {
-  if (is_refuted(d)) {
-    return "use none of it: the held-out runs are predicted worse with the causes than without";
+  if (!d.refuted.empty()) {
+    return "find out in what the runs differ; look at the residual over time in report.html";
   }
   for (const NamedCause& cause : d.causes) {
     if (cause.separating) {

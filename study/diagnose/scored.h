@@ -3,7 +3,8 @@
 //
 // On held-out runs offset and level of dry friction are moved as far as the first quarter of each
 // supports against what runs usually differ by (ridge), before and after alike; that quarter is not
-// scored, and nothing that is scored has decided anything.
+// scored. What is scored decides one thing: causes that the held-out runs speak against are not
+// named.
 #pragma once
 
 #include <vector>

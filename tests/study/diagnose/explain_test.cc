@@ -23,6 +23,7 @@ TEST(Explain, SaysForEachFateOfAnEffectWhatDecided) {
                       .alternatives = {"stiction"}});
   d.not_testable.push_back({"backlash", "only 1 % of it is its own", "reversals"});
   d.dropped = {"cable_spring"};
+  d.refuted = {"position_force"};
   d.considered = {{"presliding", 0.2, {0.05, 0, 0.1}, 4, true},
                   {"torque_ripple", 1e-5, {0.005, 0.001, 0.009}, 3, true},
                   {"chain_polygon", 1e-5, {0.2, 0.1, 0.3}, 2, true},
@@ -39,6 +40,7 @@ TEST(Explain, SaysForEachFateOfAnEffectWhatDecided) {
   EXPECT_THAT(explain(d, "chain_polygon"), HasSubstr("2.0 standard errors above nothing"));
   EXPECT_THAT(explain(d, "quadratic_drag"), HasSubstr("law does not allow"));
   EXPECT_THAT(explain(d, "cubic_viscous"), HasSubstr("no better than what is named"));
+  EXPECT_THAT(explain(d, "position_force"), HasSubstr("another surely against"));
   EXPECT_THAT(explain(d, "gravity"), HasSubstr("not tried on this data"));
 }
 

@@ -1,4 +1,5 @@
-// What runs have of their own: of few, a constant force is named only where they hardly differ.
+// What runs have of their own: of few, a constant force is named only where they hardly differ; a
+// held-out one may have what usual runs have, and speaks against what else it does not have.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,6 +22,30 @@ TEST(Runs, ThatHardlyDifferShowASmallConstantForce) {
   const double apart_N = 0.02 * request.model.coulomb_N;
   request.runs.front().input_N.array() += apart_N;
   EXPECT_EQ(answer_of(diagnose(request)).words(), "nothing");
+}
+
+// A belt over a wheel that runs out of round: the held-out pulses rest at first, and their dry
+// friction is 7.6 % more than usual.
+TEST(Runs, ThatAreHeldOutMayHaveAFrictionOfTheirOwn) {
+  const auto drawn = draw_case({}, 140046);
+  const auto found = diagnose(request_of(drawn));
+  EXPECT_EQ(answer_of(found).words(), "sprocket_eccentricity");
+  EXPECT_LT(found.scored.gain95.high, 0) << "of the first quarter alone";
+}
+
+// Joints without any effect: in one of its runs somebody leans on the load.
+TEST(Runs, ThatAreHeldOutSpeakAgainstAPush) {
+  EXPECT_EQ(answer_of(diagnose(request_of(draw_case({.kind = "none"}, 146007)))).words(),
+            "nothing");
+}
+
+TEST(Runs, ThatAreFittedSpeakAgainstAPushInAnother) {
+  auto request = request_of(draw_case({.kind = "none"}, 146004));
+  request.holdout.clear();
+  const auto found = diagnose(request);
+  EXPECT_EQ(answer_of(found).words(), "nothing");
+  ASSERT_EQ(found.left_out.size(), 1U);
+  EXPECT_EQ(request.runs[found.left_out.front()].name, "pushed");
 }
 
 }  // namespace
