@@ -40,6 +40,13 @@ TEST(ShiftedColumns, AreNotThoseOfALoadThatSwings) {
   EXPECT_EQ(answer_of(d).words(), "viscous_asymmetry");
 }
 
+// The same of a chain that is stated as rigid, and is named.
+TEST(ShiftedColumns, AreNotThoseOfASpringThatTheModelLacks) {
+  const Diagnosis d = study::diagnose::diagnose(request_for(149044));
+  EXPECT_FALSE(is_called_shifted(d));
+  EXPECT_EQ(answer_of(d).words(), "chain_elasticity");
+}
+
 TEST(ShiftedColumns, OfAnElasticAxisAreRefused) {
   Request request = request_for(95020);
   const auto sine = std::find_if(request.runs.begin(), request.runs.end(),
