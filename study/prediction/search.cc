@@ -270,12 +270,17 @@ class Searcher {
       // A free shape holds what is structural as one of its forms.
       const bool holds_it = cause.effect->structural && c.effect->flexible;
       const bool rough = c.effect->rough && cause.effect->amplitudes.empty();
-      if (c.effect == cause.effect || holds_it || !(rough || convinces(c))) continue;
-      if (!rough && fitted++ >= kFittedOfAShortlist) continue;
+      // Without what is structural the model is too far off to convince of anything.
+      const bool far_off = cause.effect->structural && c.plausible && c.p_value() < limits_.alpha;
+      if (c.effect == cause.effect || holds_it || !(rough || far_off || convinces(c))) continue;
+      if (!rough && !far_off && fitted++ >= kFittedOfAShortlist) continue;
       State other = with(frame_, judged.rest, c, start_);
       if (!is_worth_naming(frame_, other) || collapses(now, other)) continue;
       if (is_better(frame_, now, other)) return other;
-      const bool as_sure = c.p_value() < std::sqrt(judged.p_value);
+      const double p_value =
+          far_off ? fitted_p_value(c, other, compare(judged.rest.loss, other.loss, 2))
+                  : c.p_value();
+      const bool as_sure = p_value < std::sqrt(judged.p_value);
       if (c.effect->name != cause.effect->name && as_sure && are_alike(frame_, now, other)) {
         cause.alternatives.push_back({c.effect, std::move(other)});
       }

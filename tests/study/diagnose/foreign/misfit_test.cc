@@ -178,6 +178,12 @@ TEST(RightLaw, OfAWeightIsNamedWhereNoMassIsBelievedWithoutIt) {
   EXPECT_EQ(answer_to("one", "joint_gravity", 78050).words(), "gravity");
 }
 
+// A joint whose weight is stated, over a third of a turn. Another weight is fitted before a cable
+// can convince of anything.
+TEST(RightLaw, OfACableIsNamedBeforeAnotherWeight) {
+  EXPECT_EQ(answer_to("one", "cable_spring", 149058).words(), "cable_spring");
+}
+
 // The share is drawn. Where it was assumed, what that made wrong was called friction that depends
 // on the load.
 TEST(Misfit, IsNoneWhereTheLoadsShareOfFrictionIsFittedWithPlay) {
