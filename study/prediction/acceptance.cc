@@ -81,22 +81,23 @@ bool matters(const Frame& frame, const Effect& effect, const State& without_it,
   return is_way || to_force * made_m > kLeastForce * frame.context.input_rms_N;
 }
 
-bool is_worth_naming(const Frame& frame, const State& s) {
-  const Parameters& p = s.fitted.model.parameters;
+bool is_worth_naming(const Frame& frame, const Effect& effect, const Parameters& p) {
+  if (effect.rough && is_closed(frame.context, p)) return false;
+  if (is_at_once(effect, frame.context, p)) return false;
+  const auto& keys = effect.amplitudes;
+  if (keys.empty()) return true;
   const Parameters stated = parameters_of(frame.context.stated);
+  if (is_cancelled(effect, p[keys.front()], p, stated[Key::kMass])) return false;
+  const double first = std::abs(p[keys.front()]);
+  const bool is_allowed = first >= effect.least && (effect.most == 0 || first < effect.most);
+  return is_allowed && std::any_of(keys.begin(), keys.end(), [&](Key key) {
+           return std::abs(p[key] - stated[key]) > kLeastOfStated * std::abs(stated[key]);
+         });
+}
+
+bool all_are_worth_naming(const Frame& frame, const State& s) {
   return std::all_of(s.accepted.begin(), s.accepted.end(), [&](const Accepted& a) {
-    const auto& keys = a.effect->amplitudes;
-    if (a.effect->rough && is_closed(frame.context, p)) return false;
-    if (is_at_once(*a.effect, frame.context, p)) return false;
-    const double first = keys.empty() ? 0 : std::abs(p[keys.front()]);
-    if (!keys.empty() && is_cancelled(*a.effect, p[keys.front()], p, stated[Key::kMass])) {
-      return false;
-    }
-    return (keys.empty() || first >= a.effect->least) &&
-           (a.effect->most == 0 || first < a.effect->most) &&
-           (keys.empty() || std::any_of(keys.begin(), keys.end(), [&](Key key) {
-              return std::abs(p[key] - stated[key]) > kLeastOfStated * std::abs(stated[key]);
-            }));
+    return is_worth_naming(frame, *a.effect, s.fitted.model.parameters);
   });
 }
 

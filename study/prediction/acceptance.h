@@ -26,7 +26,8 @@ inline constexpr double kAlias = 2;  // standard errors below which two are told
                            const State& with_it);
 
 // Within what each law allows, and where the model states it, off by more than is worth a name.
-[[nodiscard]] bool is_worth_naming(const Frame& frame, const State& s);
+[[nodiscard]] bool is_worth_naming(const Frame& frame, const Effect& effect, const Parameters& p);
+[[nodiscard]] bool all_are_worth_naming(const Frame& frame, const State& s);
 
 // Whether it only follows the measured places with a body of its own invention: its mass lies at an
 // end of what is believed, or its dry friction holds the largest input.

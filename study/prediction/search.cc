@@ -132,7 +132,7 @@ class Searcher {
       const Comparison gain = compare(s.loss, other.loss, 2);
       if (is_weak(frame_, s, other, base_e) ||
           !is_significant(limits_, gain, first_p_value(*c, other, gain)) ||
-          !matters(frame_, *c->effect, s, other) || !is_worth_naming(frame_, other) ||
+          !matters(frame_, *c->effect, s, other) || !all_are_worth_naming(frame_, other) ||
           collapses(s, other)) {
         continue;
       }
@@ -258,8 +258,9 @@ class Searcher {
                                      [&](const Candidate& c) { return c.effect == effect; });
     out.p_value = std::min(itself == out.list.end() ? 1 : itself->p_value(),
                            own_p_value(now, i, out.own, static_cast<double>(out_.tried)));
-    out.is_accepted =
-        is_significant(limits_, out.own, out.p_value) && matters(frame_, *effect, out.rest, now);
+    out.is_accepted = is_significant(limits_, out.own, out.p_value) &&
+                      matters(frame_, *effect, out.rest, now) &&
+                      is_worth_naming(frame_, *effect, now.fitted.model.parameters);
     return out;
   }
 
@@ -275,7 +276,7 @@ class Searcher {
       if (c.effect == cause.effect || holds_it || !(rough || far_off || convinces(c))) continue;
       if (!rough && !far_off && fitted++ >= kFittedOfAShortlist) continue;
       State other = with(frame_, judged.rest, c, start_);
-      if (!is_worth_naming(frame_, other) || collapses(now, other)) continue;
+      if (!all_are_worth_naming(frame_, other) || collapses(now, other)) continue;
       if (is_better(frame_, now, other)) return other;
       const double p_value =
           far_off ? fitted_p_value(c, other, compare(judged.rest.loss, other.loss, 2))

@@ -100,7 +100,7 @@ class WorthNaming : public Acceptance {
     s.fitted.model.parameters[Key::kMass] = mass_kg;
     s.fitted.model.parameters[Key::kPresliding] = 1;
     s.fitted.model.parameters[key] = value;
-    return is_worth_naming(frame_, s);
+    return all_are_worth_naming(frame_, s);
   }
 };
 

@@ -196,5 +196,10 @@ TEST(RightLaw, OfFrictionThatIsAllBristlesIsNotRefuted) {
   EXPECT_EQ(answer_to("one", "presliding", 113014).words(), "presliding");
 }
 
+// Accepted with a travel of a step of the encoder, which the refit shortens to less.
+TEST(RightLaw, IsNoneWhereARefitTakesItBack) {
+  EXPECT_EQ(answer_to(draw_none(150007)).words(), "nothing");
+}
+
 }  // namespace
 }  // namespace towbench::tests::foreign
