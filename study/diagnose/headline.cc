@@ -62,9 +62,10 @@ std::string what_is_wrong(const Diagnosis& d) {
 
 std::string where_scored(const Diagnosis& d) {
   if (d.scored.same_session) return {};
-  return d.scored.gain95.high < 0
-             ? "; the held-out runs bear it out only where all of each says what it has of its own"
-             : "; scored on held-out runs";
+  return d.scored.gain95.high < 0 ? "; held-out runs are predicted worse, but not surely by a "
+                                    "tenth where all of each decides its "
+                                    "own offset and friction"
+                                  : "; scored on held-out runs";
 }
 
 std::string how_sure(const Diagnosis& d) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "study/diagnose/own_values.h"
 #include "study/statistics/statistics.h"
@@ -70,6 +71,12 @@ bool has_moved(const ParameterShift& shift) {
   return shift.moved;
 }
 
+// Of its distance from what is stated.
+double p_value_of(const ParameterShift& shift) {
+  const double error = (shift.fitted.high - shift.fitted.low) / (2 * statistics::kNormal95);
+  return std::erfc(std::abs(shift.fitted.value - shift.supplied) / (error * std::numbers::sqrt2));
+}
+
 // What a fit takes of the prediction error, though held-out runs do not have it.
 Unexplained taken(double before_rms_N, double after_rms_N, double p_value) {
   const double squares = before_rms_N * before_rms_N - after_rms_N * after_rms_N;
@@ -101,10 +108,13 @@ void refute_parameters(Diagnosis& d, const std::vector<Run>& holdout, const Data
   if (d.refuted.empty()) {
     if (!search.causes.empty() || !is_refuted(holdout, fitted, search)) return;
     const Scored within = score_within(fitted, search);
-    d.unexplained = taken(within.supplied_rms_N, within.after_rms_N, Limits{}.alpha);
+    double least_p = 1;
     for (const ParameterShift& shift : d.parameters) {
-      if (shift.moved) d.refuted.push_back(shift.name);
+      if (!shift.moved) continue;
+      d.refuted.push_back(shift.name);
+      least_p = std::min(least_p, p_value_of(shift));
     }
+    d.unexplained = taken(within.supplied_rms_N, within.after_rms_N, least_p);
   }
   for (ParameterShift& shift : d.parameters) shift.moved = false;
 }

@@ -96,9 +96,9 @@ make_simulated_chip() {
 failed_only_by_jitter() { [[ $(grep -oE '^ +FAIL +[a-z_]+' "$1" | sed 's/.* //') == control_jitter ]]; }
 
 # wall_clock NAME ATTEMPTS [OPTION...]: short runs by the wall clock until one is valid. Each attempt is
-# shown and counted. INVALID is tried again, and so are two that fail by jitter alone: the host can
-# interrupt the work of two ticks and show it nowhere else, on a busy one in two attempts of a few. A
-# controller that is uneven fails three times.
+# shown and counted. INVALID is tried again, and so are the first two that fail by jitter alone: the
+# host can interrupt the work of two ticks and show it nowhere else. A controller that is uneven fails
+# three times.
 wall_clock() {
   local name=$1 attempts=$2 log=$runs/wall-clock.log folder=$runs/wall-clock attempt code uneven=0
   shift 2
@@ -118,7 +118,7 @@ wall_clock() {
   case $code in
     0) echo "@@ passed: by the wall clock over $name, 10 kHz and 1 kHz, valid in attempt $attempt of $attempts" ;;
     # A host that is too busy proves nothing, and that is said, not hidden.
-    4) echo "@@ real time unproven: over $name the host was late in each of $attempts attempts" ;;
+    4) echo "@@ real time unproven: over $name none of $attempts attempts was valid" ;;
     *)
       echo "@@ FAILED: by the wall clock over $name, exit code $code"
       cat "$log"

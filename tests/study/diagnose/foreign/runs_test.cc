@@ -1,5 +1,5 @@
 // What runs have of their own: of few, a constant force is named only where they hardly differ; a
-// held-out one may have what usual runs have, and speaks against what else it does not have.
+// held-out run may have its own friction, and speaks against a cause that it does not have.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
