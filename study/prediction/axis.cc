@@ -29,28 +29,8 @@ double wave(double cosine, double sine, double turns) {
   return cosine * std::cos(angle) + sine * std::sin(angle);
 }
 
-// sum a_k cos(k w), k = 1..kShapes, by Chebyshev's recursion.
-double shape(const Parameters& p, Key first, double cosine) {
-  double before = 1;
-  double now = cosine;
-  double sum = 0;
-  for (int k = 0; k < kShapes; ++k) {
-    sum += p[next(first, k)] * now;
-    const double after = 2 * cosine * now - before;
-    before = now;
-    now = after;
-  }
-  return sum;
-}
-
 bool any(const Parameters& p, std::initializer_list<Key> keys) {
   return std::any_of(keys.begin(), keys.end(), [&](Key key) { return p[key] != 0; });
-}
-
-bool any_shape(const Parameters& p, Key first) {
-  bool any = false;
-  for (int k = 0; k < kShapes; ++k) any = any || p[next(first, k)] != 0;
-  return any;
 }
 
 }  // namespace
@@ -60,15 +40,13 @@ Axis::Axis(const Parameters& parameters, const Scene& scene)
       scene_(scene),
       bristles_(parameters),
       middle_m_(0.5 * (scene.stroke_min_m + scene.stroke_max_m)),
-      per_stroke_(std::numbers::pi / (scene.stroke_max_m - scene.stroke_min_m)),
-      place_force_(any_shape(p_, Key::kPlaceForce1) || any_shape(p_, Key::kPlaceViscous1)),
+      place_(parameters, scene),
       stated_force_(!scene.stated->force_at_m.empty() || scene.stated->cable_N_per_m != 0),
-      place_friction_(any_shape(p_, Key::kPlaceFriction1)),
       two_(parameters[Key::kMotorMass] > 0),
       drive_(any(p_, {Key::kDeadband, Key::kClipShare, Key::kStallShare, Key::kLag,
                       Key::kOutOfRoundPerMetre})),
       on_motor_(any(p_, {Key::kRipplePerMetre, Key::kWheelPerMetre}) || scene.extra_N.size() > 0),
-      on_load_(place_force_ || stated_force_ || has_others(p_) ||
+      on_load_(place_.have_force() || stated_force_ || has_others(p_) ||
                any(p_, {Key::kViscousAsymmetry, Key::kDrag, Key::kCubic, Key::kCable,
                         Key::kGravityCosine, Key::kGravitySine, Key::kPeriodicHertz,
                         Key::kTemperatureViscous})),
@@ -216,8 +194,8 @@ double Axis::on_load_N(const Body& body, double t_s) const {
   if (stated_force_) {
     force += stated_force_N(*scene_.stated, x);
   }
-  if (place_force_) {
-    force += shape(p_, Key::kPlaceForce1, cosine_) + v * shape(p_, Key::kPlaceViscous1, cosine_);
+  if (place_.have_force()) {
+    force += place_.force_N(v);
   }
   if (p_[Key::kPeriodicHertz] != 0) {
     force += wave(p_[Key::kPeriodicCosine], p_[Key::kPeriodicSine],
@@ -260,8 +238,8 @@ double Axis::shared_dry_N(const Body& body, double direction, double t_s) const 
 
 double Axis::load_dry_N(const Body& body, double drive_N) const {
   double level = p_[Key::kLoadFriction] * std::abs(drive_N);
-  if (place_friction_) {
-    level += shape(p_, Key::kPlaceFriction1, cosine_);
+  if (place_.have_friction()) {
+    level += place_.friction_N();
   }
   if (!scene_.stated->friction_at_m.empty()) {
     level += stated_friction_N(*scene_.stated, body.x);
@@ -293,9 +271,7 @@ void Axis::substep(double t_s, double mean_N, Eigen::Index k) {
   const double before = motor_.v;
   motor_.x += 0.5 * h_ * motor_.v;
   if constexpr (two) load_.x += 0.5 * h_ * load_.v;
-  if (place_force_ || place_friction_) {
-    cosine_ = std::cos(per_stroke_ * ((two ? load_ : motor_).x - scene_.stroke_min_m));
-  }
+  if (place_.any()) place_.go_to((two ? load_ : motor_).x);
   const double on_motor = drive - on_motor_N(k);
   if constexpr (two) {
     const Wheel wheel = wheel_at(p_, motor_.x);

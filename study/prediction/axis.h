@@ -8,6 +8,7 @@
 #include "study/prediction/correction.h"
 #include "study/prediction/other_axes.h"
 #include "study/prediction/parameters.h"
+#include "study/prediction/place_shapes.h"
 #include "study/prediction/scene.h"
 #include "study/prediction/wheel.h"
 
@@ -62,11 +63,9 @@ class Axis {
   int substeps_ = 1;
   double h_ = 0;  // of a substep, s
   double middle_m_;
-  double per_stroke_;  // radians of the slowest shape a metre
+  PlaceShapes place_;
   double warm_end_ = 1;
-  bool place_force_ = false;
   bool stated_force_ = false;
-  bool place_friction_ = false;
   bool two_ = false;
   // Whether anything beyond the base parameters acts there.
   bool drive_ = false;
@@ -79,7 +78,6 @@ class Axis {
   double warmer_K_ = 0;  // than the mean of all runs
   Sliding motor_slides_;
   Sliding load_slides_;
-  double cosine_ = 1;  // of the slowest shape, where the load is
   Body motor_;
   Body load_;
   double lagged_N_ = 0;

@@ -1,0 +1,46 @@
+// Force and dry friction by the load's place x: sums of a_k cos(k w), w = pi (x - x_min) / stroke;
+// beyond the stroke that was seen, as at its end.
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "study/prediction/parameters.h"
+#include "study/prediction/scene.h"
+
+namespace towbench::study::diagnose {
+
+class PlaceShapes {
+ public:
+  PlaceShapes(const Parameters& parameters, const Scene& scene);
+
+  [[nodiscard]] bool any() const noexcept { return force_.any || viscous_.any || friction_.any; }
+  [[nodiscard]] bool have_force() const noexcept { return force_.any || viscous_.any; }
+  [[nodiscard]] bool have_friction() const noexcept { return friction_.any; }
+
+  void go_to(double x_m) noexcept;
+  // What resists there at that speed, and the level of dry friction.
+  [[nodiscard]] double force_N(double v_m_per_s) const noexcept {
+    return sum(force_) + v_m_per_s * sum(viscous_);
+  }
+  [[nodiscard]] double friction_N() const noexcept { return sum(friction_); }
+
+ private:
+  using Each = std::array<double, kShapes>;
+  struct Shape {
+    Shape(const Parameters& parameters, Key first);
+    Each amplitudes{};
+    bool any = false;
+  };
+  [[nodiscard]] double sum(const Shape& shape) const noexcept;
+
+  double least_m_;
+  double per_m_;
+  Shape force_, viscous_, friction_;
+  Each cosines_{};                                           // of k w
+  double anchor_ = std::numeric_limits<double>::infinity();  // an angle near w, of which these are
+  double cosine_ = 1;
+  double sine_ = 0;
+};
+
+}  // namespace towbench::study::diagnose
