@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/prediction/in_parallel.h"
+
 namespace towbench::study::diagnose {
 namespace {
 
@@ -188,12 +190,16 @@ double best_bandwidth(const Data& data, const Context& context, const Model& mod
   // A slow correction has a long memory, and leaves few blocks.
   const double slowest = std::max(6.0, 300 / context.duration_s);
   for (double w = slowest; w < kFastest_per_sample / context.period_s && w < 700; w *= 1.6) {
-    const VectorXd e = innovations(data, model, w);
-    std::vector<Span> spans = cut(data, w);
-    weigh(data, spans, e);
-    const double cost = std::max(weighted_square(spans, e) / (samples_in(spans, e) + 1), steps);
-    tried.push_back({w, cost, (e.array() != 0).count()});
+    tried.push_back({w, 0, 0});
   }
+  in_parallel(tried.size(), [&](std::size_t i) {
+    Tried& t = tried[i];
+    const VectorXd e = innovations(data, model, t.bandwidth);
+    std::vector<Span> spans = cut(data, t.bandwidth);
+    weigh(data, spans, e);
+    t.cost = std::max(weighted_square(spans, e) / (samples_in(spans, e) + 1), steps);
+    t.said = (e.array() != 0).count();
+  });
   if (tried.empty()) return kFastest_per_sample / context.period_s;
   // Behind a gap a slow one is silent for long.
   const auto most = static_cast<double>(tried.back().said);

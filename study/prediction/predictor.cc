@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "study/prediction/in_parallel.h"
 #include "study/statistics/statistics.h"
 
 namespace towbench::study::diagnose {
@@ -141,10 +142,10 @@ VectorXd innovations_of(const Data& data, std::size_t run, const Parameters& par
 
 VectorXd innovations(const Data& data, const Model& model, double bandwidth) {
   VectorXd e(data.samples());
-  for (std::size_t i = 0; i < data.scenes.size(); ++i) {
+  in_parallel(data.scenes.size(), [&](std::size_t i) {
     e.segment(data.starts[i], data.scenes[i].run->size()) =
         innovations_of(data, i, model.in_run(i), bandwidth);
-  }
+  });
   return e;
 }
 
