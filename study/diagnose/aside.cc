@@ -5,9 +5,10 @@
 namespace towbench::study::diagnose {
 namespace {
 
-constexpr double kQuiteUnlike = 5;  // where something stays unexplained in it too
-constexpr double kSure = 2.58;      // standard errors: 99 %
-constexpr double kMost = 0.85;      // of the prediction error: a shape that leaves less is a law
+constexpr double kMayBeUnlike = 1.5;  // before what is found is revised
+constexpr double kQuiteUnlike = 5;    // where something stays unexplained in it too
+constexpr double kSure = 2.58;        // standard errors: 99 %
+constexpr double kMost = 0.85;        // of the prediction error: a shape that leaves less is a law
 
 // That `all` does not have: it takes on what is not its own.
 bool has_new_free_shape(const Diagnosis& rest, const Diagnosis& all) {
@@ -29,11 +30,19 @@ bool stands(const NamedCause& cause) {
   return !(effect.flexible || effect.is_clip()) || cause.gain99.low > 0;
 }
 
+bool lack_more_than(const Aside& aside, double times) {
+  const double least_N = *std::min_element(aside.rms_N.begin(), aside.rms_N.end());
+  return least_N > times * aside.others_rms_N;
+}
+
 }  // namespace
 
+bool is_worth_revising(const Aside& aside) {
+  return aside.rms_N.empty() || lack_more_than(aside, kMayBeUnlike);
+}
+
 bool are_unlike(const Diagnosis& rest, double times) {
-  const auto& aside_N = rest.aside.rms_N;
-  return *std::min_element(aside_N.begin(), aside_N.end()) > times * rest.aside.others_rms_N;
+  return lack_more_than(rest.aside, times);
 }
 
 bool explains_the_rest(const Diagnosis& rest, const Diagnosis& all) {

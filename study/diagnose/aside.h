@@ -10,6 +10,9 @@ namespace towbench::study::diagnose {
 
 inline constexpr double kUnlike = 2;
 
+// Whether it is worth the time to revise what is found without it; so if nothing was put aside.
+[[nodiscard]] bool is_worth_revising(const Aside& aside);
+
 // Whether each of what was put aside lacks more than that many times what the rest lacks.
 [[nodiscard]] bool are_unlike(const Diagnosis& rest, double times);
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "study/diagnose/aside.h"
 #include "study/diagnose/model_checks.h"
 #include "study/diagnose/momentum.h"
 #include "study/diagnose/refutation.h"
@@ -198,7 +199,11 @@ Diagnosis diagnose_all(const Request& given) {
     context.mass_most_kg = std::max(context.mass_most_kg, mass_kg * kMassOff);
   }
   const Model stated{parameters_of(request.model), std::vector<OfRun>(request.runs.size())};
-  Search search = search_causes(data, context, stated, {});
+  Search search = search_causes(data, context, stated, {}, [&](const Search& so_far) {
+    d.aside = score_aside(given, data, so_far);
+    return is_worth_revising(d.aside);
+  });
+  if (!is_worth_revising(d.aside)) return d;
   const bool collapses = has_collapsed(search.context, search.final);
   if (collapses) {
     search.causes.clear();

@@ -28,7 +28,7 @@ class Searcher {
     frame_.context = context;
   }
 
-  Search run(const Model& start) {
+  Search run(const Model& start, const GoesOn& goes_on) {
     start_ = start;
     const std::vector<FreeParameter> free =
         base_free_parameters(frame_.context, data_.scenes.size());
@@ -46,19 +46,27 @@ class Searcher {
       set_bandwidth(frame_, now.fitted.model);
       now = make_state(frame_, now.accepted, now.fitted.model);
     }
-    do {
+    accept_all(now);
+    if (goes_on && !goes_on(ended_with(now))) return std::move(out_);
+    revise(now);
+    while (drop_the_weak(now)) {
       accept_all(now);
       revise(now);
-    } while (drop_the_weak(now));
+    }
     out_.base = make_state(frame_, {}, out_.base.fitted.model);  // at the final bandwidth
-    out_.final = now;
-    out_.context = frame_.context;
-    out_.bandwidth = frame_.bandwidth;
-    out_.spans = frame_.spans;
+    ended_with(now);
     return std::move(out_);
   }
 
  private:
+  const Search& ended_with(const State& now) {
+    out_.final = now;
+    out_.context = frame_.context;
+    out_.bandwidth = frame_.bandwidth;
+    out_.spans = frame_.spans;
+    return out_;
+  }
+
   void accept_all(State& now) {
     do {
       while (now.accepted.size() < limits_.most_causes && accept_one(now)) refit(now);
@@ -253,14 +261,16 @@ class Searcher {
     Judged out;
     out.rest = without(frame_, now, i);
     out.own = compare(loss_without(now, out.rest), now.loss, 2);
+    const bool may_be = out.own.gain > limits_.least_gain &&
+                        matters(frame_, *effect, out.rest, now) &&
+                        is_worth_naming(frame_, *effect, now.fitted.model.parameters);
+    if (!may_be) return out;
     out.list = screened(out.rest);
     const auto itself = std::find_if(out.list.begin(), out.list.end(),
                                      [&](const Candidate& c) { return c.effect == effect; });
     out.p_value = std::min(itself == out.list.end() ? 1 : itself->p_value(),
                            own_p_value(now, i, out.own, static_cast<double>(out_.tried)));
-    out.is_accepted = is_significant(limits_, out.own, out.p_value) &&
-                      matters(frame_, *effect, out.rest, now) &&
-                      is_worth_naming(frame_, *effect, now.fitted.model.parameters);
+    out.is_accepted = is_significant(limits_, out.own, out.p_value);
     return out;
   }
 
@@ -329,8 +339,8 @@ class Searcher {
 }  // namespace
 
 Search search_causes(const Data& data, const Context& context, const Model& start,
-                     const Limits& limits) {
-  return Searcher(data, context, limits).run(start);
+                     const Limits& limits, const GoesOn& goes_on) {
+  return Searcher(data, context, limits).run(start, goes_on);
 }
 
 }  // namespace towbench::study::diagnose

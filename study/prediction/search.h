@@ -2,6 +2,7 @@
 // cross-validation over blocks of time.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "study/prediction/acceptance.h"
@@ -38,7 +39,10 @@ struct Search {
   bool structured = false;  // much is left that no effect explains
 };
 
+// Asked once all that convinces is accepted, before it is revised: where false, the search ends.
+using GoesOn = std::function<bool(const Search&)>;
+
 [[nodiscard]] Search search_causes(const Data& data, const Context& context, const Model& start,
-                                   const Limits& limits);
+                                   const Limits& limits, const GoesOn& goes_on = {});
 
 }  // namespace towbench::study::diagnose
