@@ -60,12 +60,18 @@ std::string what_is_wrong(const Diagnosis& d) {
   return out;
 }
 
+// By what the first quarter of each held-out run says of its offset and friction.
+bool is_worse_held_out(const Diagnosis& d) {
+  const Scored& s = d.scored;
+  return !s.same_session && (d.causes.empty() ? s.over_supplied95 : s.gain95).high < 0;
+}
+
 std::string where_scored(const Diagnosis& d) {
   if (d.scored.same_session) return {};
-  return d.scored.gain95.high < 0 ? "; held-out runs are predicted worse, but not surely by a "
-                                    "tenth where all of each decides its "
-                                    "own offset and friction"
-                                  : "; scored on held-out runs";
+  return is_worse_held_out(d) ? "; held-out runs are predicted worse, but not surely by a "
+                                "tenth where all of each decides its "
+                                "own offset and friction"
+                              : "; scored on held-out runs";
 }
 
 std::string how_sure(const Diagnosis& d) {
@@ -135,6 +141,7 @@ bool ends_no_nearer(const Diagnosis& d) {
 }
 
 std::string what_to_use(const Diagnosis& d) {
+  if (is_worse_held_out(d)) return "find out in what the held-out runs differ before it is used";
   if (!d.emulated) return "use the parameters and causes of diagnosis.json";
   if (!ends_no_nearer(d)) return "use extended_plant.toml";
   return d.emulated->left_out.empty() ? "keep the supplied plant"

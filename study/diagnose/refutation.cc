@@ -24,9 +24,11 @@ Losses losses_of(const Data& data, const Search& search) {
   const Parameters& extended = search.final.fitted.model.parameters;
   const double w = force_bandwidth(search.context, extended[Key::kMass]);
   const std::vector<Span> spans = cut(data, w);
-  const auto side = [&](const Parameters& p) {
+  const auto side = [&](const Parameters& p) -> Eigen::VectorXd {
     const Model model = with_own_values(data, search.context, p, 1, w);
-    return squares_of(innovations(data, model, w), spans);
+    // A heavier body hides more of the forces that no model has.
+    const double heavier = std::max(1.0, p[Key::kMass] / extended[Key::kMass]);
+    return heavier * heavier * squares_of(innovations(data, model, w), spans);
   };
   return {side(parameters_of(search.context.stated)), side(search.base.fitted.model.parameters),
           side(extended), spans};
@@ -37,11 +39,32 @@ bool is_worse(const Eigen::VectorXd& before, const Eigen::VectorXd& after, doubl
   return c.gain < -much && c.high < 0;
 }
 
+bool is_of_place(const Cause& cause) {
+  return cause.effect->flexible;
+}
+
+// Without the samples at places of which a law by place, fitted to what was seen, says nothing.
+std::vector<Run> at_seen_places(std::vector<Run> runs, const Data& fitted) {
+  const Scene& seen = fitted.scenes.front();
+  for (Run& run : runs) {
+    run.missing.resize(static_cast<std::size_t>(run.size()), 0);
+    for (Eigen::Index i = 0; i < run.size(); ++i) {
+      const double x_m = run.position_m[i];
+      if (x_m < seen.stroke_min_m || x_m > seen.stroke_max_m) {
+        run.missing[static_cast<std::size_t>(i)] = 1;
+      }
+    }
+  }
+  return runs;
+}
+
 // Held-out runs: worse than by the stated structure, or by the stated model.
 bool speak_against(const std::vector<Run>& holdout, const Data& fitted, const Search& search) {
   if (holdout.empty()) return false;
   const NominalModel& stated = search.context.stated;
-  const Losses losses = losses_of(make_data_like(fitted, holdout, stated), search);
+  const bool by_place = std::any_of(search.causes.begin(), search.causes.end(), is_of_place);
+  const std::vector<Run> runs = by_place ? at_seen_places(holdout, fitted) : holdout;
+  const Losses losses = losses_of(make_data_like(fitted, runs, stated), search);
   return is_worse(losses.before, losses.after, kWorse) ||
          (stated.supplied && is_worse(losses.stated, losses.after, kWorse));
 }

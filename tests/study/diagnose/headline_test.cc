@@ -55,7 +55,10 @@ TEST(Headline, SaysThatAHeldOutRunHasMuchOfItsOwn) {
   d.scored.same_session = false;
   d.scored.gain95 = {-1.6, -2.2, -0.1};
   EXPECT_THAT(headline(d), HasSubstr("; held-out runs are predicted worse, but not surely"));
+  EXPECT_THAT(headline(d),
+              HasSubstr("find out in what the held-out runs differ before it is used"));
   d.scored.gain95.high = 0.1;
+  EXPECT_THAT(headline(d), Not(HasSubstr("before it is used")));
   EXPECT_THAT(headline(d), HasSubstr("; scored on held-out runs."));
 }
 

@@ -39,6 +39,18 @@ TEST(Runs, ThatAreHeldOutSpeakAgainstAPush) {
             "nothing");
 }
 
+// A chain whose viscous friction depends on place: the relay that is fitted goes over a fifth of
+// the way of the held-out run.
+TEST(Runs, ThatAreHeldOutSpeakOfSeenPlacesOnly) {
+  EXPECT_EQ(answer_of(diagnose(request_of(draw_case({}, 154026)))).words(), "position_viscous");
+}
+
+// An elastic chain whose dry friction depends on place: without it the fit has five times the
+// inertia, which hides most of the push in the held-out run.
+TEST(Runs, ThatAreHeldOutAreNotHiddenByAHeavierBody) {
+  EXPECT_EQ(answer_of(diagnose(request_of(draw_case({}, 154000)))).words(), "position_friction");
+}
+
 TEST(Runs, ThatAreFittedSpeakAgainstAPushInAnother) {
   auto request = request_of(draw_case({.kind = "none"}, 146004));
   request.holdout.clear();
