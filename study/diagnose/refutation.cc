@@ -39,32 +39,11 @@ bool is_worse(const Eigen::VectorXd& before, const Eigen::VectorXd& after, doubl
   return c.gain < -much && c.high < 0;
 }
 
-bool is_of_place(const Cause& cause) {
-  return cause.effect->flexible;
-}
-
-// Without the samples at places of which a law by place, fitted to what was seen, says nothing.
-std::vector<Run> at_seen_places(std::vector<Run> runs, const Data& fitted) {
-  const Scene& seen = fitted.scenes.front();
-  for (Run& run : runs) {
-    run.missing.resize(static_cast<std::size_t>(run.size()), 0);
-    for (Eigen::Index i = 0; i < run.size(); ++i) {
-      const double x_m = run.position_m[i];
-      if (x_m < seen.stroke_min_m || x_m > seen.stroke_max_m) {
-        run.missing[static_cast<std::size_t>(i)] = 1;
-      }
-    }
-  }
-  return runs;
-}
-
 // Held-out runs: worse than by the stated structure, or by the stated model.
 bool speak_against(const std::vector<Run>& holdout, const Data& fitted, const Search& search) {
   if (holdout.empty()) return false;
   const NominalModel& stated = search.context.stated;
-  const bool by_place = std::any_of(search.causes.begin(), search.causes.end(), is_of_place);
-  const std::vector<Run> runs = by_place ? at_seen_places(holdout, fitted) : holdout;
-  const Losses losses = losses_of(make_data_like(fitted, runs, stated), search);
+  const Losses losses = losses_of(make_data_like(fitted, holdout, stated), search);
   return is_worse(losses.before, losses.after, kWorse) ||
          (stated.supplied && is_worse(losses.stated, losses.after, kWorse));
 }

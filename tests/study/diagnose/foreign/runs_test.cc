@@ -41,7 +41,7 @@ TEST(Runs, ThatAreHeldOutSpeakAgainstAPush) {
 
 // A chain whose viscous friction depends on place: the relay that is fitted goes over a fifth of
 // the way of the held-out run.
-TEST(Runs, ThatAreHeldOutSpeakOfSeenPlacesOnly) {
+TEST(Runs, ThatAreHeldOutMayGoFurtherThanALawByPlace) {
   EXPECT_EQ(answer_of(diagnose(request_of(draw_case({}, 154026)))).words(), "position_viscous");
 }
 
