@@ -281,7 +281,7 @@ void Axis::substep(double t_s, double mean_N, Eigen::Index k) {
   } else {
     slide(motor_, motor_slides_, on_motor - on_load_N(motor_, t_s), drive, t_s);
   }
-  acceleration_ = (motor_.v - before) / h_;
+  if (p_[Key::kWheelPerMetre] != 0) acceleration_ = (motor_.v - before) / h_;
   motor_.x += 0.5 * h_ * motor_.v;
   if constexpr (two) load_.x += 0.5 * h_ * load_.v;
   if (p_[Key::kWorkWarming] != 0) {

@@ -74,24 +74,36 @@ Effects all_of_others(const Frame& frame, const State& now, std::size_t law) {
   return law < most ? out : Effects{};
 }
 
-// The level of a clip that predicts best; without scales where there is none.
+// The level of a clip that predicts best; without scales where there is none. After each round the
+// better half goes on.
 Candidate best_level(const Frame& frame, const Effect& effect, const Model& start) {
+  struct Tried {
+    Scales scales;
+    Model model;
+    double cost = 0;
+  };
+  std::vector<Tried> tried;
+  for (const Scales& scales : effect.grid(frame.context)) {
+    Tried& t = tried.emplace_back(Tried{scales, start});
+    effect.set(t.model.parameters, frame.context, scales);
+    t.model.parameters[effect.amplitudes.front()] = effect.whole;
+  }
+  const std::vector<FreeParameter> free =
+      base_free_parameters(frame.context, frame.data->scenes.size());
+  for (int round = 0; round < kFirstRounds; ++round) {
+    for (Tried& t : tried) {
+      Fitted fitted = fit_model(*frame.data, frame.context, std::move(t.model), free,
+                                frame.bandwidth, frame.spans, 1);
+      t.model = std::move(fitted.model);
+      t.cost = fitted.cost;
+    }
+    std::stable_sort(tried.begin(), tried.end(),
+                     [](const Tried& a, const Tried& b) { return a.cost < b.cost; });
+    tried.resize((tried.size() + 1) / 2);
+  }
   Candidate chosen;
   chosen.effect = &effect;
-  double least = 0;
-  for (const Scales& scales : effect.grid(frame.context)) {
-    Model model = start;
-    effect.set(model.parameters, frame.context, scales);
-    model.parameters[effect.amplitudes.front()] = effect.whole;
-    const double cost = fit_model(*frame.data, frame.context, model,
-                                  base_free_parameters(frame.context, frame.data->scenes.size()),
-                                  frame.bandwidth, frame.spans, kFirstRounds)
-                            .cost;
-    if (chosen.scales.empty() || cost < least) {
-      least = cost;
-      chosen.scales = scales;
-    }
-  }
+  if (!tried.empty()) chosen.scales = tried.front().scales;
   return chosen;
 }
 

@@ -7,16 +7,41 @@
 namespace towbench::study::diagnose {
 namespace {
 
+constexpr double kThird = 1.0 / 3;
+constexpr double kSixth = 1.0 / 6;
 constexpr double kNear = 0.05;  // rad from the anchor, where the series below is exact to 1e-8
 
 }  // namespace
 
 PlaceShapes::Shape::Shape(const Parameters& parameters, Key first) {
+  using Powers = std::array<double, kShapes + 1>;
+  Powers before{1};  // cos((k - 1) w), of powers of cos w
+  Powers now{0, 1};  // cos(k w)
   for (int k = 0; k < kShapes; ++k) {
     const double amplitude = parameters[next(first, k)];
-    amplitudes[static_cast<std::size_t>(k)] = amplitude;
     any = any || amplitude != 0;
+    Powers after{};
+    for (std::size_t i = 0; i < powers.size(); ++i) {
+      powers[i] += amplitude * now[i];
+      after[i] = (i > 0 ? 2 * now[i - 1] : 0) - before[i];
+    }
+    before = now;
+    now = after;
   }
+}
+
+// Even and odd powers by themselves: two short sums in place of a long one.
+double PlaceShapes::Shape::at(double cosine) const noexcept {
+  static_assert(kShapes % 2 == 0);
+  if (!any) return 0;
+  const double square = cosine * cosine;
+  double even = powers[kShapes];
+  double odd = 0;
+  for (std::size_t i = kShapes; i > 0; i -= 2) {
+    odd = odd * square + powers[i - 1];
+    even = even * square + powers[i - 2];
+  }
+  return even + cosine * odd;
 }
 
 PlaceShapes::PlaceShapes(const Parameters& parameters, const Scene& scene)
@@ -32,26 +57,14 @@ void PlaceShapes::go_to(double x_m) noexcept {
   double on = w - anchor_;
   if (std::abs(on) > kNear) {
     anchor_ = w;
-    cosine_ = std::cos(w);
-    sine_ = std::sin(w);
+    anchor_cosine_ = std::cos(w);
+    anchor_sine_ = std::sin(w);
     on = 0;
   }
-  const double square = on * on;
-  const double one = cosine_ * (1 - square / 2 * (1 - square / 12)) - sine_ * on * (1 - square / 6);
-  double before = 1;
-  double now = one;
-  for (double& cosine : cosines_) {  // Chebyshev's recursion
-    cosine = now;
-    now = 2 * one * now - before;
-    before = cosine;
-  }
-}
-
-double PlaceShapes::sum(const Shape& shape) const noexcept {
-  if (!shape.any) return 0;
-  double sum = 0;
-  for (std::size_t k = 0; k < cosines_.size(); ++k) sum += shape.amplitudes[k] * cosines_[k];
-  return sum;
+  const double half_square = 0.5 * on * on;
+  const double ahead = 1 - half_square * (1 - half_square * kSixth);  // cos, of the way on
+  const double aside = on * (1 - half_square * kThird);               // sin
+  cosine_ = anchor_cosine_ * ahead - anchor_sine_ * aside;
 }
 
 }  // namespace towbench::study::diagnose

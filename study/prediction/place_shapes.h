@@ -21,26 +21,26 @@ class PlaceShapes {
   void go_to(double x_m) noexcept;
   // What resists there at that speed, and the level of dry friction.
   [[nodiscard]] double force_N(double v_m_per_s) const noexcept {
-    return sum(force_) + v_m_per_s * sum(viscous_);
+    return force_.at(cosine_) + v_m_per_s * viscous_.at(cosine_);
   }
-  [[nodiscard]] double friction_N() const noexcept { return sum(friction_); }
+  [[nodiscard]] double friction_N() const noexcept { return friction_.at(cosine_); }
 
  private:
-  using Each = std::array<double, kShapes>;
+  // A sum of cosines of multiples of w as a polynomial of cos w (Chebyshev's).
   struct Shape {
     Shape(const Parameters& parameters, Key first);
-    Each amplitudes{};
+    [[nodiscard]] double at(double cosine) const noexcept;
+    std::array<double, kShapes + 1> powers{};
     bool any = false;
   };
-  [[nodiscard]] double sum(const Shape& shape) const noexcept;
 
   double least_m_;
   double per_m_;
   Shape force_, viscous_, friction_;
-  Each cosines_{};                                           // of k w
-  double anchor_ = std::numeric_limits<double>::infinity();  // an angle near w, of which these are
-  double cosine_ = 1;
-  double sine_ = 0;
+  double cosine_ = 1;                                        // of w
+  double anchor_ = std::numeric_limits<double>::infinity();  // an angle near w
+  double anchor_cosine_ = 1;
+  double anchor_sine_ = 0;
 };
 
 }  // namespace towbench::study::diagnose

@@ -37,7 +37,7 @@ class Sweep {
         return;
       }
       innovations_[i]->next(column);
-      column = (e - column) / variations_[i].step;
+      column = (e - column) * (1 / variations_[i].step);
     });
   }
 
