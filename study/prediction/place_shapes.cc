@@ -62,9 +62,9 @@ void PlaceShapes::go_to(double x_m) noexcept {
     on = 0;
   }
   const double half_square = 0.5 * on * on;
-  const double ahead = 1 - half_square * (1 - half_square * kSixth);  // cos, of the way on
-  const double aside = on * (1 - half_square * kThird);               // sin
-  cosine_ = anchor_cosine_ * ahead - anchor_sine_ * aside;
+  const double cosine_on = 1 - half_square * (1 - half_square * kSixth);
+  const double sine_on = on * (1 - half_square * kThird);
+  cosine_ = anchor_cosine_ * cosine_on - anchor_sine_ * sine_on;
 }
 
 }  // namespace towbench::study::diagnose
