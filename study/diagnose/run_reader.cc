@@ -46,6 +46,7 @@ Run make_run(const logs::Table& table, const logs::ColumnMap& map, std::string n
     return run;
   }
   run.period_s = grid.period_s();
+  run.start_s = grid.start_s();
   run.missing = grid.missing();
   run.position_m = grid.resampled(*columns.position, map.position_scale_m);
   run.input_N = grid.resampled(*columns.input, map.input_scale_N);

@@ -21,6 +21,7 @@ class TimeGrid {
            const std::string& file, logs::Findings& findings);
 
   [[nodiscard]] double period_s() const noexcept { return period_s_; }
+  [[nodiscard]] double start_s() const noexcept { return time_s_.front(); }
   // 1 where a sample lies in a gap too long to be bridged.
   [[nodiscard]] const std::vector<char>& missing() const noexcept { return missing_; }
   // Values of a column on the grid: linear between its samples, itself where those are uniform.

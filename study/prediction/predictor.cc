@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "study/prediction/in_parallel.h"
+#include "study/prediction/session_clock.h"
 #include "study/statistics/statistics.h"
 
 namespace towbench::study::diagnose {
@@ -49,20 +50,34 @@ double mean_temperature_K_of(const std::vector<Run>& runs) {
   return samples > 0 ? sum / samples : 0;
 }
 
+// Of one more run in the session of those that are fitted: its own session where no clock tells.
+double start_like(const Data& fitted, const Run& run) {
+  std::vector<const Run*> all{&run};
+  for (const Scene& scene : fitted.scenes) all.push_back(scene.run);
+  const std::vector<double> starts_s = starts_on_one_clock(all);
+  return starts_s.empty() ? 0 : starts_s[0] - starts_s[1] + fitted.scenes[0].session_start_s;
+}
+
 }  // namespace
 
 Data make_data(const std::vector<Run>& runs, const NominalModel& stated) {
   Data data;
   double low = runs.front().position_m[0];
   double high = low;
+  double end_s = 0;
   double session_s = 0;
+  std::vector<const Run*> all;
+  for (const Run& run : runs) all.push_back(&run);
+  const std::vector<double> by_clock_s = starts_on_one_clock(all);
   data.starts.push_back(0);
   for (const Run& run : runs) {
     low = std::min(low, run.position_m.minCoeff());
     high = std::max(high, run.position_m.maxCoeff());
+    const double start_s = by_clock_s.empty() ? end_s : by_clock_s[data.scenes.size()];
     data.scenes.emplace_back(run, stated);
-    data.scenes.back().session_start_s = session_s;
-    session_s += run.period_s * static_cast<double>(run.size());
+    data.scenes.back().session_start_s = start_s;
+    end_s = start_s + run.period_s * static_cast<double>(run.size());
+    session_s = std::max(session_s, end_s);
     data.starts.push_back(data.starts.back() + run.size());
   }
   const double top_speed = top_speed_of(runs);
@@ -84,7 +99,7 @@ Data make_data_like(const Data& fitted, const std::vector<Run>& runs, const Nomi
     scene.stroke_max_m = fitted.scenes.front().stroke_max_m;
     scene.session_length_s = fitted.scenes.front().session_length_s;
     scene.top_speed_m_per_s = fitted.scenes.front().top_speed_m_per_s;
-    scene.session_start_s = 0;
+    scene.session_start_s = start_like(fitted, *scene.run);
     scene.mean_temperature_K = fitted.scenes.front().mean_temperature_K;
   }
   return data;

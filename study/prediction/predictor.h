@@ -65,7 +65,7 @@ struct Data {
 [[nodiscard]] Data make_data(const std::vector<Run>& runs, const NominalModel& stated);
 
 // Other runs of the same machine: shapes lie where they lay in `fitted`, and each run begins its
-// own session.
+// own session where no clock tells when it began in theirs.
 [[nodiscard]] Data make_data_like(const Data& fitted, const std::vector<Run>& runs,
                                   const NominalModel& stated);
 

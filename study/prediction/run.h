@@ -17,6 +17,7 @@ struct OtherAxis {
 struct Run {
   std::string name;
   double period_s = 0;          // between samples
+  double start_s = 0;           // of the first sample, by the clock of the log
   Eigen::VectorXd position_m;   // carriage, by the rigid gear
   Eigen::VectorXd input_N;      // force that the nominal model says the command makes
   Eigen::VectorXd reference_m;  // empty when the log has none

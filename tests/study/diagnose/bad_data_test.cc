@@ -94,6 +94,17 @@ TEST(BadData, JitteredTimeStampsAreResampledAndTold) {
   EXPECT_NEAR(run.position_m[1000], 0.1 * std::sin(t), 3e-5);
 }
 
+TEST(BadData, ARunStartsWhereItsClockSays) {
+  logs::Table table = good_table();
+  for (double& time : table.columns[0]) time = 1e3 * (time + 40);
+  logs::ColumnMap map = map_of_table();
+  map.time_scale_s = 1e-3;
+  logs::Findings findings;
+  const auto run = make_run(table, map, "log", findings);
+  EXPECT_DOUBLE_EQ(run.start_s, 40);
+  EXPECT_NEAR(run.period_s, 1e-3, 1e-12);
+}
+
 TEST(BadData, ALogTooShortIsRefused) {
   EXPECT_TRUE(has(findings_of(good_table(50)), "too_short"));
 }

@@ -33,6 +33,17 @@ TEST(Runs, ThatAreHeldOutMayHaveAFrictionOfTheirOwn) {
   EXPECT_LT(found.scored.gain95.high, 0) << "of the first quarter alone";
 }
 
+// A stage whose friction falls in the course of a session: its runs begin up to 70 s apart, the
+// held-out one between two that are fitted.
+TEST(Runs, ThatAreOfOneSessionAreTimedByItsClock) {
+  auto request = request_of(draw_case({}, 155036));
+  EXPECT_EQ(answer_of(diagnose(request)).words(), "thermal_drift");
+  for (auto* runs : {&request.runs, &request.holdout}) {
+    for (auto& run : *runs) run.start_s = 0;
+  }
+  EXPECT_EQ(answer_of(diagnose(request)).words(), "nothing");
+}
+
 // Joints without any effect: in one of its runs somebody leans on the load.
 TEST(Runs, ThatAreHeldOutSpeakAgainstAPush) {
   EXPECT_EQ(answer_of(diagnose(request_of(draw_case({.kind = "none"}, 146007)))).words(),

@@ -25,7 +25,8 @@ std::string log_of(const DrawnCase& one, const Recording& run) {
   std::string text = fmt::format("time_s,position,input{}\n", has_reference ? ",reference" : "");
   for (std::size_t k = 0; k < run.position_m.size(); ++k) {
     text += fmt::format(
-        "{:.6f},{:.9f},{:.7g}", static_cast<double>(k) * one.machine.period_s, run.position_m[k],
+        "{:.6f},{:.9f},{:.7g}", run.plan.start_s + static_cast<double>(k) * one.machine.period_s,
+        run.position_m[k],
         run.input_units[k] + (is_hand ? run.truth[k].hand_N / one.machine.newton_per_unit : 0));
     text += has_reference ? fmt::format(",{:.9f}\n", run.reference_m[k]) : "\n";
   }
