@@ -153,11 +153,13 @@ class Rig {
       noise_N_ = m_.torque_noise_N * noise_.gauss();
       next_noise_s_ = t_s_ + kNoiseHold_s * (1 - 1e-9);
     }
-    const double drive_N = drive_.step(h_s, now(bodies_.motor(), h_s, drive_.force_N()));
+    // The transmission passes on a hand's push at the motor as it does the drive's.
+    const double drive_N =
+        drive_.step(h_s, now(bodies_.motor(), h_s, drive_.force_N())) + (hand_drives_ ? hand_N : 0);
     const Now motor = now(bodies_.motor(), h_s, drive_N);
     const Now load = now(bodies_.load(), h_s, drive_N);
     ForcePair push{drive_N + noise_N_ + total(laws_, &Law::on_motor_N, motor) +
-                       total(laws_, &Law::memory_N, motor) + (hand_drives_ ? hand_N : 0),
+                       total(laws_, &Law::memory_N, motor),
                    session_.offset_N + (hand_drives_ ? 0 : hand_N) +
                        total(laws_, &Law::on_load_N, load) - m_.gravity_at_N(bodies_.load().x_m)};
     const double on_load = bodies_.two() ? m_.load_friction : 0;
