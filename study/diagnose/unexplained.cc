@@ -44,6 +44,7 @@ struct Against {
   Unexplained what;
   bool smooth = false;
   bool matters = false;  // by itself: too small, it only speaks against causes as small
+  std::string finer{};   // a coordinate along which another shape takes as much away
   std::vector<Cause> causes;
 };
 
@@ -71,7 +72,8 @@ class Seeker {
       auto found = of(shape);
       if (found && (!best || found->share > best->what.share)) {
         const bool matters = is_a_force(*found);
-        best = Against{*std::move(found), smooth, matters, causes_};
+        best = Against{
+            .what = *std::move(found), .smooth = smooth, .matters = matters, .causes = causes_};
       }
     }
     return best;
@@ -261,6 +263,7 @@ double earlier_power(double gain) {
 // A finer shape of what a cause is a force of does not speak against it, if it is small.
 bool refutes(const Against& shape, std::size_t i, const Cause& cause) {
   const auto [stands_for, force_N] = shape.causes[i];
+  if (!shape.finer.empty() && shape.finer == cause.effect->along) return false;
   if (shape.what.coordinate == cause.effect->along) {
     const double finer = cause.effect->finer;
     return finer > 0 && shape.what.rms_N > finer * force_N;
@@ -320,8 +323,9 @@ std::optional<Unexplained> judge_rest(Data& data, Search& search) {
     std::optional<Unexplained> refuting;
     std::optional<std::size_t> refuted;
     for (const bool smooth : {false, true}) {
-      const auto shape = seeker->best_shape(smooth);
+      auto shape = seeker->best_shape(smooth);
       if (refuted || !shape) continue;
+      if (most && most->share >= shape->what.share) shape->finer = most->coordinate;
       refuted = refuted_by(*shape, search.causes);
       if (refuted) refuting = shape->what;
       if (shape->matters && (!most || shape->what.share > most->share)) most = shape->what;

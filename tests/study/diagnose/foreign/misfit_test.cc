@@ -190,6 +190,12 @@ TEST(Misfit, IsNoneWhereTheLoadsShareOfFrictionIsFittedWithPlay) {
   EXPECT_EQ(answer_to("one", "backlash", 74046).words(), "backlash");
 }
 
+// On the load of an elastic chain: bins along the position take a quarter of what is left, and the
+// smooth shape of place and speed makes 5.4 % of its force of the same.
+TEST(RightLaw, OfAForceByThePlaceIsNotRefutedByWhatIsLeftOfItsShape) {
+  EXPECT_EQ(answer_to("one", "position_force", 156051).words(), "position_force");
+}
+
 // With the fit at its end all of dry friction is bristles, and more of them moves nothing: beside a
 // force that its derivative says is none, any shape is large.
 TEST(RightLaw, OfFrictionThatIsAllBristlesIsNotRefuted) {
