@@ -68,9 +68,8 @@ bool is_worse_held_out(const Diagnosis& d) {
 
 std::string where_scored(const Diagnosis& d) {
   if (d.scored.same_session) return {};
-  return is_worse_held_out(d) ? "; held-out runs are predicted worse, but not surely by a "
-                                "tenth where all of each decides its "
-                                "own offset and friction"
+  return is_worse_held_out(d) ? "; held-out runs are predicted worse, but not surely by 2 % "
+                                "where all of each decides its own offset and friction"
                               : "; scored on held-out runs";
 }
 

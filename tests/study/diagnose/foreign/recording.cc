@@ -285,9 +285,9 @@ study::diagnose::Run run_of(const Machine& machine, const Recording& recording) 
   study::diagnose::Run run;
   run.name = recording.plan.motion;
   run.period_s = machine.period_s;
+  run.start_s = recording.plan.start_s;
   run.position_m = vector(recording.position_m);
   run.input_N = machine.newton_per_unit * vector(recording.input_units);
-  run.start_s = recording.plan.start_s;
   if (recording.plan.motion == "hand") {
     for (Eigen::Index k = 0; k < run.size(); ++k) {
       run.input_N[k] += recording.truth[static_cast<std::size_t>(k)].hand_N;  // of a force sensor
