@@ -44,8 +44,9 @@ int diagnose_once(const DiagnoseOptions& options) {
   return harness::kExitPass;
 }
 
-std::vector<std::string> names_of_effects() {
-  std::vector<std::string> names;
+std::vector<std::string> names_that_can_be_explained() {
+  std::vector<std::string> names(diagnose::kParameterNames.begin(),
+                                 diagnose::kParameterNames.end());
   for (const diagnose::Effect& effect : diagnose::effects()) names.push_back(effect.name);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -54,7 +55,7 @@ std::vector<std::string> names_of_effects() {
 
 // Empty where it is one.
 std::string refused_as_a_cause(const std::string& name) {
-  const std::vector<std::string> known = names_of_effects();
+  const std::vector<std::string> known = names_that_can_be_explained();
   if (std::find(known.begin(), known.end(), name) != known.end()) return {};
   const std::string meant = harness::nearest_key(name, known);
   return "no cause '" + name + "'; " +

@@ -32,6 +32,16 @@ std::string alternative_of(const NamedCause& cause) {
   return out;
 }
 
+std::string of_parameter(const ParameterShift& shift, bool estimated) {
+  const std::string fitted =
+      fmt::format("{:.4g} {} [{:.4g}, {:.4g}] by the log", shift.fitted.value, shift.unit,
+                  shift.fitted.low, shift.fitted.high);
+  if (estimated) return "estimated: " + fitted;
+  return fmt::format(
+      "{}: {}, {:.4g} by the model{}", shift.moved ? "off" : "not named", fitted, shift.supplied,
+      shift.moved ? "" : "; more than 4 standard errors and 1 % of the input are needed");
+}
+
 std::string considered(const Considered& c, std::size_t tried) {
   const Limits limits;
   const std::string numbers = fmt::format("p {:.1e} after correction for {} tried, gain {}",
@@ -66,6 +76,9 @@ std::string explain(const Diagnosis& d, const std::string& effect) {
     if (std::find(others.begin(), others.end(), effect) != others.end())
       why = alternative_of(cause);
   }
+  for (const ParameterShift& shift : d.parameters) {
+    if (shift.name == effect) why = of_parameter(shift, d.estimated);
+  }
   const auto of = [&](const auto& entry) { return entry.effect == effect; };
   const auto blind = std::find_if(d.not_testable.begin(), d.not_testable.end(), of);
   const auto seen = std::find_if(d.considered.begin(), d.considered.end(), of);
@@ -75,16 +88,20 @@ std::string explain(const Diagnosis& d, const std::string& effect) {
   if (is_in(d.refuted)) {
     why = "not named: some runs speak for it, and another surely against";
   }
-  if (why.empty() && blind != d.not_testable.end()) {
-    why = fmt::format("not to be seen in this data: {}; it takes {}", blind->why, blind->needs);
-  }
   if (why.empty() && is_in(d.dropped)) {
     why =
         "not named: it was accepted and dropped again, because beside what is left unexplained it "
         "says too little, or its law does not fit";
   }
+  if (why.empty() && blind != d.not_testable.end()) {
+    why = fmt::format("not to be seen in this data: {}; it takes {}", blind->why, blind->needs);
+  }
   if (why.empty() && seen != d.considered.end()) why = considered(*seen, d.tried);
-  return fmt::format("{}: {}.\n", effect, why.empty() ? "not tried on this data" : why);
+  if (why.empty()) {
+    why = d.causes.empty() ? "not tried on this data"
+                           : "not tried beside what is named, which takes its place";
+  }
+  return fmt::format("{}: {}.\n", effect, why);
 }
 
 }  // namespace towbench::study::diagnose

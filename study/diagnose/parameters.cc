@@ -165,7 +165,6 @@ void add_what_needs_none(const Search& search, Key key, ParameterShift& shift) {
 std::vector<ParameterShift> judge_parameters(const Data& data, const Search& search,
                                              bool some_left_out) {
   const NominalModel& model = search.context.stated;
-  const std::array<std::string, 4> names{"inertia", "viscous", "coulomb", "bias"};
   const Units of = units_of(model);
   const std::array<std::string_view, 4> units{of.mass, of.viscous, of.force, of.force};
   const std::array<double, 4> supplied{model.mass_kg, model.viscous_N_s_per_m, model.coulomb_N,
@@ -175,7 +174,7 @@ std::vector<ParameterShift> judge_parameters(const Data& data, const Search& sea
   const double usual_N = runs_differ_N(search.context);
   const std::array<double, 4> columns{sizes.acceleration, sizes.speed, 1, 1};
   std::vector<ParameterShift> shifts;
-  const std::size_t fitted = search.context.one_way != 0 ? kConstantForce : names.size();
+  const std::size_t fitted = search.context.one_way != 0 ? kConstantForce : kParameterNames.size();
   for (std::size_t i = 0; i < fitted; ++i) {
     const auto j = static_cast<Eigen::Index>(i);
     const double own_error = std::sqrt(std::max(0.0, search.final.linear.covariance(j, j)));
@@ -191,7 +190,7 @@ std::vector<ParameterShift> judge_parameters(const Data& data, const Search& sea
         std::abs(off) * columns[i] > least_share(search) * search.context.input_rms_N &&
         is_needed(data, search, keys[i], supplied[i]);
     shifts.push_back(
-        {names[i],
+        {kParameterNames[i],
          supplied[i],
          {value, value - statistics::kNormal95 * error, value + statistics::kNormal95 * error},
          std::string(units[i]),

@@ -1,6 +1,7 @@
 // The nominal structure refitted: which of its parameters are not what the model says.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,10 @@
 
 namespace towbench::study::diagnose {
 
+inline constexpr std::array kParameterNames{"inertia", "viscous", "coulomb", "bias"};
+
 struct ParameterShift {
-  std::string name;     // inertia, viscous, coulomb, bias
+  std::string name;     // one of these
   double supplied = 0;  // load side
   Interval fitted;      // 95 %
   std::string unit;     // load side

@@ -59,6 +59,7 @@ std::vector<NotTestable> find_not_testable(const Search& s) {
     }
     const Candidate* c = tried(s, effect);
     if (c == nullptr) {
+      if (!effect.grid(s.context).empty()) continue;  // in another's place, or dropped
       out.push_back(
           {effect.name, "the model or the log lacks what it would be computed from", effect.needs});
     } else if (c->test.own_share < kLeastLeft) {

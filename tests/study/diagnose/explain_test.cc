@@ -23,6 +23,7 @@ TEST(Explain, SaysForEachFateOfAnEffectWhatDecided) {
                       .alternatives = {"stiction"}});
   d.not_testable.push_back({"backlash", "only 1 % of it is its own", "reversals"});
   d.dropped = {"cable_spring"};
+  d.not_testable.push_back({"cable_spring", "none of it is left", "two speeds"});
   d.refuted = {"position_force"};
   d.considered = {{"presliding", 0.2, {0.05, 0, 0.1}, 4, true},
                   {"torque_ripple", 1e-5, {0.005, 0.001, 0.009}, 3, true},
@@ -40,7 +41,14 @@ TEST(Explain, SaysForEachFateOfAnEffectWhatDecided) {
   EXPECT_THAT(explain(d, "chain_polygon"), HasSubstr("2.0 standard errors above nothing"));
   EXPECT_THAT(explain(d, "quadratic_drag"), HasSubstr("law does not allow"));
   EXPECT_THAT(explain(d, "cubic_viscous"), HasSubstr("no better than what is named"));
+  d.parameters = {{"inertia", 8, {9, 8.9, 9.1}, "kg", true, {}},
+                  {"viscous", 5, {5.1, 4.9, 5.3}, "N s/m", false, {}}};
+  EXPECT_EQ(explain(d, "inertia"), "inertia: off: 9 kg [8.9, 9.1] by the log, 8 by the model.\n");
+  EXPECT_THAT(explain(d, "viscous"), HasSubstr("not named: 5.1 N s/m [4.9, 5.3] by the log, 5 by "
+                                               "the model; more than 4 standard errors"));
   EXPECT_THAT(explain(d, "position_force"), HasSubstr("another surely against"));
+  EXPECT_THAT(explain(d, "gravity"), HasSubstr("not tried beside what is named"));
+  d.causes.clear();
   EXPECT_THAT(explain(d, "gravity"), HasSubstr("not tried on this data"));
 }
 
@@ -48,10 +56,12 @@ TEST(Explain, IsPrintedBehindTheHeadlineForEveryEffectThatIsAskedFor) {
   const HiddenAxis axis;
   const BroughtCase brought(axis);
   brought.write("log.csv", csv_of(axis, make_hidden_log(axis, 12)));
-  const auto told = brought.diagnose("--data log.csv --explain quadratic_drag --explain gravity");
+  const auto told = brought.diagnose(
+      "--data log.csv --explain quadratic_drag --explain gravity --explain coulomb");
   EXPECT_EQ(told.code, 0);
   EXPECT_THAT(told.text, HasSubstr("\nquadratic_drag: not "));
   EXPECT_THAT(told.text, HasSubstr("\ngravity: not to be seen in this data"));
+  EXPECT_THAT(told.text, HasSubstr("\ncoulomb: not named: 1.58"));
   const auto unknown = brought.diagnose("--data log.csv --explain moonlight");
   EXPECT_EQ(unknown.code, 2);
   EXPECT_THAT(unknown.text, HasSubstr("no cause 'moonlight'; --causes lists them"));
