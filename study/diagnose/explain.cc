@@ -39,7 +39,8 @@ std::string of_parameter(const ParameterShift& shift, bool estimated) {
   if (estimated) return "estimated: " + fitted;
   return fmt::format(
       "{}: {}, {:.4g} by the model{}", shift.moved ? "off" : "not named", fitted, shift.supplied,
-      shift.moved ? "" : "; more than 4 standard errors and 1 % of the input are needed");
+      shift.moved ? ""
+                  : "; more than 4 standard errors, 1 % of it and 1 % of the input are needed");
 }
 
 std::string considered(const Considered& c, std::size_t tried) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kRounds = 8;            // of a fit
 constexpr double kMovedErrors = 4;    // standard errors
-constexpr double kMovedShare = 0.01;  // of the input's rms
+constexpr double kMovedShare = 0.01;  // of the input's rms, and of what is stated
 constexpr double kBesideMuch = 0.05;  // the same where much is left that nothing explains
 constexpr double kNeeded = 2;         // standard errors by which it predicts better than as stated
 constexpr double kBesidePlay = 0.1;   // and the motor is free of its load now and then
@@ -187,6 +187,7 @@ std::vector<ParameterShift> judge_parameters(const Data& data, const Search& sea
                     [&](const Cause& c) { return c.effect->shares_mean_with == keys[i]; });
     const bool moved =
         model.supplied && !shared && std::abs(off) > kMovedErrors * error &&
+        std::abs(off) > kMovedShare * std::abs(supplied[i]) &&
         std::abs(off) * columns[i] > least_share(search) * search.context.input_rms_N &&
         is_needed(data, search, keys[i], supplied[i]);
     shifts.push_back(

@@ -24,9 +24,9 @@ struct ParameterShift {
 // Their places in the list.
 enum BaseParameter : std::size_t { kInertia, kViscousFriction, kDryFriction, kConstantForce };
 
-// A parameter has moved when it lies more than 4 standard errors and 1 % of the input's rms from
-// what was supplied, and no accepted cause shares its mean with it; inertia and viscous friction
-// beside a cause only if the log is predicted surely worse with them as stated.
+// A parameter has moved when it lies more than 4 standard errors, 1 % of it and 1 % of the
+// input's rms from what was supplied, and no accepted cause shares its mean with it; inertia and
+// viscous friction beside a cause only if the log is predicted surely worse with them as stated.
 // Classes: {inertia, added_mass}; all by one ratio: {amplifier_gain}; inertia and viscous by one
 // ratio, Coulomb as stated: {encoder_count_loss}, or both where the data allow either; Coulomb by
 // another ratio: {amplifier_gain} beside it, two things; inertia too little to move, but off by the

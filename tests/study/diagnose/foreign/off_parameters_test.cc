@@ -15,5 +15,12 @@ TEST(OffParameter, IsNoneWherePlayPredictsAsWellWithoutIt) {
   EXPECT_EQ(answer_of(study::diagnose::diagnose(request_of(drawn))).words(), "backlash");
 }
 
+// An elastic chain whose current lags: the fit ends with 0.4 % more inertia, 17 standard errors.
+TEST(OffParameter, IsNoneWhereItIsOffByLessThanOnePerCent) {
+  const auto drawn = draw_case({}, 157025);
+  EXPECT_EQ(drawn.hidden.front().name, "current_loop_lag");
+  EXPECT_EQ(answer_of(study::diagnose::diagnose(request_of(drawn))).words(), "current_loop_lag");
+}
+
 }  // namespace
 }  // namespace towbench::tests::foreign
