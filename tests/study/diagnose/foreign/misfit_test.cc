@@ -202,6 +202,11 @@ TEST(RightLaw, OfFrictionThatIsAllBristlesIsNotRefuted) {
   EXPECT_EQ(answer_to("one", "presliding", 113014).words(), "presliding");
 }
 
+// A belt with encoder steps of 14 um: a polygon of its teeth changes the prediction by 3 um.
+TEST(RightLaw, IsNoneBelowWhatRoundingLeaves) {
+  EXPECT_EQ(answer_to(draw_none(158044)).words(), "nothing");
+}
+
 // Accepted with a travel of a step of the encoder, which the refit shortens to less.
 TEST(RightLaw, IsNoneWhereARefitTakesItBack) {
   EXPECT_EQ(answer_to(draw_none(150007)).words(), "nothing");
