@@ -78,8 +78,8 @@ bool matters(const Frame& frame, const Effect& effect, const State& without_it,
                                                  effect.scales.front() == Key::kWheelPerMetre);
   const double made_m = (without_it.fitted.e - with_it.fitted.e).norm() /
                         std::sqrt(static_cast<double>(frame.data->samples()));
-  return made_m > kOfRounding * frame.context.resolution_m &&
-         (is_way || to_force * made_m > kLeastForce * frame.context.input_rms_N);
+  return is_way ? made_m > kOfRounding * frame.context.resolution_m
+                : to_force * made_m > kLeastForce * frame.context.input_rms_N;
 }
 
 bool is_worth_naming(const Frame& frame, const Effect& effect, const Parameters& p) {

@@ -20,8 +20,8 @@ inline constexpr double kAlias = 2;  // standard errors below which two are told
 // is.
 [[nodiscard]] bool is_significant(const Limits& limits, const Comparison& gain, double p_value);
 
-// What an effect makes, in newtons and in steps of the encoder: less is nothing, however certain,
-// for the error of rounding follows the place. What only reads or goes otherwise is no force.
+// What an effect makes, in newtons: less is nothing, however certain. What only reads or goes
+// otherwise is no force: it must make more than rounding does, whose error follows the place, too.
 [[nodiscard]] bool matters(const Frame& frame, const Effect& effect, const State& without_it,
                            const State& with_it);
 
