@@ -62,6 +62,13 @@ bool contradicts(const DrawnCase& one) {
   });
 }
 
+// Of less than a turn of its motor a ripple is a force by the place, or another weight of a joint.
+bool is_part_of_a_turn(const DrawnCase& one) {
+  const bool turns = one.machine.stroke_m > kTurn * one.machine.metres_per_motor_rad;
+  return !turns && std::any_of(one.hidden.begin(), one.hidden.end(),
+                               [](const Hidden& hidden) { return hidden.name == "torque_ripple"; });
+}
+
 // The effect's own force: without torque noise, and with every session as the file says.
 std::vector<Recording> by_itself(const DrawnCase& one, const Hidden& alone) {
   Machine quiet = one.machine;
@@ -141,7 +148,7 @@ DrawnCase draw_case(const Wish& wish, std::uint64_t seed) {
       continue;
     }
     one.plan = draw_plan(one.machine, wish.motion, dice);
-    if (contradicts(one) || !shows(one, wish)) {
+    if (contradicts(one) || is_part_of_a_turn(one) || !shows(one, wish)) {
       continue;
     }
     one.runs = record(one.machine, one.hidden, one.plan, seed);
