@@ -70,13 +70,6 @@ bool is_refuted(const std::vector<Run>& holdout, const Data& fitted, const Searc
   return speak_against(holdout, fitted, search) || one_speaks_against(fitted, search);
 }
 
-// Held-out runs are surely predicted better than by the stated model.
-bool speak_for(const std::vector<Run>& holdout, const Data& fitted, const Search& search) {
-  if (holdout.empty()) return false;
-  const Losses losses = losses_of(make_data_like(fitted, holdout, search.context.stated), search);
-  return compare(losses.stated, losses.after, statistics::kNormal95).low > 0;
-}
-
 bool has_moved(const ParameterShift& shift) {
   return shift.moved;
 }
@@ -115,9 +108,7 @@ void refute_causes(Diagnosis& d, const std::vector<Run>& holdout, const Data& fi
 void refute_parameters(Diagnosis& d, const std::vector<Run>& holdout, const Data& fitted,
                        const Search& search) {
   if (std::none_of(d.parameters.begin(), d.parameters.end(), has_moved)) return;
-  if (!d.refuted.empty()) {
-    if (!is_refuted(holdout, fitted, search) && speak_for(holdout, fitted, search)) return;
-  } else {
+  if (d.refuted.empty()) {
     if (!search.causes.empty() || !is_refuted(holdout, fitted, search)) return;
     const Scored within = score_within(fitted, search);
     double least_p = 1;

@@ -13,8 +13,7 @@ namespace towbench::study::diagnose {
 void refute_causes(Diagnosis& d, const std::vector<Run>& holdout, const Data& fitted,
                    Search& search);
 
-// No parameter has moved where there are no causes and what is found is refuted, nor where causes
-// are and held-out runs do not surely speak for the parameters.
+// No parameter has moved, where the causes are refuted or there are none.
 void refute_parameters(Diagnosis& d, const std::vector<Run>& holdout, const Data& fitted,
                        const Search& search);
 

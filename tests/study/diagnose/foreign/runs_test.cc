@@ -62,9 +62,9 @@ TEST(Runs, ThatAreHeldOutAreNotHiddenByAHeavierBody) {
   EXPECT_EQ(answer_of(diagnose(request_of(draw_case({}, 154000)))).words(), "position_friction");
 }
 
-// An elastic chain that has gained mass, and what was named beside it: the held-out run is
-// predicted 4 % worse with it, and surely better with the mass.
-TEST(Runs, ThatAreHeldOutSpeakAgainstACauseAndForAParameter) {
+// An elastic chain that has gained mass, and presliding that was named beside it: the held-out run
+// is predicted 4 % worse with it.
+TEST(Runs, ThatAreHeldOutSpeakAgainstACauseThatMakesThemLittleWorse) {
   const auto found = diagnose(request_of(draw_case({}, 156007)));
   EXPECT_EQ(answer_of(found).words(), "inertia~added_mass");
   EXPECT_THAT(found.verdicts, testing::Contains("unexplained_structure"));
