@@ -64,6 +64,22 @@ Model moved(const Model& from, const Context& context, const std::vector<FreePar
   return to;
 }
 
+// What a step has moved.
+VectorXd step_of(Model from, Model to, const std::vector<FreeParameter>& free) {
+  VectorXd by(std::ssize(free));
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    by[static_cast<Index>(j)] = value_in(to, free[j]) - value_in(from, free[j]);
+  }
+  return by;
+}
+
+// [X e]'[X e] with e - X `by` in the place of e.
+MatrixXd behind_a_step(const MatrixXd& gram, const VectorXd& by) {
+  MatrixXd to = MatrixXd::Identity(gram.rows(), gram.cols());
+  to.topRightCorner(by.size(), 1) = -by;
+  return to.transpose() * gram * to;
+}
+
 // Moves the mean of what each run has of its own into the model: no data tell one from the other,
 // and a fit ends before the weak hold on the runs has done it. Dry friction stays above zero.
 void centre(Model& model, Key key, double OfRun::*own) {
@@ -142,8 +158,9 @@ Fitted fit_model(const Data& data, const Context& context, Model start,
   for (int round = 0; round < rounds; ++round) {
     MatrixXd a = MatrixXd::Zero(last, last);
     VectorXd b = VectorXd::Zero(last);
-    for (const MatrixXd& gram :
-         grams_of(data, best.e, varied(best.model, free), bandwidth, spans)) {
+    std::vector<MatrixXd> grams =
+        grams_of(data, best.e, varied(best.model, free), bandwidth, spans);
+    for (const MatrixXd& gram : grams) {
       a += gram.topLeftCorner(last, last);
       b += gram.topRightCorner(last, 1);
     }
@@ -154,6 +171,7 @@ Fitted fit_model(const Data& data, const Context& context, Model start,
     }
     const VectorXd scale = a.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     const MatrixXd scaled = scale.asDiagonal() * a * scale.asDiagonal();
+    const Model model_before = best.model;
     const double before = best.cost;
     for (int attempt = 0; attempt < 6; ++attempt, damping *= 20) {
       const MatrixXd damped = scaled + damping * MatrixXd::Identity(scaled.rows(), scaled.cols());
@@ -168,6 +186,9 @@ Fitted fit_model(const Data& data, const Context& context, Model start,
       }
     }
     if (before - best.cost < kGoodEnough * before) {
+      const VectorXd by = step_of(model_before, best.model, free);
+      for (MatrixXd& gram : grams) gram = behind_a_step(gram, by);
+      best.grams = std::move(grams);
       break;
     }
   }

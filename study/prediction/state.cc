@@ -33,9 +33,11 @@ State make_state(const Frame& frame, std::vector<Accepted> accepted, const Model
   s.fitted = fit_model(*frame.data, frame.context, from, s.free, frame.bandwidth, frame.spans,
                        kStateRounds);
   s.ridge = ridge_of(s.free, frame.context, long_run_variance(frame.spans, s.fitted.e));
-  const Blocks blocks(grams_of(*frame.data, s.fitted.e, varied(s.fitted.model, s.free),
-                               frame.bandwidth, frame.spans),
-                      samples_in(frame.spans, s.fitted.e), s.ridge);
+  if (s.fitted.grams.empty()) {
+    s.fitted.grams = grams_of(*frame.data, s.fitted.e, varied(s.fitted.model, s.free),
+                              frame.bandwidth, frame.spans);
+  }
+  const Blocks blocks(std::move(s.fitted.grams), samples_in(frame.spans, s.fitted.e), s.ridge);
   const Columns own = up_to(std::ssize(s.free));
   s.loss = blocks.predicted(own);
   s.linear = blocks.fit(own);

@@ -170,5 +170,38 @@ TEST(FitModel, FindsTheParametersThatMadeTheRun) {
   EXPECT_LT(root_mean_square(fitted.e), 0.35 * kStep_m);
 }
 
+// Taken on from the last derivatives, as if they had been made anew where the fit has ended.
+TEST(FitModel, GivesTheProductsOfItsColumnsWhereItsLastStepIsSmall) {
+  Parameters truth = parameters_of(simple_model());
+  truth[Key::kMass] *= 1.1;
+  truth[Key::kCoulomb] *= 1.2;
+  const std::vector<study::diagnose::Run> runs{simulated_run(truth, 10, 2e-6),
+                                               simulated_run(truth, 8, 2e-6)};
+  const NominalModel stated = simple_model();
+  const Data data = make_data(runs, stated);
+  const Context context = make_context(stated, data);
+  const auto free = base_free_parameters(context, 2);
+  const auto spans = cut(data, kBandwidth);
+  const auto fitted_in = [&](int rounds) {
+    return fit_model(data, context, {parameters_of(stated), std::vector<OfRun>(2)}, free,
+                     kBandwidth, spans, rounds);
+  };
+  EXPECT_TRUE(fitted_in(1).grams.empty()) << "the step was large";
+  const Fitted fitted = fitted_in(20);
+  const auto anew = grams_of(data, fitted.e, varied(fitted.model, free), kBandwidth, spans);
+  ASSERT_EQ(fitted.grams.size(), anew.size());
+  // Of each column with the error: as a correlation.
+  const auto correlations = [](const std::vector<Eigen::MatrixXd>& grams) -> VectorXd {
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(grams[0].rows(), grams[0].cols());
+    for (const Eigen::MatrixXd& gram : grams) sum += gram;
+    const VectorXd scale = sum.diagonal().cwiseSqrt().cwiseInverse();
+    return scale.asDiagonal() * sum.rightCols(1) * scale.tail(1);
+  };
+  EXPECT_LT((correlations(fitted.grams) - correlations(anew)).cwiseAbs().maxCoeff(), 5e-5);
+  for (std::size_t i = 0; i < anew.size(); ++i) {
+    EXPECT_TRUE(fitted.grams[i].isApprox(anew[i], 1e-3)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace towbench::tests
