@@ -8,6 +8,7 @@ namespace {
 constexpr double kMayBeUnlike = 1.5;  // before what is found is revised
 constexpr double kQuiteUnlike = 5;    // where something stays unexplained in it too
 constexpr double kSure = 2.58;        // standard errors: 99 %
+constexpr double kByALaw = 0.4;       // of what is unexplained, explained by the motion
 constexpr double kMost = 0.85;        // of the prediction error: a shape that leaves less is a law
 
 // That `all` does not have: it takes on what is not its own.
@@ -36,6 +37,13 @@ bool lack_more_than(const Aside& aside, double times) {
 }
 
 }  // namespace
+
+bool follows_the_motion(const Diagnosis& d) {
+  if (!d.unexplained) return false;
+  const std::string& of = d.unexplained->coordinate;
+  const bool is_shape = of != "time" && of != kOwnPast && of != kWholeMotion;
+  return is_shape && d.unexplained->share > kByALaw;
+}
 
 bool is_worth_revising(const Aside& aside) {
   return aside.rms_N.empty() || lack_more_than(aside, kMayBeUnlike);

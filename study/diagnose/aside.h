@@ -10,6 +10,10 @@ namespace towbench::study::diagnose {
 
 inline constexpr double kUnlike = 2;
 
+// Whether a shape of the motion makes much of what is unexplained: a law is missing, and nobody
+// pushed.
+[[nodiscard]] bool follows_the_motion(const Diagnosis& d);
+
 // Whether it is worth the time to revise what is found without it; so if nothing was put aside.
 [[nodiscard]] bool is_worth_revising(const Aside& aside);
 

@@ -11,7 +11,9 @@
 namespace towbench::study::diagnose {
 namespace {
 
-constexpr double kFarOff = 10;  // times the others' innovations, though nothing is unexplained
+// Times the innovations of the run in the middle, of the worst.
+constexpr double kApart = 1.5;  // where the motion tells much of what is left
+constexpr double kFarOff = 10;  // where nothing is unexplained
 
 std::vector<std::size_t> worst_first(const std::vector<double>& rms_m) {
   std::vector<std::size_t> order(rms_m.size());
@@ -31,8 +33,10 @@ bool is_of_time(const NamedCause& cause) {
 bool may_be_unlike(const Diagnosis& all, const std::vector<std::size_t>& order) {
   if (is_fatal(all.findings) || order.size() < 2) return false;
   const std::vector<double>& rms_m = all.innovations_of_run_m;
+  const double apart = rms_m[order[0]] / std::max(1e-300, rms_m[order[order.size() / 2]]);
+  if (follows_the_motion(all)) return apart > kApart;
   return all.unexplained || std::any_of(all.causes.begin(), all.causes.end(), is_of_time) ||
-         rms_m[order[0]] > kFarOff * rms_m[order[order.size() / 2]];
+         apart > kFarOff;
 }
 
 // The worst run; that of the stated model, where a fit that one run has led astray is worse in

@@ -22,7 +22,6 @@ constexpr double kVeryFar = 10;       // the same, where nothing is unexplained
 constexpr std::size_t kBridged = 1;   // windows between two that are far off: a push turns over
 constexpr std::size_t kShortest = 2;  // windows: a reversal is shorter
 constexpr double kMostOfARun = 0.6;   // of its windows
-constexpr double kByALaw = 0.4;       // of what is unexplained, explained by the motion
 constexpr int kRounds = 4;            // what is left out lets more be seen
 constexpr double kCalmer = 0.95;      // of the median before, of a model that is better
 
@@ -90,14 +89,6 @@ std::vector<Stretch> stretches_of(const Marks& marks, const std::vector<Run>& ru
     }
   }
   return out;
-}
-
-// A shape of the motion makes much of it: a law is missing, and nobody pushed.
-bool follows_the_motion(const Diagnosis& d) {
-  if (!d.unexplained) return false;
-  const std::string& of = d.unexplained->coordinate;
-  const bool is_shape = of != "time" && of != kOwnPast && of != kWholeMotion;
-  return is_shape && d.unexplained->share > kByALaw;
 }
 
 // Of each run that has some, as in the answer.

@@ -173,6 +173,20 @@ TEST(WithoutUnlikeRuns, ARunFarOffIsEnoughThoughNothingIsUnexplained) {
   EXPECT_THAT(left_out({}, adequate), IsEmpty());
 }
 
+// A law is missing in all of them alike: no run is asked for.
+TEST(WithoutUnlikeRuns, WhatFollowsTheMotionNeedsARunThatIsApart) {
+  Diagnosis all = unexplained({1, 1.4, 0.9});
+  all.unexplained->coordinate = "speed";
+  all.unexplained->share = 0.41;
+  EXPECT_THAT(left_out({}, all), IsEmpty());
+  EXPECT_THAT(made_up.asked, IsEmpty());
+  all.unexplained->share = 0.39;
+  EXPECT_THAT(left_out({}, all), ElementsAre(1));
+  all.unexplained->share = 0.41;
+  all.innovations_of_run_m = {1, 1.6, 0.9};
+  EXPECT_THAT(left_out({}, all), ElementsAre(1));
+}
+
 // It takes on what moves the axis in one run.
 TEST(WithoutUnlikeRuns, AForceOfTimeIsEnoughThoughNothingIsUnexplained) {
   Diagnosis all = answer(true, false);
