@@ -18,11 +18,13 @@ struct MadeUp {
   bool names_a_cause = false;
   bool is_unexplained = false;
   bool is_free_shape = false;
-  double least_gain = 0.1;                // of the cause
-  double standard_errors = 3;             // of that gain
-  double gain = 0.3;                      // of all that is named
-  std::vector<std::size_t> asked{};       // how many runs were put aside, each time
-  std::vector<std::string> runs_asked{};  // the first of them
+  double least_gain = 0.1;     // of the cause
+  double standard_errors = 3;  // of that gain
+  double gain = 0.3;           // of all that is named
+  bool names_it_without_two = false;
+  std::vector<double> innovations_m{1, 1};  // that they leave, of each run
+  std::vector<std::size_t> asked{};         // how many runs were put aside, each time
+  std::vector<std::string> runs_asked{};    // the first of them
 };
 MadeUp made_up;
 
@@ -47,7 +49,9 @@ Diagnosis answer(bool names_a_cause, bool is_unexplained) {
 Diagnosis of_others(const Request& request) {
   made_up.asked.push_back(request.aside.size());
   made_up.runs_asked.push_back(request.aside.front().name);
-  Diagnosis d = answer(made_up.names_a_cause, made_up.is_unexplained);
+  const bool two = made_up.names_it_without_two && request.aside.size() == 2;
+  Diagnosis d = answer(made_up.names_a_cause || two, made_up.is_unexplained);
+  d.innovations_of_run_m = made_up.innovations_m;
   d.scored.gain95.value = made_up.gain;
   d.aside.others_rms_N = 0.2;
   d.aside.rms_N.assign(request.aside.size(), made_up.unlike * 0.2);
@@ -157,6 +161,22 @@ TEST(WithoutUnlikeRuns, TheWorstOfTheStatedModelIsTriedNext) {
   all.stated_of_run_m = {6, 5, 2};
   EXPECT_THAT(left_out({.unlike = 1, .names_a_cause = true}, all), IsEmpty());
   EXPECT_THAT(made_up.runs_asked, ElementsAre("a"));
+}
+
+// Another push hides a cause: c is left out, and a, b, d, e stay.
+TEST(WithoutUnlikeRuns, AnotherIsLeftOutWhereTheRestNamesNothingAndItIsApart) {
+  const Diagnosis all = unexplained({1, 1, 4, 1, 2});
+  const MadeUp names{.names_it_without_two = true, .innovations_m = {1, 1, 1, 1.6}};
+  EXPECT_THAT(left_out(names, all), ElementsAre(2, 4));
+  EXPECT_THAT(left_out({.innovations_m = {1, 1, 1, 1.6}}, all), ElementsAre(2)) << "no cause";
+  EXPECT_THAT(left_out({.names_it_without_two = true, .innovations_m = {1, 1, 1, 1.4}}, all),
+              ElementsAre(2));
+  EXPECT_THAT(
+      left_out({.names_it_without_two = true, .innovations_m = {1, 1.6}}, unexplained({1, 4, 1})),
+      ElementsAre(1))
+      << "half of them stay";
+  EXPECT_THAT(left_out({.names_it_without_two = true, .innovations_m = {1, 1.6, 1, 1}}, all),
+              ElementsAre(2, 1));
 }
 
 TEST(WithoutUnlikeRuns, ACauseThatMayGainNothingIsNotBelieved) {
