@@ -10,7 +10,7 @@ namespace towbench::study::diagnose {
 
 inline constexpr double kUnlike = 2;
 
-// Whether a shape of the motion makes much of what is unexplained: a law is missing, and nobody
+// Whether a shape of the motion explains much of what is unexplained: a law is missing, and nobody
 // pushed.
 [[nodiscard]] bool follows_the_motion(const Diagnosis& d);
 

@@ -11,7 +11,7 @@
 namespace towbench::study::diagnose {
 namespace {
 
-// Times the innovations of the run in the middle, of the worst.
+// The innovations of the worst run, over those of the run in the middle.
 constexpr double kApart = 1.5;  // where the motion tells much of what is left
 constexpr double kFarOff = 10;  // where nothing is unexplained
 
@@ -29,7 +29,7 @@ bool is_of_time(const NamedCause& cause) {
   return !scales.empty() && scales.front() == Key::kPeriodicHertz;
 }
 
-// How far the worst is from the one in the middle.
+// How many times the worst is the one in the middle.
 double apart(const std::vector<double>& rms_m) {
   const std::vector<std::size_t> order = worst_first(rms_m);
   return rms_m[order[0]] / std::max(1e-300, rms_m[order[order.size() / 2]]);
@@ -67,8 +67,8 @@ Request with_aside(const Request& all, const std::vector<std::size_t>& which) {
   return out;
 }
 
-// Of the runs, without those of `left_out`, that which the answer of the others predicts worst, if
-// it names nothing there and that one is apart: another push may hide a cause.
+// The run that is predicted worst among those that are not left out, if no cause is named there and
+// that run is apart: another push may hide a cause.
 std::optional<std::size_t> next_apart(const Diagnosis& others, std::size_t runs,
                                       const std::vector<std::size_t>& left_out) {
   const std::vector<double>& rms_m = others.innovations_of_run_m;

@@ -64,7 +64,7 @@ Model moved(const Model& from, const Context& context, const std::vector<FreePar
   return to;
 }
 
-// What a step has moved.
+// What a step has changed.
 VectorXd step_of(Model from, Model to, const std::vector<FreeParameter>& free) {
   VectorXd by(std::ssize(free));
   for (std::size_t j = 0; j < free.size(); ++j) {
@@ -74,7 +74,7 @@ VectorXd step_of(Model from, Model to, const std::vector<FreeParameter>& free) {
 }
 
 // [X e]'[X e] with e - X `by` in the place of e.
-MatrixXd behind_a_step(const MatrixXd& gram, const VectorXd& by) {
+MatrixXd after_a_step(const MatrixXd& gram, const VectorXd& by) {
   MatrixXd to = MatrixXd::Identity(gram.rows(), gram.cols());
   to.topRightCorner(by.size(), 1) = -by;
   return to.transpose() * gram * to;
@@ -187,7 +187,7 @@ Fitted fit_model(const Data& data, const Context& context, Model start,
     }
     if (before - best.cost < kGoodEnough * before) {
       const VectorXd by = step_of(model_before, best.model, free);
-      for (MatrixXd& gram : grams) gram = behind_a_step(gram, by);
+      for (MatrixXd& gram : grams) gram = after_a_step(gram, by);
       best.grams = std::move(grams);
       break;
     }

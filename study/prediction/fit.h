@@ -40,8 +40,8 @@ struct Fitted {
   Model model;
   Eigen::VectorXd e;
   double cost = 0;  // sum of squares with the penalty
-  // Of each block its [X e]'[X e], where the last step was so small that X holds behind it as well;
-  // otherwise empty.
+  // Of each block its [X e]'[X e], with X from before the last step, where that step ended the fit
+  // because it hardly changed the cost; otherwise empty.
   std::vector<Eigen::MatrixXd> grams{};
 };
 [[nodiscard]] Fitted fit_model(const Data& data, const Context& context, Model start,

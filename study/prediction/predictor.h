@@ -71,7 +71,7 @@ struct Data {
 
 // The innovations of one run, from its start on. In metres; zero where nothing can be said: until
 // the start is forgotten and behind gaps.
-// In cache lines of its own: others are predicted at the same time.
+// In cache lines of its own: other threads predict others at the same time.
 class alignas(64) Innovations {
  public:
   Innovations(const Data& data, std::size_t run, const Parameters& parameters, double bandwidth);

@@ -18,10 +18,10 @@ struct MadeUp {
   bool names_a_cause = false;
   bool is_unexplained = false;
   bool is_free_shape = false;
-  double least_gain = 0.1;     // of the cause
-  double standard_errors = 3;  // of that gain
-  double gain = 0.3;           // of all that is named
-  bool names_it_without_two = false;
+  double least_gain = 0.1;                  // of the cause
+  double standard_errors = 3;               // of that gain
+  double gain = 0.3;                        // of all that is named
+  bool names_it_without_two = false;        // a cause, only if two runs are put aside
   std::vector<double> innovations_m{1, 1};  // that they leave, of each run
   std::vector<std::size_t> asked{};         // how many runs were put aside, each time
   std::vector<std::string> runs_asked{};    // the first of them

@@ -170,7 +170,7 @@ TEST(FitModel, FindsTheParametersThatMadeTheRun) {
   EXPECT_LT(root_mean_square(fitted.e), 0.35 * kStep_m);
 }
 
-// Taken on from the last derivatives, as if they had been made anew where the fit has ended.
+// They agree with those of derivatives that are made once more, where the fit has ended.
 TEST(FitModel, GivesTheProductsOfItsColumnsWhereItsLastStepIsSmall) {
   Parameters truth = parameters_of(simple_model());
   truth[Key::kMass] *= 1.1;
